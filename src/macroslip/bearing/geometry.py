@@ -1,0 +1,140 @@
+"""Radii and contact curvatures that follow from a bearing's data.
+
+Hart et al., "Dynamic modelling of slip in a wind turbine spherical roller main bearing". The rolling direction lies in
+the plane across the roller's axis, the lateral direction along it. All curvature sums of a valid bearing are positive.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from macroslip.bearing.bearing import Bearing
+
+
+class Curvatures(NamedTuple):
+    """Curvature sums of a contact.
+
+    Parameters
+    ----------
+    rolling : float
+        Sum of the curvatures of both bodies in the rolling direction [1/m].
+    lateral : float
+        Sum of the curvatures of both bodies along the roller's axis [1/m].
+    """
+
+    rolling: float
+    lateral: float
+
+
+def roller_radius(bearing: Bearing) -> float:
+    """Largest roller radius r [m].
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> roller_radius(Bearing.read("skf-240-600-bc"))
+    0.035
+    """
+    return bearing.roller_diameter / 2
+
+
+def inner_contact_radius(bearing: Bearing) -> float:
+    """Distance of the inner raceway contact from the bearing axis, r~_in = r~ - r cos(alpha) [m].
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> round(inner_contact_radius(Bearing.read("skf-240-600-bc")), 6)
+    0.338367
+    """
+    return bearing.pitch_radius - roller_radius(bearing) * math.cos(bearing.contact_angle)
+
+
+def outer_contact_radius(bearing: Bearing) -> float:
+    """Distance of the outer raceway contact from the bearing axis, r~_out = r~ + r cos(alpha) [m].
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> round(outer_contact_radius(Bearing.read("skf-240-600-bc")), 6)
+    0.407033
+    """
+    return bearing.pitch_radius + roller_radius(bearing) * math.cos(bearing.contact_angle)
+
+
+def roller_contour_radius(bearing: Bearing) -> float:
+    """Radius of the roller's barrel contour [m]: one contour, set by the osculation at the outer raceway sphere.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> round(roller_contour_radius(Bearing.read("skf-240-600-bc")), 6)
+    0.406602
+    """
+    return bearing.osculation_outer * bearing.outer_raceway_radius
+
+
+def inner_raceway_contour_radius(bearing: Bearing) -> float:
+    """Radius of the inner raceway's contour in the axial plane [m]: roller contour radius / inner osculation.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> round(inner_raceway_contour_radius(Bearing.read("skf-240-600-bc")), 6)
+    0.4149
+    """
+    return roller_contour_radius(bearing) / bearing.osculation_inner
+
+
+def inner_curvatures(bearing: Bearing) -> Curvatures:
+    """Curvature sums of the roller on the inner raceway [1/m].
+
+    Rolling direction 1/r + cos(alpha)/r~_in; lateral 1/roller contour radius - 1/inner raceway contour radius.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> curvatures = inner_curvatures(Bearing.read("skf-240-600-bc"))
+    >>> round(curvatures.rolling, 4), round(curvatures.lateral, 6)
+    (31.4705, 0.049188)
+    """
+    return Curvatures(
+        1 / roller_radius(bearing) + math.cos(bearing.contact_angle) / inner_contact_radius(bearing),
+        (1 - bearing.osculation_inner) / roller_contour_radius(bearing),
+    )
+
+
+def outer_curvatures(bearing: Bearing) -> Curvatures:
+    """Curvature sums of the roller on the outer raceway [1/m].
+
+    Rolling direction 1/r - cos(alpha)/r~_out; lateral 1/roller contour radius - 1/sphere radius.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> curvatures = outer_curvatures(Bearing.read("skf-240-600-bc"))
+    >>> round(curvatures.rolling, 4), round(curvatures.lateral, 6)
+    (26.1614, 0.049188)
+    """
+    return Curvatures(
+        1 / roller_radius(bearing) - math.cos(bearing.contact_angle) / outer_contact_radius(bearing),
+        (1 - bearing.osculation_outer) / roller_contour_radius(bearing),
+    )
+
+
+def cage_curvatures(bearing: Bearing) -> Curvatures:
+    """Curvature sums of the roller in its conforming cage pocket [1/m] (Hart et al., force 5).
+
+    The pocket conforms as closely across the roller as along it: rolling direction 1/r - osculation/r, lateral as at
+    the outer raceway.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> curvatures = cage_curvatures(Bearing.read("skf-240-600-bc"))
+    >>> round(curvatures.rolling, 6), round(curvatures.lateral, 6)
+    (0.571429, 0.049188)
+    """
+    return Curvatures((1 - bearing.osculation_outer) / roller_radius(bearing), outer_curvatures(bearing).lateral)

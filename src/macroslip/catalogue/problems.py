@@ -1,0 +1,62 @@
+"""Problems with a record, told in the user's words and units."""
+
+from __future__ import annotations
+
+import difflib
+import reprlib
+from collections.abc import Iterable, Sequence
+
+from macroslip.errors import InputError
+
+
+def shown(value: object) -> str:
+    """Write a value for a message, cut to one short line.
+
+    Examples
+    --------
+    >>> shown("70 mm"), shown([1, 2])
+    ("'70 mm'", '[1, 2]')
+    """
+    return " ".join(reprlib.repr(value).split())
+
+
+def unknown_key(key: object, allowed: Iterable[str], *, where: str = "", inside: str = "") -> InputError:
+    """Build the error for a key that does not exist, with the closest one that does.
+
+    Parameters
+    ----------
+    key : object
+        The key as written.
+    allowed : Iterable[str]
+        Keys that exist.
+    where : str
+        File and line.
+    inside : str
+        Key of the entry that contains it; empty at the top level.
+
+    Examples
+    --------
+    >>> print(unknown_key("witdh", ["bore", "width"], where="b.yaml, line 3"))
+    b.yaml, line 3: the key 'witdh' is unknown. Did you mean 'width'?
+    """
+    allowed = list(allowed)
+    close = difflib.get_close_matches(str(key), allowed, n=1)
+    return InputError(
+        f"the key {shown(key)} {f'inside {inside} ' if inside else ''}is unknown",
+        where=where,
+        allowed="" if close else ", ".join(allowed),
+        remedy=f"Did you mean '{close[0]}'?" if close else "Remove it.",
+    )
+
+
+def together(problems: Sequence[InputError]) -> InputError:
+    """Join problems into one error, so that a user can mend them all at once.
+
+    Examples
+    --------
+    >>> print(together([InputError("a is 1", allowed="0"), InputError("b is 2", allowed="0")]))
+    2 problems: (1) a is 1. Allowed: 0. (2) b is 2. Allowed: 0.
+    """
+    if len(problems) == 1:
+        return problems[0]
+    return InputError(f"{len(problems)} problems: " + " ".join(f"({n}) {p}" for n, p in enumerate(problems, 1)))

@@ -1,0 +1,254 @@
+"""Base of the records that come from catalogue files: frozen SI values, checked once, each with its provenance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from importlib import resources
+from importlib.resources.abc import Traversable
+from os import PathLike, fspath
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, ClassVar, Self
+
+from pydantic import BaseModel, ConfigDict, PrivateAttr, ValidationError
+
+from macroslip.catalogue.entry import TAGS, Provenance, is_finite_number, read_entry
+from macroslip.catalogue.fields import allowed_text, dimensions, schema
+from macroslip.catalogue.problems import shown, together, unknown_key
+from macroslip.catalogue.source import Source, parse
+from macroslip.errors import InputError
+
+
+class Record(BaseModel):
+    """A named set of quantities that can be read from a catalogue file or built from SI numbers.
+
+    A subclass declares every quantity as `Annotated[float, DIMENSION, Field(gt=..., le=..., description=...)]` with its
+    bounds in SI, and keeps its shipped files in the folder `catalogue` of its own package.
+
+    Raises
+    ------
+    InputError
+        If a value is missing, unknown, no finite number, out of its range, or inconsistent with the others. All such
+        problems are told together.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+    noun: ClassVar[str] = "record"
+    # Pairs instead of a mapping keep the record hashable and picklable.
+    _provenance: tuple[tuple[str, Provenance], ...] = PrivateAttr(default=())
+
+    def __init__(self, **values: Any):
+        self._fill(values, {}, Source())
+
+    def _fill(self, values: Mapping[str, Any], provenance: Mapping[str, Provenance], source: Source) -> None:
+        """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
+        kinds = dimensions(type(self))
+        fields = type(self).model_fields
+        values = {
+            key: _number(value, whole=fields[key].annotation is int) if key in kinds else value
+            for key, value in values.items()
+        }
+        provenance = {
+            key: provenance.get(key) or Provenance(values[key], kind.si_unit)
+            for key, kind in kinds.items()
+            if values.get(key) is not None
+        }
+        try:
+            super().__init__(**values)
+        except ValidationError as failure:
+            details = {str(detail["loc"][0]): detail for detail in failure.errors(include_url=False)}
+            missing = [key for key, detail in details.items() if detail["type"] == "missing"]
+            problems = [self._missing(missing, source)] if missing else []
+            unusable = (item for item in details.items() if item[0] not in missing)
+            problems += [self._unusable(key, detail, provenance, source) for key, detail in unusable]
+            raise together(problems) from None
+        self._provenance = tuple(provenance.items())
+        problems = list(self._inconsistencies(source))
+        if problems:
+            raise together(problems)
+
+    @classmethod
+    def _missing(cls, keys: list[str], source: Source) -> InputError:
+        first, kind = keys[0], dimensions(cls).get(keys[0])
+        if kind is None:
+            form = f"{first}: ..." if source.file else f"{first}=..."
+        else:
+            form = f"{first}: {{value: ..., unit: {kind.choices}}}" if source.file else f"{first}=... [{kind.si_unit}]"
+        return InputError(
+            f"the {cls.noun} has no {', no '.join(keys)}",
+            where=source.file,
+            remedy=f"Add what is missing, in the form {form}",
+        )
+
+    @classmethod
+    def _unusable(
+        cls, key: str, detail: Mapping[str, Any], provenance: Mapping[str, Provenance], source: Source
+    ) -> InputError:
+        if detail["type"] == "extra_forbidden":
+            return unknown_key(key, cls.model_fields, where=source.where(key))
+        field, kind = cls.model_fields[key], dimensions(cls).get(key)
+        if key in provenance and is_finite_number(provenance[key].value):
+            unit = provenance[key].unit
+            written = f"{provenance[key].value}" + ("" if unit == "1" else f" {unit}")
+        else:
+            unit, written = "", shown(detail["input"])
+        return InputError(
+            f"{key} is {written}",
+            where=source.where(key, "value"),
+            allowed=allowed_text(field, kind, unit),
+            remedy=f"It is the {field.description}" + ("; check value and unit." if kind else "."),
+        )
+
+    def __setattr__(self, key: str, value: Any) -> None:
+        if not key.startswith("_"):
+            raise InputError(
+                f"{key} cannot be set, because a {self.noun} stays as it was checked",
+                remedy=f"Make another one: new = old.replace({key}=...).",
+            )
+        super().__setattr__(key, value)
+
+    def _inconsistencies(self, source: Source) -> Iterator[InputError]:
+        """Yield what is wrong with values that are each within their range."""
+        yield from ()
+
+    def _written(self, key: str, si_value: float | None = None) -> str:
+        """Write a quantity, or another value for it, in the unit in which the quantity was given."""
+        value = getattr(self, key) if si_value is None else si_value
+        return dimensions(type(self))[key].text(value, self.provenance[key].unit)
+
+    @property
+    def provenance(self) -> Mapping[str, Provenance]:
+        """Origin of every quantity that has a value, by key: value and unit as written, tag and note."""
+        return MappingProxyType(dict(self._provenance))
+
+    @classmethod
+    def _shipped(cls) -> Traversable:
+        return resources.files(cls.__module__.rpartition(".")[0]) / "catalogue"
+
+    @classmethod
+    def catalogue(cls) -> list[str]:
+        """Names that `read` accepts beside the path of a file."""
+        files = (item.name for item in cls._shipped().iterdir())
+        return sorted(name.removesuffix(".yaml") for name in files if name.endswith(".yaml"))
+
+    @classmethod
+    def read(cls, source: str | PathLike[str]) -> Self:
+        """Read a shipped record or a file of the user's.
+
+        Parameters
+        ----------
+        source : str | PathLike
+            A name from `catalogue()`, or the path of a YAML file. A name wins over a file of the same name.
+
+        Returns
+        -------
+        Self
+            The record in SI units.
+
+        Raises
+        ------
+        InputError
+            If there is no such file or name, or the content is wrong; the message names file, line and key.
+        """
+        name, names = fspath(source), cls.catalogue()
+        if name in names:
+            file, path = f"{name}.yaml", cls._shipped() / f"{name}.yaml"
+        else:
+            file, path = name, Path(name)
+        try:
+            text = path.read_text(encoding="utf-8")
+        except OSError as error:
+            raise InputError(
+                f"no {cls.noun} can be read from '{name}' ({error.strerror})",
+                allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
+                remedy=f"Relative paths start at {Path.cwd()}.",
+            ) from None
+        except UnicodeDecodeError:
+            raise InputError("the file is not UTF-8 text", where=file, remedy="Save it as UTF-8.") from None
+        return cls._from_entries(*parse(text, file))
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any]) -> Self:
+        """Build a record from the content of a catalogue file, as `as_dict` gives it.
+
+        Parameters
+        ----------
+        entries : Mapping[str, Any]
+            Text fields as text, quantities as mappings with value, unit and optionally tag and note.
+
+        Raises
+        ------
+        InputError
+            As `read`, without file and line.
+        """
+        return cls._from_entries(entries, Source())
+
+    @classmethod
+    def _from_entries(cls, entries: Mapping[str, Any], source: Source) -> Self:
+        values: dict[str, Any] = {}
+        provenance: dict[str, Provenance] = {}
+        problems: list[InputError] = []
+        for key, entry in entries.items():
+            try:
+                if key not in cls.model_fields:
+                    raise unknown_key(key, cls.model_fields, where=source.where(key))
+                if key in dimensions(cls):
+                    values[key], provenance[key] = read_entry(key, entry, dimensions(cls)[key], source)
+                else:
+                    values[key] = entry
+            except InputError as problem:
+                problems.append(problem)
+        if problems:
+            raise together(problems)
+        record = cls.__new__(cls)
+        record._fill(values, provenance, source)
+        return record
+
+    def as_dict(self) -> dict[str, Any]:
+        """Give the record in the form of a catalogue file, with plain numbers and text only.
+
+        Returns
+        -------
+        dict
+            Text fields as text, quantities as value and unit as written, tag and note. Quantities without a value are
+            left out. `from_dict` turns it back into an equal record.
+        """
+        entries: dict[str, Any] = {}
+        for key in type(self).model_fields:
+            if key in self.provenance:
+                origin = self.provenance[key]
+                entries[key] = {"value": origin.value, "unit": origin.unit, "tag": origin.tag, "note": origin.note}
+            elif key not in dimensions(type(self)):
+                entries[key] = getattr(self, key)
+        return entries
+
+    def replace(self, **values: Any) -> Self:
+        """Copy the record with other values, checked as any other input.
+
+        Parameters
+        ----------
+        **values : Any
+            New values [SI] by key. They get the tag U; the others keep their provenance.
+
+        Raises
+        ------
+        InputError
+            As the constructor.
+        """
+        kept = {key: origin for key, origin in self.provenance.items() if key not in values}
+        record = type(self).__new__(type(self))
+        record._fill({key: getattr(self, key) for key in type(self).model_fields} | values, kept, Source())
+        return record
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
+        return schema(cls, f"{cls.noun} of macroslip", TAGS)
+
+
+def _number(value: Any, whole: bool) -> Any:
+    """Turn a finite real number into a Python one, so that NumPy scalars are welcome; leave anything else alone."""
+    if not is_finite_number(value):
+        return value
+    number = float(value)
+    return int(number) if whole and number.is_integer() else number

@@ -1,0 +1,83 @@
+"""What a film law is to the kernels, and the list of those that exist.
+
+A law is a `NamedTuple` of numbers prepared for one interface, together with compiled functions of it. Which functions
+belong to a law follows from its type, when the kernel is compiled; so a law costs nothing at run time, and the kernel
+need not know which laws exist.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from numba.extending import overload
+
+from macroslip.contact.interface import Interface
+from macroslip.errors import InputError
+
+_thickness: dict[type, Callable] = {}
+_in_range: dict[type, Callable] = {}
+_prepare: dict[str, Callable[[Interface], Any]] = {}
+
+
+def register(name: str, law: type, *, prepare: Callable, thickness: Callable, in_range: Callable) -> None:
+    """Make a film law usable by name.
+
+    Parameters
+    ----------
+    name : str
+        Name in case files.
+    law : type
+        `NamedTuple` class holding the law's numbers for one interface.
+    prepare : callable
+        `prepare(interface) -> law`.
+    thickness : callable
+        Compiled `thickness(law, load [N], entrainment_speed [m/s]) -> (h [m], ∂h/∂u_e [s], ∂h/∂Q [m/N])`.
+    in_range : callable
+        Compiled `in_range(law, load, entrainment_speed) -> bool`.
+    """
+    _prepare[name] = prepare
+    _thickness[law] = thickness
+    _in_range[law] = in_range
+
+
+def names() -> list[str]:
+    """Names of the registered film laws."""
+    return sorted(_prepare)
+
+
+def prepare(name: str, interface: Interface) -> Any:
+    """The law called `name`, prepared for an interface.
+
+    Raises
+    ------
+    InputError
+        If there is no such law; the message lists those that exist.
+    """
+    if name not in _prepare:
+        raise InputError(
+            f"there is no film law '{name}'", where="laws.film", allowed=", ".join(names()), remedy="Choose one of these"
+        )
+    return _prepare[name](interface)
+
+
+def film_thickness(law, load, entrainment_speed):
+    """Film thickness h [m] and its derivatives by entrainment speed [s] and by load [m/N], by the law's own formula."""
+    return _thickness[type(law)](law, load, entrainment_speed)
+
+
+def film_in_range(law, load, entrainment_speed):
+    """Whether the law's formula is inside the range it was fitted in."""
+    return _in_range[type(law)](law, load, entrainment_speed)
+
+
+@overload(film_thickness)
+def _film_thickness(law, load, entrainment_speed):
+    implementation = _thickness[law.instance_class]
+    return lambda law, load, entrainment_speed: implementation(law, load, entrainment_speed)
+
+
+@overload(film_in_range)
+def _film_in_range(law, load, entrainment_speed):
+    implementation = _in_range[law.instance_class]
+    return lambda law, load, entrainment_speed: implementation(law, load, entrainment_speed)

@@ -1,0 +1,307 @@
+"""The production integrator: Radau IIA in the slip, with error control, stepping on every edge of the load zone."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit
+from macroslip.integrate.peak import follow_peak, new_peak
+from macroslip.integrate.radau_step import (
+    NODES,
+    WEIGHTS,
+    energy_error,
+    newton_update,
+    residuals,
+    slip_error,
+)
+from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, write_trace
+from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
+from macroslip.roller.forces import SlipForces, slip_forces, station
+from macroslip.roller.load_zone import EDGE, classify, edge_time
+from macroslip.roller.orbit import instant, interval_of
+from macroslip.traction.law import rising_slip
+
+#: Largest part of an orbit turned in one step [rad], so that no step sees gravity's direction only where it is alike.
+_LONGEST_TURN = 0.6
+#: First step after entering an edge of the load zone [s].
+_EDGE_STEP = 1e-3
+_NEWTON_ITERATIONS = 12
+#: Part of the sum of force magnitudes that may stay unbalanced at a stage.
+_FORCE_TOLERANCE = 1e-9
+#: Part of a sample interval below which energy is not controlled more finely.
+_SHORT_PART = 0.05
+#: Largest relative change of slip in a step taken where traction may fall with slip.
+_HOT_CHANGE = 0.2
+
+
+class Limits(NamedTuple):
+    """Tolerance and bounds of the integration of one roller.
+
+    Attributes
+    ----------
+    tolerance : float
+        Relative accuracy asked of slip (against the raceway speed) and of energy per step [-].
+    max_steps : int
+        Steps after which the integration gives up.
+    speed_scale : float
+        Largest raceway speed |u2| of the history [m/s].
+    longest_step : float
+        Longest step [s].
+    cold_slip : float
+        Slip [m/s] below which traction rises with slip at every load of the history.
+    firm : float
+        Interference from which on the roller is firmly held [m].
+    """
+
+    tolerance: float
+    max_steps: int
+    speed_scale: float
+    longest_step: float
+    cold_slip: float
+    firm: float
+
+
+@jit
+def _unloaded_forces():
+    return SlipForces(0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@jit
+def _hot(model, at, slip):
+    """Whether traction at this slip may be on the falling branch of a raceway contact."""
+    size = abs(slip)
+    inner = at.inner_load > 0.0 and size > rising_slip(model.inner.traction, at.inner_load)
+    return inner or (at.outer_load > 0.0 and size > rising_slip(model.outer.traction, at.outer_load))
+
+
+@jit
+def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, record):
+    """Integrate the slip of one roller over the whole history.
+
+    Parameters
+    ----------
+    model : RollerModel
+    motion : Motion
+    start_angle : float
+        Position φ at the first sample [rad].
+    slip : float
+        Slip at the first sample [m/s].
+    stops : ndarray
+        Times at which a step must end [s], rising, the last being the end of the integration.
+    limits : Limits
+    classes : ndarray of int8, shape (n − 1,)
+        Work space for the classes of sample intervals.
+    record : Record
+        Filled.
+
+    Returns
+    -------
+    int
+        A `Status`.
+    """
+    classify(model, motion, start_angle, limits.firm, classes)
+    time = motion.time[0]
+    interval = 0
+    at = station(model, start_angle, instant(motion, 0, time))
+    forces = slip_forces(model, at, slip)
+    p_inner, p_outer, p_cage = powers(at, forces, slip)
+    step = min(limits.longest_step, 1e-2)
+    spent, next_stop, next_trace = 0.0, 0, 0
+    evaluations, steps, rejections = 1, 0, 0
+    peaks = new_peak(time, p_inner, p_outer, p_cage)
+    status = COMPLETED
+    barrier = time
+    zone = -1
+    failed_before = False
+    sample_step = 0.0
+    while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
+        write_trace(record, next_trace, at, forces, slip, _elastic_load(model, at))
+        next_trace += 1
+    while True:
+        if time >= barrier:
+            while next_stop < stops.size and stops[next_stop] <= time:
+                next_stop += 1
+            if next_stop == stops.size:
+                break
+            interval = interval_of(motion, time, interval)
+            was = zone
+            zone = classes[interval]
+            last = interval
+            sample_step = motion.time[interval + 1] - motion.time[interval]
+            if zone != EDGE and step > 2.0 * sample_step:
+                while last < classes.size - 1 and classes[last + 1] == zone and motion.time[last + 1] < stops[next_stop]:
+                    last += 1
+            barrier = min(motion.time[last + 1], stops[next_stop])
+            if at.interference > limits.firm and time == motion.time[interval]:
+                slip = _rebalanced(model, motion, interval, at, slip)
+                forces = slip_forces(model, at, slip)
+                p_inner, p_outer, p_cage = powers(at, forces, slip)
+                evaluations += 4
+            if zone == EDGE:
+                barrier = edge_time(model, motion, start_angle, interval, time, barrier)
+                if was != EDGE:
+                    step = min(step, _EDGE_STEP)
+        if steps + rejections >= limits.max_steps:
+            status = TOO_MANY_STEPS
+            break
+        step = min(step, limits.longest_step)
+        left = barrier - time
+        h = left if step >= 0.95 * left else (0.5 * left if step > 0.6 * left else step)
+        if h <= 4e-16 * abs(time) + 1e-300:
+            status = STEP_TOO_SMALL
+            break
+        t1, t2, t3 = time + NODES[0] * h, time + NODES[1] * h, time + h
+        k1 = interval_of(motion, t1, interval)
+        k2 = interval_of(motion, t2, k1)
+        # A step ends in the interval it comes from, not in the next one that begins there.
+        k3 = interval_of(motion, t3, k2)
+        at1 = station(model, start_angle, instant(motion, k1, t1))
+        at2 = station(model, start_angle, instant(motion, k2, t2))
+        at3 = station(model, start_angle, instant(motion, k3, t3))
+        d1 = at1.ring_speed - at.ring_speed
+        d2 = at2.ring_speed - at.ring_speed
+        d3 = at3.ring_speed - at.ring_speed
+        total = forces.inner + forces.outer + forces.cage
+        drift = -model.mobility * total if model.mobility * forces.slope * h < 1.0 and zone != EDGE else 0.0
+        v1 = slip + d1 + drift * NODES[0] * h if drift != 0.0 else slip
+        v2 = slip + d2 + drift * NODES[1] * h if drift != 0.0 else slip
+        v3 = slip + d3 + drift * h if drift != 0.0 else slip
+        scale = 1.0 / (h * model.mobility)
+        converged = False
+        unbalanced = math.inf
+        f1, f2, f3 = _unloaded_forces(), _unloaded_forces(), _unloaded_forces()
+        for iteration in range(_NEWTON_ITERATIONS):
+            f1 = slip_forces(model, at1, v1)
+            f2 = slip_forces(model, at2, v2)
+            f3 = slip_forces(model, at3, v3)
+            evaluations += 3
+            s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
+            rest = residuals(
+                scale, s1, s2, s3, f1.inner + f1.outer + f1.cage, f2.inner + f2.outer + f2.cage, f3.inner + f3.outer + f3.cage
+            )
+            round_off = 4e-15 * scale * (limits.speed_scale + abs(slip))
+            size = max(abs(rest.first), abs(rest.second), abs(rest.third))
+            if (
+                abs(rest.first) <= _FORCE_TOLERANCE * _magnitude(f1) + round_off
+                and abs(rest.second) <= _FORCE_TOLERANCE * _magnitude(f2) + round_off
+                and abs(rest.third) <= _FORCE_TOLERANCE * _magnitude(f3) + round_off
+            ):
+                converged = True
+                unbalanced = size
+                break
+            if not math.isfinite(size) or (iteration > 2 and size > 0.9 * unbalanced):
+                break
+            unbalanced = size
+            u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
+            v1 += u1
+            v2 += u2
+            v3 += u3
+        if converged:
+            # More than one root is possible only where traction falls with slip faster than the step allows.
+            least = min(f1.slope, f2.slope, f3.slope)
+            largest = max(abs(slip), abs(v1), abs(v2), abs(v3))
+            if least < -0.5 * scale:
+                converged = False
+            elif largest > limits.cold_slip and (
+                _hot(model, at, slip) or _hot(model, at1, v1) or _hot(model, at2, v2) or _hot(model, at3, v3)
+            ):
+                change = max(abs(v1 - slip), abs(v2 - slip), abs(v3 - slip))
+                converged = change <= _HOT_CHANGE * abs(slip) + 1e-6 * limits.speed_scale
+        if not converged:
+            rejections += 1
+            failed_before = True
+            step = 0.25 * h
+            barrier = min(barrier, _sample_after(motion, interval, time, step))
+            continue
+        least = max(min(forces.slope, f1.slope, f2.slope, f3.slope), 0.0)
+        slip_off = slip_error(scale, least, total, s1, s2, s3)
+        i1, o1, c1 = powers(at1, f1, v1)
+        i2, o2, c2 = powers(at2, f2, v2)
+        i3, o3, c3 = powers(at3, f3, v3)
+        energy_off = energy_error(h, p_inner + p_outer + p_cage, i1 + o1 + c1, i2 + o2 + c2, i3 + o3 + c3)
+        e_inner = h * (WEIGHTS[0] * i1 + WEIGHTS[1] * i2 + WEIGHTS[2] * i3)
+        e_outer = h * (WEIGHTS[0] * o1 + WEIGHTS[1] * o2 + WEIGHTS[2] * o3)
+        e_cage = h * (WEIGHTS[0] * c1 + WEIGHTS[1] * c2 + WEIGHTS[2] * c3)
+        e_step = e_inner + e_outer + e_cage
+        if not math.isfinite(e_step):
+            status = NOT_FINITE
+            break
+        mean_power = (spent + e_step) / (t3 - motion.time[0])
+        error = abs(slip_off) / (limits.tolerance * limits.speed_scale + 1e-300)
+        # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a sample interval
+        # may be off by what is allowed in that part.
+        share = max(h, _SHORT_PART * sample_step)
+        error = max(error, abs(energy_off) / (limits.tolerance * max(mean_power * share, e_step) + 1e-300))
+        factor = 0.9 * max(error, 1e-8) ** -0.25
+        if error > 1.0:
+            rejections += 1
+            failed_before = True
+            step = h * max(0.2, factor)
+            barrier = min(barrier, _sample_after(motion, interval, time, step))
+            continue
+        steps += 1
+        spent += e_step
+        if time >= record.edges[0]:
+            orbit = orbit_at(record, 0.5 * (time + t3))
+            add_energy(record, orbit, e_inner, e_outer, e_cage)
+            follow_peak(record, orbit, peaks, t1, i1, o1, c1)
+            follow_peak(record, orbit, peaks, t2, i2, o2, c2)
+            follow_peak(record, orbit, peaks, t3, i3, o3, c3)
+            note_state(record, model, at3, f3, v3, h)
+        record.worst[0] = max(record.worst[0], unbalanced)
+        time = barrier if h == left else t3
+        interval = k3
+        slip, at, forces = v3, at3, f3
+        p_inner, p_outer, p_cage = i3, o3, c3
+        step = h * min(1.0 if failed_before else 5.0, factor)
+        failed_before = False
+        while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
+            write_trace(record, next_trace, at, forces, slip, _elastic_load(model, at))
+            next_trace += 1
+    record.count[0], record.count[1], record.count[2] = steps, rejections, evaluations
+    record.end[0], record.end[1] = time, slip
+    return status
+
+
+@jit
+def _sample_after(motion, interval, time, step):
+    """The end of the sample interval if steps have become so short that they should not cross it; else infinity."""
+    if step > 2.0 * (motion.time[interval + 1] - motion.time[interval]):
+        return math.inf
+    return motion.time[interval + 1]
+
+
+@jit
+def _rebalanced(model, motion, interval, at, slip):
+    """Slip of a firmly held roller just after a sample, where the shaft's acceleration changes at once.
+
+    The transition takes the relaxation time, for which `firm_interference` gives a bound; here it takes none.
+    """
+    speed_change = motion.shaft_speed[interval + 1] - motion.shaft_speed[interval]
+    acceleration = speed_change / (motion.time[interval + 1] - motion.time[interval])
+    needed = -model.orbit_ratio * model.outer_radius * acceleration / model.mobility
+    for _ in range(3):
+        forces = slip_forces(model, at, slip)
+        slip += (needed - forces.inner - forces.outer - forces.cage) / forces.slope
+    return slip
+
+
+@jit
+def _magnitude(forces):
+    return abs(forces.inner) + abs(forces.outer) + abs(forces.cage)
+
+
+@jit
+def _elastic_load(model, at):
+    """Load without body forces [N]."""
+    return model.stiffness * at.interference**1.5 if at.interference > 0.0 else 0.0
+
+
+def longest_step(motion, orbit_ratio: float) -> float:
+    """Longest step [s]: a fraction of an orbit at the highest speed, or a tenth of the history if the shaft hardly turns."""
+    span = float(motion.time[-1] - motion.time[0])
+    fastest = abs(orbit_ratio) * float(np.max(np.abs(motion.shaft_speed)))
+    return min(0.1 * span, _LONGEST_TURN / fastest) if fastest > 0.0 else 0.1 * span

@@ -1,0 +1,143 @@
+"""What an integration leaves behind: energies, peaks, counts and traces, filled by every method in the same way."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit
+from macroslip.film.law import film_in_range
+
+#: Meaning of `Record.count` by position.
+COUNTS = ("steps", "rejections", "force_evaluations")
+#: Channels of `Record.trace` by position.
+TRACES = ("slip", "ring_speed", "roller_load", "force_inner", "force_outer", "force_cage", "cage_load")
+
+
+class Record(NamedTuple):
+    """Results of one roller, written in place. Interfaces are in the order inner, outer, cage.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (orbits + 1,)
+        Times at which orbits of the window begin and end [s]; the window opens at the first.
+    energy : ndarray, shape (3,)
+        Energy dissipated in the window (34) [J].
+    orbit_energy, peak_power : ndarray, shape (orbits, 3)
+        Energy [J] and largest power (33) [W] in each complete orbit.
+    spin_ratio : ndarray, shape (1,)
+        Smallest ω/ω_pure in the window [-].
+    loaded_time, outside_time : ndarray, shape (3,)
+        Time in the window with load on the interface, and the part of it outside the film law's range [s].
+    count : ndarray of int, shape (3,)
+        Steps, rejections and force evaluations, of the whole integration.
+    worst : ndarray, shape (1,)
+        Largest force left unbalanced by an accepted implicit step [N].
+    end : ndarray, shape (2,)
+        Time [s] and slip [m/s] at which the integration ended.
+    trace_time : ndarray, shape (m,)
+        Times of the traces [s].
+    trace : ndarray, shape (m, 7)
+        Traces, see `TRACES`.
+    """
+
+    edges: np.ndarray
+    energy: np.ndarray
+    orbit_energy: np.ndarray
+    peak_power: np.ndarray
+    spin_ratio: np.ndarray
+    loaded_time: np.ndarray
+    outside_time: np.ndarray
+    count: np.ndarray
+    worst: np.ndarray
+    end: np.ndarray
+    trace_time: np.ndarray
+    trace: np.ndarray
+
+
+def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
+    """An empty record for the given orbit edges [s] and trace times [s]."""
+    orbits = edges.size - 1
+    return Record(
+        edges=edges,
+        energy=np.zeros(3),
+        orbit_energy=np.zeros((orbits, 3)),
+        peak_power=np.zeros((orbits, 3)),
+        spin_ratio=np.full(1, np.inf),
+        loaded_time=np.zeros(3),
+        outside_time=np.zeros(3),
+        count=np.zeros(3, dtype=np.int64),
+        worst=np.zeros(1),
+        end=np.zeros(2),
+        trace_time=trace_time,
+        trace=np.zeros((trace_time.size, len(TRACES))),
+    )
+
+
+@jit
+def powers(at, forces, slip):
+    """Frictional power |F Δu| (33) at inner, outer and cage interface [W]."""
+    return abs(forces.inner * slip), abs(forces.outer * slip), abs(forces.cage * (at.ring_speed - slip))
+
+
+@jit
+def orbit_at(record, time):
+    """Index of the complete orbit that holds `time`, or −1 outside all of them."""
+    edges = record.edges
+    if time < edges[0] or time >= edges[-1]:
+        return -1
+    return np.searchsorted(edges, time, side="right") - 1
+
+
+@jit
+def add_energy(record, orbit, inner, outer, cage):
+    """Book energies [J] spent in the window, and in orbit `orbit` unless it is −1."""
+    record.energy[0] += inner
+    record.energy[1] += outer
+    record.energy[2] += cage
+    if orbit >= 0:
+        record.orbit_energy[orbit, 0] += inner
+        record.orbit_energy[orbit, 1] += outer
+        record.orbit_energy[orbit, 2] += cage
+
+
+@jit
+def raise_peak(record, orbit, interface, power):
+    """Let the orbit's peak power be at least `power` [W]."""
+    if orbit >= 0 and power > record.peak_power[orbit, interface]:
+        record.peak_power[orbit, interface] = power
+
+
+@jit
+def note_state(record, model, at, forces, slip, span):
+    """Book spin ratio and range of the film law for a state held over `span` [s] of the window."""
+    if at.ring_speed != 0.0:
+        ratio = (at.ring_speed - slip) / at.ring_speed
+        if ratio < record.spin_ratio[0]:
+            record.spin_ratio[0] = ratio
+    raceway_speed = abs(at.ring_speed - 0.5 * slip)
+    _note_range(record, 0, model.inner, at.inner_load, raceway_speed, span)
+    _note_range(record, 1, model.outer, at.outer_load, raceway_speed, span)
+    _note_range(record, 2, model.cage, abs(forces.cage_load), 0.5 * abs(at.ring_speed - slip), span)
+
+
+@jit
+def _note_range(record, interface, contact, load, speed, span):
+    if load > 0.0:
+        record.loaded_time[interface] += span
+        if not film_in_range(contact.film, load, speed):
+            record.outside_time[interface] += span
+
+
+@jit
+def write_trace(record, index, at, forces, slip, load):
+    """Write the state at trace time `index`."""
+    row = record.trace[index]
+    row[0] = slip
+    row[1] = at.ring_speed
+    row[2] = load
+    row[3] = forces.inner
+    row[4] = forces.outer
+    row[5] = forces.cage
+    row[6] = forces.cage_load

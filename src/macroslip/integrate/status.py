@@ -1,0 +1,31 @@
+"""How the integration of a roller can end; each way with the sentence a user sees."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Status(IntEnum):
+    """Outcome of one roller's integration.
+
+    Examples
+    --------
+    >>> Status.COMPLETED.sentence
+    'completed'
+    """
+
+    COMPLETED = 0, "completed"
+    STEP_TOO_SMALL = 1, "the step fell below what time resolves; loosen the tolerance or look at the load at that time"
+    NOT_FINITE = 2, "forces or slip became NaN or infinite; use an implicit integrator or a smaller step"
+    TOO_MANY_STEPS = 3, "the step limit was reached; loosen the tolerance or raise integrator.max_steps"
+    NO_ROOT = 4, "the implicit equation of a step was not solved to its tolerance; use a smaller step"
+
+    def __new__(cls, value: int, sentence: str):
+        member = int.__new__(cls, value)
+        member._value_ = value
+        member.sentence = sentence
+        return member
+
+
+#: Plain integers for compiled code.
+COMPLETED, STEP_TOO_SMALL, NOT_FINITE, TOO_MANY_STEPS, NO_ROOT = (int(status) for status in Status)

@@ -1,0 +1,261 @@
+"""Hub loads from an OpenFAST output file, binary (``.outb``) or text (``.out``).
+
+Channels, by the names of ElastoDyn's output list (upper and lower case are the same; documented aliases are accepted):
+
+=========================  ================================================================================
+shaft speed                RotSpeed
+force (x, y, z)            LSShftFxa, LSShftFys, LSShftFzs
+moment at the hub centre   LSShftMxa, LSSTipMys, LSSTipMzs
+=========================  ================================================================================
+
+Where a pair in the non-rotating axes is absent, the pair in the rotating axes (LSShftFya, LSShftFza; LSSTipMya,
+LSSTipMza) is turned by the channel Azimuth. This supposes ``AzimB1Up = 0`` in the ElastoDyn file: the rotating axes
+coincide with the non-rotating ones when blade 1 is up, and the azimuth written to the file is then AzimB1Up.
+Turned forces whose mean does not point down are refused. The units written in the file are used. Text output holds
+four significant digits as a rule; prefer the binary one.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import struct
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from macroslip.errors import InputError
+
+_RPM = math.pi / 30.0
+_FORCE_UNITS = {"N": 1.0, "kN": 1e3}
+_MOMENT_UNITS = {"N-m": 1.0, "kN-m": 1e3}
+_SPEED_UNITS = {"rpm": _RPM, "rad/s": 1.0, "deg/s": math.pi / 180.0}
+_ANGLE_UNITS = {"deg": math.pi / 180.0, "rad": 1.0}
+_TIME_UNITS = {"s": 1.0, "sec": 1.0}
+
+_THRUST = ("LSShftFxa", "LSShftFxs", "LSSGagFxa", "LSSGagFxs", "RotThrust")
+_TORQUE = ("LSShftMxa", "LSShftMxs", "LSSGagMxa", "LSSGagMxs", "RotTorq", "LSShftTq")
+_SPEED = ("RotSpeed", "LSSTipVxa", "LSSTipVxs", "LSSTipV")
+_AZIMUTH = ("Azimuth", "LSSTipPxa", "LSSTipPxs", "LSSTipP")
+# The shear force is constant along the shaft, so the strain gauge's is the hub's. Its bending moment is not.
+_SHEAR = (("LSShftFys", "LSSGagFys"), ("LSShftFzs", "LSSGagFzs"))
+_ROTATING_SHEAR = (("LSShftFya", "LSSGagFya"), ("LSShftFza", "LSSGagFza"))
+_BENDING = (("LSSTipMys",), ("LSSTipMzs",))
+_ROTATING_BENDING = (("LSSTipMya",), ("LSSTipMza",))
+
+_MEANING = {"RotSpeed": "(rpm); rotor speed", "LSShftFxa": "(kN); shaft thrust force",
+            "LSShftFys": "(kN); shaft shear force along ys, non-rotating",
+            "LSShftFzs": "(kN); shaft shear force along zs, non-rotating", "LSShftMxa": "(kN-m); shaft torque",
+            "LSSTipMys": "(kN-m); shaft bending moment at the hub about ys, non-rotating",
+            "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating"}
+
+
+def read_openfast(path: Path) -> dict[str, NDArray[np.float64]]:
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+
+    Raises
+    ------
+    InputError
+        The file is cut off or damaged, lacks a channel (the error gives the lines to add to the output list), or
+        declares a unit that is not known.
+    """
+    names, units, data = _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)
+    channels = _Channels(names, units, data, str(path))
+    time = channels.column(("Time",), _TIME_UNITS)
+    speed = channels.column(_SPEED, _SPEED_UNITS)
+    thrust = channels.column(_THRUST, _FORCE_UNITS)
+    shear = channels.across(_SHEAR, _ROTATING_SHEAR, _FORCE_UNITS)
+    torque = channels.column(_TORQUE, _MOMENT_UNITS)
+    bending = channels.across(_BENDING, _ROTATING_BENDING, _MOMENT_UNITS)
+    channels.raise_if_missing()
+    if not channels.has_all(_SHEAR):
+        _check_weight(*shear, str(path))
+    return {"time": time, "shaft_speed": speed, "force": np.column_stack([thrust, *shear]),
+            "moment": np.column_stack([torque, *bending])}
+
+
+class _Channels:
+    """Columns by name and unit; remembers what was not found, so that one error names it all."""
+
+    def __init__(self, names: list[str], units: list[str], data: NDArray, where: str):
+        self.names, self.units, self.data, self.where = names, units, data, where
+        self.index = {name.lower(): i for i, name in reversed(list(enumerate(names)))}
+        self.missing: list[str] = []
+        self.looked_for: list[str] = []
+
+    def has_all(self, quantities: tuple[tuple[str, ...], ...]) -> bool:
+        return all(any(alias.lower() in self.index for alias in aliases) for aliases in quantities)
+
+    def column(self, aliases: tuple[str, ...], factors: dict[str, float]) -> NDArray[np.float64]:
+        found = next((alias for alias in aliases if alias.lower() in self.index), None)
+        if found is None:
+            self.missing.append(aliases[0])
+            self.looked_for.append(" or ".join(aliases))
+            return np.zeros(len(self.data))
+        i = self.index[found.lower()]
+        unit = self.units[i].replace("·", "-").replace("*", "-").replace(" ", "-")
+        if unit not in factors:
+            invalid = unit.upper() == "INVALID"
+            raise InputError(
+                f"channel {self.names[i]} has the unit ({self.units[i]})", where=self.where,
+                allowed=", ".join(f"({name})" for name in factors),
+                remedy="OpenFAST writes INVALID for a channel that it cannot compute with this model; check that "
+                       "ElastoDyn is in use." if invalid
+                else "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel.")
+        return self.data[:, i] * factors[unit]
+
+    def across(self, fixed: tuple[tuple[str, ...], ...], rotating: tuple[tuple[str, ...], ...],
+               factors: dict[str, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The components along y and z, from the non-rotating pair or else from the rotating pair."""
+        if self.has_all(fixed):
+            return self.column(fixed[0], factors), self.column(fixed[1], factors)
+        if self.has_all((*rotating, _AZIMUTH)):
+            azimuth = self.column(_AZIMUTH, _ANGLE_UNITS)
+            return turn_to_fixed(self.column(rotating[0], factors), self.column(rotating[1], factors), azimuth)
+        for aliases in fixed:
+            if not self.has_all((aliases,)):
+                self.missing.append(aliases[0])
+                turned = f"{rotating[0][0]}, {rotating[1][0]} and {_AZIMUTH[0]}"
+                self.looked_for.append(f"{' or '.join(aliases)} (or {turned})")
+        return np.zeros(len(self.data)), np.zeros(len(self.data))
+
+    def raise_if_missing(self) -> None:
+        if not self.missing:
+            return
+        if "time" not in self.index:
+            raise InputError("there is no channel Time", where=self.where,
+                             remedy="This is not an OpenFAST time series.")
+        lines = "\n".join(f'"{name}"{" " * (14 - len(name))}- {_MEANING[name]}' for name in self.missing)
+        gauge = [name for name in self.names if name.lower() in ("lssgagmys", "lssgagmzs", "lssgagmya", "lssgagmza")]
+        note = (f" The file's {' and '.join(gauge)} cannot stand in: they belong to the strain gauge, not to the hub."
+                if gauge and any(name.startswith("LSSTip") for name in self.missing) else "")
+        raise InputError(
+            f"of the channels needed, {', '.join(self.missing)} {'are' if len(self.missing) > 1 else 'is'} not in the "
+            f"file ({len(self.names)} channels)", where=self.where,
+            allowed=f"{'; '.join(self.looked_for)}, in upper or lower case.{note}",
+            remedy=f"Add to the OutList of the ElastoDyn input file, and run OpenFAST again:\n{lines}")
+
+
+def turn_to_fixed(along_ya: NDArray, along_za: NDArray, azimuth: NDArray) -> tuple[NDArray, NDArray]:
+    """Components along the non-rotating y and z from those in the rotating shaft axes, at the azimuth ψ [rad].
+
+    y = y_a cos ψ − z_a sin ψ, z = y_a sin ψ + z_a cos ψ; ψ = 0 with blade 1 up, increasing with rotation about +x.
+
+    Examples
+    --------
+    A quarter of a turn after blade 1 was up, the rotating z axis points to −y:
+
+    >>> y, z = turn_to_fixed(0.0, 1.0, math.pi / 2)
+    >>> round(float(y), 12), round(float(z), 12)
+    (-1.0, 0.0)
+    """
+    cos, sin = np.cos(azimuth), np.sin(azimuth)
+    return along_ya * cos - along_za * sin, along_ya * sin + along_za * cos
+
+
+def _check_weight(fy: NDArray, fz: NDArray, where: str) -> None:
+    # The file does not tell AzimB1Up. A value other than zero turns the rotor's weight away from -z: plain to see.
+    mean_y, mean_z = float(fy.mean()), float(fz.mean())
+    if np.isfinite(mean_y + mean_z) and mean_z >= -abs(mean_y):
+        raise InputError(f"LSShftFya and LSShftFza turned by Azimuth do not point down: mean fy {mean_y:.4g} N, "
+                         f"mean fz {mean_z:.4g} N, where the weight of the rotor should give a negative fz",
+                         where=where, allowed="AzimB1Up = 0 in the ElastoDyn input file, and gravity",
+                         remedy="Add LSShftFys, LSShftFzs, LSSTipMys and LSSTipMzs to the OutList and run OpenFAST "
+                                "again.")
+
+
+def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
+    from openfast_io.FAST_output_reader import load_binary_output
+
+    actual, expected = path.stat().st_size, _binary_size(path)
+    if actual != expected:
+        state = "cut off" if actual < expected else "damaged"
+        raise InputError(f"the file is {state}: its header announces {expected} bytes, it has {actual}",
+                         where=str(path), remedy="Copy the file again, or run OpenFAST again.")
+    try:
+        # A scale of zero makes values that are not finite; those are reported with their channel and time.
+        with np.errstate(all="ignore"):
+            data, info, _ = load_binary_output(str(path))
+    except Exception as error:  # the reader raises whatever its parsing stumbles over
+        raise InputError(f"not readable as OpenFAST binary output ({error})", where=str(path),
+                         remedy="Copy the file again, or run OpenFAST again.") from error
+    return info["attribute_names"], info["attribute_units"], data
+
+
+def _binary_size(path: Path) -> int:
+    """Size [bytes] the file must have by its own header: the official reader trusts the counts in it."""
+    damaged = InputError("the header is not that of an OpenFAST binary file", where=str(path),
+                         allowed="file formats 1 to 4 of OpenFAST",
+                         remedy="Text output must be named .out; otherwise copy the file again or run OpenFAST again.")
+    with path.open("rb") as file:
+        def take(layout: str) -> tuple:
+            return struct.unpack("<" + layout, file.read(struct.calcsize("<" + layout)))
+
+        try:
+            (file_format,) = take("h")
+            if file_format not in (1, 2, 3, 4):
+                raise damaged
+            name_length = take("h")[0] if file_format == 4 else 10
+            channels, samples, *_ = take("iidd")
+            if min(name_length, channels, samples) < 1:
+                raise damaged
+            packed = file_format != 3
+            file.seek(8 * channels if packed else 0, io.SEEK_CUR)
+            (description,) = take("i")
+        except struct.error:
+            raise InputError("the file is cut off within its header", where=str(path),
+                             remedy="Copy the file again, or run OpenFAST again.") from None
+        if description < 0:
+            raise damaged
+        header = file.tell() + description + 2 * (channels + 1) * name_length
+        return header + samples * ((4 if file_format == 1 else 0) + channels * (2 if packed else 8))
+
+
+def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
+    from openfast_io.FAST_output_reader import load_ascii_output
+
+    with path.open("rb") as file:
+        if b"\0" in file.read(1024):
+            raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
+    try:
+        data, info = load_ascii_output(str(path))
+    except Exception as error:  # the reader raises whatever its parsing stumbles over
+        bad_line = _first_bad_line(path)
+        remedy = ("If the run was stopped or the copy cut off, delete the incomplete last line; otherwise run OpenFAST "
+                  "again." if bad_line else "Write the description in the file's head in plain ASCII.")
+        raise InputError(f"not readable as OpenFAST text output ({bad_line or error})", where=str(path),
+                         remedy=remedy) from error
+    names, units = info["attribute_names"], info["attribute_units"]
+    if not names or data.ndim != 2 or data.shape[1] != len(names) or len(units) != len(names):
+        raise InputError(f"not an OpenFAST text output: {len(names)} channel names, {len(units)} units, "
+                         f"data of shape {data.shape}", where=str(path),
+                         allowed="6 lines of description, a line of names, a line of units, then the data",
+                         remedy="Copy the file again, or run OpenFAST again.")
+    _check_last_line(path)
+    return names, units, data
+
+
+def _check_last_line(path: Path) -> None:
+    # A line cut within its last number still parses. OpenFAST ends every line, and all data lines are equally long.
+    with path.open("rb") as file:
+        lines = file.read().splitlines(keepends=True)[-2:]
+    if not lines[-1].endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip(b"\r\n")):
+        raise InputError("the last line is cut off", where=str(path),
+                         remedy="Copy the file again, run OpenFAST again, or delete that line.")
+
+
+def _first_bad_line(path: Path) -> str:
+    """Which line of a text output is at fault, or an empty string when none is (the file is not text at all)."""
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    width = len(lines[6].split()) if len(lines) > 6 else 0
+    for number, line in enumerate(lines[8:], start=9):
+        values = line.split()
+        if len(values) != width:
+            return f"line {number} has {len(values)} values for {width} channels"
+        for value in values:
+            try:
+                float(value)
+            except ValueError:
+                return f"line {number} holds {value!r} instead of a number"
+    return ""

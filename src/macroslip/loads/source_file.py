@@ -1,0 +1,34 @@
+"""The file a load history is read from: it has to exist, hold something and be of a known kind."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from macroslip.errors import InputError
+
+
+def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
+    """Return the path and its lower-case extension, or tell what is wrong with it.
+
+    Parameters
+    ----------
+    path : path
+        File to read.
+    kinds : mapping
+        Accepted extensions, with the dot, and what they hold.
+    remedy : str
+        What to do about an extension that is not among `kinds`.
+    """
+    path = Path(path)
+    if not path.is_file():
+        what = "is a folder, not a file" if path.is_dir() else "no such file"
+        raise InputError(what, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}.")
+    extension = path.suffix.lower()
+    if extension not in kinds:
+        raise InputError(f"the extension {path.suffix!r} is not known", where=str(path),
+                         allowed=", ".join(f"{ext} ({meaning})" for ext, meaning in kinds.items()), remedy=remedy)
+    if path.stat().st_size == 0:
+        raise InputError("the file is empty", where=str(path), remedy="Write or copy the file again.")
+    return path, extension

@@ -1,0 +1,105 @@
+"""Where on its way a roller is loaded, so that no step of an integrator can pass over a load zone or over its edge.
+
+Every interval between load samples belongs to one of three classes. `FREE`: no elastic load all through; nothing but
+the smooth body forces acts. `FIRM`: so much load all through that slip relaxes within a small part of a millisecond; the
+slip then follows the instant's balance of forces. `EDGE`: anything else; here steps must end at samples and at the
+instant the load begins or ends.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from macroslip.compiled import jit
+from macroslip.roller.forces import contact_force, interference
+from macroslip.roller.orbit import instant
+
+FREE, EDGE, FIRM = 0, 1, 2
+#: Relaxation rate of slip [1/s] from which on a roller counts as firmly held. Accelerations of a shaft are far below
+#: 1 m/s² at the raceway, so what slip lags behind balance is below 1e-4 m/s divided by this rate in 1e4/s.
+FIRM_RATE = 1e4
+
+
+@jit
+def relaxation_rate(model, load, ring_speed):
+    """Rate (r²/I_z') d(F_i + F_o)/dv at zero slip [1/s] of a roller under `load` [N], raceways at `ring_speed` [m/s]."""
+    _, inner, _ = contact_force(model.inner, load, 0.0, ring_speed, 0.0)
+    _, outer, _ = contact_force(model.outer, load, 0.0, ring_speed, 0.0)
+    return model.mobility * (inner + outer)
+
+
+@jit
+def firm_interference(model, ring_speed):
+    """Interference [m] above which a roller is firmly held at raceway speeds up to `ring_speed` [m/s].
+
+    Infinite if no load up to 1 GN holds it firmly (a law with bounded slope): then no interval is `FIRM`.
+    """
+    low, high = 1e-3, 1e9
+    if relaxation_rate(model, high, ring_speed) < FIRM_RATE:
+        return math.inf
+    for _ in range(100):
+        middle = math.sqrt(low * high)
+        if relaxation_rate(model, middle, ring_speed) < FIRM_RATE:
+            low = middle
+        else:
+            high = middle
+    return (high / model.stiffness) ** (2.0 / 3.0)
+
+
+@jit
+def interference_at(model, motion, start_angle, interval, time):
+    """Interference δ [m] of a roller at `time` [s] in sample interval `interval`."""
+    now = instant(motion, interval, time)
+    angle = start_angle + model.orbit_ratio * now.shaft_angle
+    return interference(model, math.cos(angle), math.sin(angle), now)
+
+
+@jit
+def classify(model, motion, start_angle, firm, classes):
+    """Write the class of every sample interval into `classes`, shape (n − 1,).
+
+    Between two samples δ differs from the chord by at most |δ''| Δt²/8; the roller's turning and the ring's motion bound
+    it, and the classes keep that margin.
+    """
+    last = motion.time.size - 1
+    before = interference_at(model, motion, start_angle, 0, motion.time[0])
+    for k in range(last):
+        after = interference_at(model, motion, start_angle, k, motion.time[k + 1])
+        near, far = motion.displacement[k], motion.displacement[k + 1]
+        turn = abs(model.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
+        turn *= max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
+        reach = max(math.hypot(near[0], near[1]), math.hypot(far[0], far[1]))
+        margin = 0.25 * turn * (turn * reach + math.hypot(far[0] - near[0], far[1] - near[1])) + 1e-15
+        if before < -margin and after < -margin:
+            classes[k] = FREE
+        elif before > firm + margin and after > firm + margin:
+            classes[k] = FIRM
+        else:
+            classes[k] = EDGE
+        before = after
+
+
+@jit
+def edge_time(model, motion, start_angle, interval, start, end):
+    """First change of sign of the interference between `start` and `end` [s] of one interval; `end` if there is none."""
+    first = interference_at(model, motion, start_angle, interval, start)
+    last = interference_at(model, motion, start_angle, interval, end)
+    if first == 0.0 or first * last >= 0.0:
+        return end
+    low, high = start, end
+    while high - low > 4e-16 * (abs(high) + abs(low)):
+        middle = 0.5 * (low + high)
+        if middle <= low or middle >= high:
+            break
+        if interference_at(model, motion, start_angle, interval, middle) * first > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def empty_classes(samples: int) -> np.ndarray:
+    """Room for `classify`."""
+    return np.empty(samples - 1, dtype=np.int8)

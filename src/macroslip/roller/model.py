@@ -1,0 +1,183 @@
+"""Everything about a roller that does not change with time, as one tuple of numbers for the compiled kernels."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import macroslip.film.masjedi_khonsari  # noqa: F401  registers the law
+import macroslip.traction.barus_crook  # noqa: F401  registers the law
+from macroslip.bearing import geometry, inertia
+from macroslip.contact.hertz import effective_modulus, elliptical_contact, series_stiffness
+from macroslip.contact.interface import Interface
+from macroslip.film import law as film_law
+from macroslip.traction import law as traction_law
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.lubricant import Lubricant
+
+#: Standard acceleration of free fall used throughout [m/s²].
+GRAVITY = 9.81
+
+
+class Contact(NamedTuple):
+    """Film and traction law of one interface, each prepared for it."""
+
+    film: Any
+    traction: Any
+
+
+class RollerModel(NamedTuple):
+    """One roller on its imposed orbit.
+
+    Attributes
+    ----------
+    radius : float
+        r [m].
+    mobility : float
+        r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force.
+    stiffness : float
+        K of inner and outer contact in series [N/m^1.5].
+    cos_contact_angle, sin_contact_angle : float
+        Of the contact angle α [-]; the sine carries the row's axial sign s.
+    radial_play : float
+        Half the diametral clearance [m].
+    orbit_ratio : float
+        Ω/Ω_in = r~_in/(r~_in + r~_out) [-].
+    outer_radius : float
+        r~_out [m].
+    weight_in_plane, weight_along_axis : float
+        Roller weight's part in the bearing plane (along −Y0) and along +Z0 [N].
+    centrifugal : float
+        m r~ [kg m]; times Ω² gives the centrifugal force (18).
+    drag : float
+        ½ C_D ρ_eff 2 r l r~² [N s²]; times Ω² gives the drag (24).
+    inner, outer, cage : Contact
+        Laws of the three interfaces.
+    """
+
+    radius: float
+    mobility: float
+    stiffness: float
+    cos_contact_angle: float
+    sin_contact_angle: float
+    radial_play: float
+    orbit_ratio: float
+    outer_radius: float
+    weight_in_plane: float
+    weight_along_axis: float
+    centrifugal: float
+    drag: float
+    inner: Contact
+    outer: Contact
+    cage: Contact
+
+
+def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Interface, Interface]:
+    """The inner, outer and cage interface of a roller, with their Hertz coefficients (section "Forces" of the paper).
+
+    Parameters
+    ----------
+    bearing : Bearing
+    lubricant : Lubricant
+
+    Returns
+    -------
+    tuple of three Interface
+        In the order inner, outer, cage.
+    """
+    steel = effective_modulus(bearing.youngs_modulus, bearing.poisson_ratio, bearing.youngs_modulus, bearing.poisson_ratio)
+    cage = effective_modulus(
+        bearing.youngs_modulus, bearing.poisson_ratio, bearing.cage_youngs_modulus, bearing.cage_poisson_ratio
+    )
+    found = []
+    for name, curvatures, modulus in (
+        ("inner", geometry.inner_curvatures(bearing), steel),
+        ("outer", geometry.outer_curvatures(bearing), steel),
+        ("cage", geometry.cage_curvatures(bearing), cage),
+    ):
+        hertz = elliptical_contact(curvatures.rolling, curvatures.lateral, modulus)
+        found.append(
+            Interface(
+                name, hertz, 1.0 / curvatures.rolling, modulus, bearing.composite_roughness, bearing.hardness, lubricant
+            )
+        )
+    return tuple(found)
+
+
+def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
+    """Roller load [N] at which a raceway contact ellipse reaches the ends of the roller.
+
+    Above it the contact is truncated, and Hertz pressure, film and traction formulas no longer describe it.
+    """
+    inner, outer, _ = interfaces(bearing, lubricant)
+    half = 0.5 * bearing.roller_length
+    return min(contact.hertz.load_at_semi_axis_across(half) for contact in (inner, outer))
+
+
+def roller_model(
+    bearing: Bearing,
+    lubricant: Lubricant,
+    axial_sign: int,
+    *,
+    tilt: float,
+    gravity: bool = True,
+    drag: bool = True,
+    film: str = "masjedi-khonsari",
+    traction: str = "barus-crook",
+) -> RollerModel:
+    """Prepare a roller of one row.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    lubricant : Lubricant
+    axial_sign : int
+        +1 for the downwind row, −1 for the upwind row.
+    tilt : float
+        Shaft tilt [rad]; the hub end is up, so that weight has a part along +Z0.
+    gravity, drag : bool
+        Whether weight and drag act on the roller.
+    film, traction : str
+        Names of the laws.
+
+    Returns
+    -------
+    RollerModel
+
+    Raises
+    ------
+    InputError
+        For unknown laws, or curvatures that do not make a Hertz contact.
+
+    Notes
+    -----
+    The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
+    """
+    radius = geometry.roller_radius(bearing)
+    mass = inertia.roller_mass(bearing.density, radius, bearing.roller_length)
+    found = interfaces(bearing, lubricant)
+    inner_radius = geometry.inner_contact_radius(bearing)
+    outer_radius = geometry.outer_contact_radius(bearing)
+    weight = mass * GRAVITY if gravity else 0.0
+    effective_density = lubricant.fill_factor * lubricant.density
+    area = 2.0 * radius * bearing.roller_length
+    contacts = [Contact(film_law.prepare(film, one), traction_law.prepare(traction, one)) for one in found]
+    return RollerModel(
+        radius=radius,
+        mobility=radius**2 / inertia.spin_inertia(mass, radius),
+        stiffness=series_stiffness(found[0].hertz, found[1].hertz),
+        cos_contact_angle=math.cos(bearing.contact_angle),
+        sin_contact_angle=axial_sign * math.sin(bearing.contact_angle),
+        radial_play=0.5 * bearing.diametral_clearance,
+        orbit_ratio=inner_radius / (inner_radius + outer_radius),
+        outer_radius=outer_radius,
+        weight_in_plane=weight * math.cos(tilt),
+        weight_along_axis=weight * math.sin(tilt),
+        centrifugal=mass * bearing.pitch_radius,
+        drag=0.5 * lubricant.drag_coefficient * effective_density * area * bearing.pitch_radius**2 if drag else 0.0,
+        inner=contacts[0],
+        outer=contacts[1],
+        cage=contacts[2],
+    )

@@ -1,0 +1,79 @@
+"""The JSON Schema of the file format agrees with what the reader accepts."""
+
+import copy
+import json
+from importlib import resources
+
+import pytest
+from ruamel.yaml import YAML
+
+from macroslip.bearing import Bearing
+from macroslip.errors import InputError
+from macroslip.lubricant import Lubricant
+
+SHIPPED = [(kind, name) for kind in (Bearing, Lubricant) for name in kind.catalogue()]
+
+
+def valid(value, schema):
+    """Check a value against the few words of JSON Schema that the schema uses, and against no others."""
+    known = {"$schema", "title", "description", "default", "type", "properties", "required", "additionalProperties",
+             "enum", "minLength"}  # fmt: skip
+    assert schema.keys() <= known, schema.keys() - known
+    if "enum" in schema and not any(value == item and type(value) is type(item) for item in schema["enum"]):
+        return False
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    match schema.get("type"):
+        case "object":
+            return (
+                isinstance(value, dict)
+                and set(schema["required"]) <= value.keys()
+                and (value.keys() <= schema["properties"].keys() or schema["additionalProperties"])
+                and all(valid(value[key], inner) for key, inner in schema["properties"].items() if key in value)
+            )
+        case "string":
+            return isinstance(value, str) and len(value) >= schema.get("minLength", 0)
+        case "number":
+            return number
+        case "integer":
+            return number and float(value).is_integer()
+        case None:
+            return True
+
+
+def shipped(kind, name):
+    package = "macroslip.bearing" if kind is Bearing else "macroslip.lubricant"
+    file = resources.files(package) / "catalogue" / f"{name}.yaml"
+    return YAML(typ="safe", pure=True).load(file.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(("kind", "name"), SHIPPED)
+def test_shipped_files_are_valid(kind, name):
+    schema = json.loads(json.dumps(kind.json_schema()))
+    assert valid(shipped(kind, name), schema)
+    assert valid(kind.read(name).as_dict(), schema)
+
+
+@pytest.mark.parametrize(("kind", "name"), SHIPPED)
+def test_schema_and_reader_refuse_the_same(kind, name):
+    schema, good = kind.json_schema(), shipped(kind, name)
+    quantities = [key for key in good if key not in ("name", "title")]
+    for key in quantities:
+        for change in ({"unit": "furlong"}, {"unit": None}, {"value": "1"}, {"tag": "Q"}, {"note": 1}, {"extra": 1}):
+            bad = copy.deepcopy(good)
+            bad[key] |= change
+            assert not valid(bad, schema), (key, change)
+            with pytest.raises(InputError):
+                kind.from_dict(bad)
+    for bad in (good | {"unknown": 1}, good | {"name": ""}, {k: v for k, v in good.items() if k != "density"}):
+        assert not valid(bad, schema)
+        with pytest.raises(InputError):
+            kind.from_dict(bad)
+
+
+def test_units_of_the_schema_are_the_units_of_the_reader():
+    properties = Bearing.json_schema()["properties"]
+    assert properties["contact_angle"]["properties"]["unit"]["enum"] == ["rad", "deg"]
+    assert properties["pitch_radius"]["properties"]["unit"]["enum"] == ["m", "mm", "um"]
+    assert properties["rollers_per_row"]["properties"]["value"]["type"] == "integer"
+    assert properties["pitch_radius"]["description"].endswith("above 0 m and at most 5 m")
+    assert "bore_diameter" not in Bearing.json_schema()["required"]

@@ -1,0 +1,128 @@
+"""Statics of the shaft against an independent solution of the whole free body, and its exact limits."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from macroslip.errors import InputError
+from macroslip.loads import Drivetrain, HubLoads, main_bearing_load
+
+component = st.floats(-1e6, 1e6)
+vector = st.tuples(component, component, component)
+drivetrains = st.builds(
+    lambda h, g, tilt, mass, part: Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g, tilt=tilt, shaft_mass=mass,
+                                              shaft_mass_station=part * (h + g)),
+    st.floats(0.0, 5.0), st.floats(0.5, 5.0), st.floats(-0.2, 0.2), st.floats(0.0, 2e4), st.floats(0.0, 1.0))
+
+
+def _load(force, moment, drivetrain):
+    return main_bearing_load(HubLoads.constant(force, moment, 2.0, 1.0), drivetrain).force[0]
+
+
+def _solve_free_body(force, moment, drivetrain):
+    """Bearing and gearbox force and torque on the shaft from its 6 x 6 equilibrium about the hub, and its weight."""
+    def cross(x, axis):
+        return np.cross([x, 0, 0], np.eye(3)[axis])
+
+    h, a = drivetrain.hub_to_bearing, drivetrain.hub_to_bearing + drivetrain.bearing_to_gearbox
+    w = drivetrain.shaft_mass * 9.81 * np.array([math.sin(drivetrain.tilt), 0, -math.cos(drivetrain.tilt)])
+    unknowns = [(h, 0), (h, 1), (h, 2), (a, 1), (a, 2)]
+    matrix = np.zeros((6, 6))
+    for i, (x, axis) in enumerate(unknowns):
+        matrix[:3, i], matrix[3:, i] = np.eye(3)[axis], cross(x, axis)
+    matrix[3, 5] = 1.0
+    applied = np.concatenate([np.add(force, w), moment + np.cross([drivetrain.shaft_mass_station, 0, 0], w)])
+    r = np.linalg.solve(matrix, -applied)
+    return r[:3], np.array([0, r[3], r[4]]), r[5], w
+
+
+@given(vector, vector, drivetrains)
+def test_load_equals_the_free_body_solution(force, moment, drivetrain):
+    bearing, _, _, _ = _solve_free_body(force, moment, drivetrain)
+    expected = -bearing[[1, 2, 0]]  # (X0, Y0, Z0) = (y, z, x), and the load on the ring opposes its reaction
+    assert _load(force, moment, drivetrain) == pytest.approx(expected, rel=1e-11, abs=1e-5)
+
+
+@given(vector, vector, drivetrains, st.lists(vector, min_size=3, max_size=3))
+def test_shaft_is_in_equilibrium_about_any_point(force, moment, drivetrain, points):
+    on_ring = _load(force, moment, drivetrain)
+    bearing = -on_ring[[2, 0, 1]]
+    _, gearbox, torque, weight = _solve_free_body(force, moment, drivetrain)
+    h, a, s = (drivetrain.hub_to_bearing, drivetrain.hub_to_bearing + drivetrain.bearing_to_gearbox,
+               drivetrain.shaft_mass_station)
+    acting = [(0.0, np.array(force)), (h, bearing), (a, gearbox), (s, weight)]
+    assert np.abs(sum(f for _, f in acting)).max() < 1e-4
+    for point in ([0, 0, 0], [h, 0, 0], *(np.array(points) * 1e-5)):
+        residual = np.array(moment) + [torque, 0, 0] + sum(np.cross(np.array([x, 0, 0]) - point, f) for x, f in acting)
+        assert np.abs(residual).max() < 1e-2  # of terms up to 1e8 N m
+
+
+@given(st.floats(-1e5, 1e5), st.floats(-1e5, 1e5), st.floats(0.1, 5.0), st.floats(0.5, 5.0), st.floats(0.05, 1.0))
+def test_a_moment_and_its_couple_give_the_same_reaction(my, mz, h, g, part):
+    """A couple: a force at the hub and its opposite at x = d, which is the hub of a shaft shorter by d."""
+    d = part * h
+    force = np.array([0, -mz / d, my / d])  # about any point, the couple has the moment (0, my, mz)
+    couple = (_load(force, [0, 0, 0], Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g))
+              + _load(-force, [0, 0, 0], Drivetrain(hub_to_bearing=h - d, bearing_to_gearbox=g)))
+    moment = _load([0, 0, 0], [0, my, mz], Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g))
+    assert couple == pytest.approx(moment, rel=1e-9, abs=1e-9 * np.abs(force).max() * (h + g) / g + 1e-9)
+
+
+@given(vector, vector, drivetrains)
+def test_mirror_symmetry(force, moment, drivetrain):
+    """Mirrored in the vertical plane of the shaft: y of a force changes sign, and x and z of a moment."""
+    plain = _load(force, moment, drivetrain)
+    mirrored = _load(np.multiply(force, [1, -1, 1]), np.multiply(moment, [-1, 1, -1]), drivetrain)
+    assert mirrored == pytest.approx(plain * [-1, 1, 1], rel=1e-12, abs=1e-6)
+
+
+@given(st.floats(0.0, 5.0), st.floats(0.5, 5.0), st.floats(-0.3, 0.3), st.floats(1.0, 2e4))
+def test_mass_at_the_bearing_is_carried_there(h, g, tilt, mass):
+    drivetrain = Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g, tilt=tilt, shaft_mass=mass, shaft_mass_station=h)
+    load = _load([0, 0, 0], [0, 0, 0], drivetrain)
+    assert load == pytest.approx([0, -mass * 9.81 * math.cos(tilt), mass * 9.81 * math.sin(tilt)], rel=1e-12, abs=1e-9)
+
+
+def test_mass_at_the_gearbox_leaves_only_its_axial_part_and_at_the_hub_acts_as_rotor_weight():
+    weight = 4000 * 9.81
+    base = Drivetrain(shaft_mass=4000.0, shaft_mass_station=1.26 + 2.2)
+    assert _load([0, 0, 0], [0, 0, 0], base) == pytest.approx([0, 0, weight * math.sin(base.tilt)], abs=1e-6)
+    rotor = [weight * math.sin(base.tilt), 0, -weight * math.cos(base.tilt)]
+    assert _load([0, 0, 0], [0, 0, 0], replace(base, shaft_mass_station=0.0)) == pytest.approx(
+        _load(rotor, [0, 0, 0], Drivetrain()))
+
+
+def test_signs_of_the_main_terms():
+    assert _load([1e5, 0, 0], [0, 0, 0], Drivetrain()) == pytest.approx([0, 0, 1e5])  # thrust
+    assert _load([0, 0, -1e5], [0, 0, 0], Drivetrain()) == pytest.approx([0, -1e5 * 3.46 / 2.2, 0])  # overhung weight
+    assert _load([0, 0, 0], [0, 2.2e5, 0], Drivetrain()) == pytest.approx([0, 1e5, 0])  # thrust on the upper half lifts
+
+
+def test_torque_does_not_load_the_bearing_and_the_record_is_kept():
+    loads = HubLoads.bundled("12C").window(10.0, 20.0)
+    bearing = main_bearing_load(loads, Drivetrain())
+    other = HubLoads(loads.time, loads.shaft_speed, loads.force, loads.moment * [5, 1, 1], "x")
+    assert np.array_equal(main_bearing_load(other, Drivetrain()).force, bearing.force)
+    assert np.array_equal(bearing.time, loads.time) and np.array_equal(bearing.shaft_speed, loads.shaft_speed)
+    assert bearing.source == "main bearing under bundled case 12C"
+
+
+@pytest.mark.parametrize(("changes", "words"), [
+    ({"hub_to_bearing": 1260.0}, ["hub_to_bearing is 1260.0", "0 to 20 m", "metres"]),
+    ({"hub_to_bearing": -1.0}, ["0 to 20 m"]),
+    ({"bearing_to_gearbox": 0.0}, ["bearing_to_gearbox is 0.0", "above 0"]),
+    ({"tilt": 5.0}, ["tilt is 5.0", "radians"]),
+    ({"shaft_mass": -1.0}, ["shaft_mass is -1.0", "0 to 1e6 kg"]),
+    ({"shaft_mass_station": 4.0}, ["shaft_mass_station is 4.0", "0 to 3.46 m"]),
+    ({"tilt": math.nan}, ["tilt is nan", "finite"]),
+    ({"shaft_mass": "12"}, ["shaft_mass is '12'", "finite"]),
+])
+def test_bad_drivetrain(changes, words):
+    with pytest.raises(InputError) as caught:
+        Drivetrain(**changes)
+    for word in ["drivetrain: ", *words]:
+        assert word in str(caught.value)
