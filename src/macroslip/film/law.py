@@ -18,9 +18,12 @@ from macroslip.errors import InputError
 _thickness: dict[type, Callable] = {}
 _in_range: dict[type, Callable] = {}
 _prepare: dict[str, Callable[[Interface], Any]] = {}
+_references: dict[str, str] = {}
 
 
-def register(name: str, law: type, *, prepare: Callable, thickness: Callable, in_range: Callable) -> None:
+def register(
+    name: str, law: type, *, reference: str, prepare: Callable, thickness: Callable, in_range: Callable
+) -> None:
     """Make a film law usable by name.
 
     Parameters
@@ -29,6 +32,8 @@ def register(name: str, law: type, *, prepare: Callable, thickness: Callable, in
         Name in case files.
     law : type
         `NamedTuple` class holding the law's numbers for one interface.
+    reference : str
+        What to cite where the law was used.
     prepare : callable
         `prepare(interface) -> law`.
     thickness : callable
@@ -37,8 +42,14 @@ def register(name: str, law: type, *, prepare: Callable, thickness: Callable, in
         Compiled `in_range(law, load, entrainment_speed) -> bool`.
     """
     _prepare[name] = prepare
+    _references[name] = reference
     _thickness[law] = thickness
     _in_range[law] = in_range
+
+
+def reference(name: str) -> str:
+    """What to cite where the law called `name` was used."""
+    return _references[name]
 
 
 def names() -> list[str]:

@@ -104,4 +104,11 @@ def in_range(law, load, entrainment_speed):
     return 2e-5 <= w <= 5e-4 and 1e-12 <= u <= 1e-10
 
 
-register("masjedi-khonsari", MasjediKhonsari, prepare=prepare, thickness=thickness, in_range=in_range)
+register(
+    "masjedi-khonsari",
+    MasjediKhonsari,
+    reference="Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514",
+    prepare=prepare,
+    thickness=thickness,
+    in_range=in_range,
+)

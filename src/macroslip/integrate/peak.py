@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from macroslip.compiled import jit
 from macroslip.integrate.record import raise_peak
 
 
 @jit
-def new_peak(time, inner, outer, cage):
-    """The last two samples of time and of the three powers, newest last; both are the start here."""
-    samples = np.empty((2, 4))
+def start_peak(samples, time, inner, outer, cage):
+    """Begin a stretch of smooth powers; `samples`, shape (2, 4), holds the last two times and powers, newest last."""
     for row in range(2):
         samples[row, 0] = time
         samples[row, 1] = inner
         samples[row, 2] = outer
         samples[row, 3] = cage
-    return samples
 
 
 @jit
@@ -41,12 +37,15 @@ def vertex(ta, pa, tb, pb, tc, pc):
 @jit
 def follow_peak(record, orbit, samples, time, inner, outer, cage):
     """Take up the powers at a new time; raise the orbit's peaks to the samples and to the parabolas through them."""
+    # Where spacing changes much between samples a fast transient has just ended, and a parabola would extrapolate it.
+    before, after = samples[1, 0] - samples[0, 0], time - samples[1, 0]
+    even = before > 0.0 and after > 0.0 and before < 6.0 * after and after < 6.0 * before
     for interface in range(3):
         power = inner if interface == 0 else (outer if interface == 1 else cage)
         raise_peak(record, orbit, interface, power)
-        before, middle = samples[0, interface + 1], samples[1, interface + 1]
-        if middle > before and middle > power and samples[1, 0] > samples[0, 0] and time > samples[1, 0]:
-            top = vertex(samples[0, 0], before, samples[1, 0], middle, time, power)
+        first, middle = samples[0, interface + 1], samples[1, interface + 1]
+        if even and middle > first and middle > power:
+            top = vertex(samples[0, 0], first, samples[1, 0], middle, time, power)
             # A kink has no parabola; what it may add is bounded.
             raise_peak(record, orbit, interface, min(top, 1.1 * middle))
         samples[0, interface + 1] = middle

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit
-from macroslip.integrate.peak import follow_peak, new_peak
+from macroslip.integrate.peak import follow_peak, start_peak
 from macroslip.integrate.radau_step import (
     NODES,
     WEIGHTS,
@@ -111,14 +111,15 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     step = min(limits.longest_step, 1e-2)
     spent, next_stop, next_trace = 0.0, 0, 0
     evaluations, steps, rejections = 1, 0, 0
-    peaks = new_peak(time, p_inner, p_outer, p_cage)
+    peaks = np.empty((2, 4))
+    start_peak(peaks, time, p_inner, p_outer, p_cage)
     status = COMPLETED
     barrier = time
     zone = -1
     failed_before = False
     sample_step = 0.0
     while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
-        write_trace(record, next_trace, at, forces, slip, _elastic_load(model, at))
+        write_trace(record, next_trace, at, forces, slip)
         next_trace += 1
     while True:
         if time >= barrier:
@@ -139,6 +140,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 slip = _rebalanced(model, motion, interval, at, slip)
                 forces = slip_forces(model, at, slip)
                 p_inner, p_outer, p_cage = powers(at, forces, slip)
+                start_peak(peaks, time, p_inner, p_outer, p_cage)
                 evaluations += 4
             if zone == EDGE:
                 barrier = edge_time(model, motion, start_angle, interval, time, barrier)
@@ -149,6 +151,10 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             break
         step = min(step, limits.longest_step)
         left = barrier - time
+        if left <= 1e-15 * abs(time):
+            # Rounding has put the state on the barrier.
+            time = barrier
+            continue
         h = left if step >= 0.95 * left else (0.5 * left if step > 0.6 * left else step)
         if h <= 4e-16 * abs(time) + 1e-300:
             status = STEP_TOO_SMALL
@@ -259,7 +265,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         step = h * min(1.0 if failed_before else 5.0, factor)
         failed_before = False
         while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
-            write_trace(record, next_trace, at, forces, slip, _elastic_load(model, at))
+            write_trace(record, next_trace, at, forces, slip)
             next_trace += 1
     record.count[0], record.count[1], record.count[2] = steps, rejections, evaluations
     record.end[0], record.end[1] = time, slip
@@ -292,12 +298,6 @@ def _rebalanced(model, motion, interval, at, slip):
 @jit
 def _magnitude(forces):
     return abs(forces.inner) + abs(forces.outer) + abs(forces.cage)
-
-
-@jit
-def _elastic_load(model, at):
-    """Load without body forces [N]."""
-    return model.stiffness * at.interference**1.5 if at.interference > 0.0 else 0.0
 
 
 def longest_step(motion, orbit_ratio: float) -> float:

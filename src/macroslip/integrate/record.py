@@ -131,12 +131,12 @@ def _note_range(record, interface, contact, load, speed, span):
 
 
 @jit
-def write_trace(record, index, at, forces, slip, load):
+def write_trace(record, index, at, forces, slip):
     """Write the state at trace time `index`."""
     row = record.trace[index]
     row[0] = slip
     row[1] = at.ring_speed
-    row[2] = load
+    row[2] = at.elastic_load
     row[3] = forces.inner
     row[4] = forces.outer
     row[5] = forces.cage

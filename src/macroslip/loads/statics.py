@@ -8,12 +8,10 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
 from macroslip.loads.bearing_loads import BearingLoads
 from macroslip.loads.hub_loads import HubLoads
-
-GRAVITY = 9.81
-"""Acceleration of gravity [m/s²]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

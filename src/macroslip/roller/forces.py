@@ -26,6 +26,8 @@ class Station(NamedTuple):
         Speed of both raceway surfaces past the roller's centre, u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s].
     interference : float
         Elastic approach δ of ring, roller and ring [m]; negative where there is play.
+    elastic_load : float
+        Load Q that the rings press on the roller [N].
     inner_load, outer_load : float
         Normal loads with body forces [N].
     tangential : float
@@ -34,6 +36,7 @@ class Station(NamedTuple):
 
     ring_speed: float
     interference: float
+    elastic_load: float
     inner_load: float
     outer_load: float
     tangential: float
@@ -100,6 +103,7 @@ def station(model, start_angle, now):
     return Station(
         -orbital_speed * model.outer_radius,
         approach,
+        load,
         load - outward if outward < 0.0 else load,
         load + outward if outward > 0.0 else load,
         model.weight_in_plane * cosine + model.drag * orbital_speed * abs(orbital_speed),

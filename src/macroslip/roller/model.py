@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import macroslip.film.masjedi_khonsari  # noqa: F401  registers the law
 import macroslip.traction.barus_crook  # noqa: F401  registers the law
 from macroslip.bearing import geometry, inertia
+from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import effective_modulus, elliptical_contact, series_stiffness
 from macroslip.contact.interface import Interface
 from macroslip.film import law as film_law
@@ -16,9 +17,6 @@ from macroslip.traction import law as traction_law
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.lubricant import Lubricant
-
-#: Standard acceleration of free fall used throughout [m/s²].
-GRAVITY = 9.81
 
 
 class Contact(NamedTuple):

@@ -59,4 +59,11 @@ def rising_slip(law, load):
     return _ROOT_HEATING_AT_PEAK / law.heating * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
 
 
-register("barus-crook", BarusCrook, prepare=prepare, traction=traction, rising_slip=rising_slip)
+register(
+    "barus-crook",
+    BarusCrook,
+    reference="Crook, Phil. Trans. R. Soc. A 254 (1961) 237, doi:10.1098/rsta.1961.0014",
+    prepare=prepare,
+    traction=traction,
+    rising_slip=rising_slip,
+)

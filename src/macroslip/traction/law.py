@@ -16,9 +16,12 @@ from macroslip.errors import InputError
 _traction: dict[type, Callable] = {}
 _rising_slip: dict[type, Callable] = {}
 _prepare: dict[str, Callable[[Interface], Any]] = {}
+_references: dict[str, str] = {}
 
 
-def register(name: str, law: type, *, prepare: Callable, traction: Callable, rising_slip: Callable) -> None:
+def register(
+    name: str, law: type, *, reference: str, prepare: Callable, traction: Callable, rising_slip: Callable
+) -> None:
     """Make a traction law usable by name.
 
     Parameters
@@ -27,6 +30,8 @@ def register(name: str, law: type, *, prepare: Callable, traction: Callable, ris
         Name in case files.
     law : type
         `NamedTuple` class holding the law's numbers for one interface.
+    reference : str
+        What to cite where the law was used.
     prepare : callable
         `prepare(interface) -> law`.
     traction : callable
@@ -37,8 +42,14 @@ def register(name: str, law: type, *, prepare: Callable, traction: Callable, ris
         needs it to know where an implicit step can have more than one root.
     """
     _prepare[name] = prepare
+    _references[name] = reference
     _traction[law] = traction
     _rising_slip[law] = rising_slip
+
+
+def reference(name: str) -> str:
+    """What to cite where the law called `name` was used."""
+    return _references[name]
 
 
 def names() -> list[str]:

@@ -1,0 +1,171 @@
+"""The result of a case as a labelled dataset.
+
+Dimensions: `row` (downwind, upwind), `roller`, `interface` (inner, outer, cage), `orbit` (complete orbits in the window)
+and, where traces were asked for, `time`.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import macroslip
+from macroslip.bearing.frames import ROWS, initial_angles
+from macroslip.film import law as film_law
+from macroslip.integrate.record import COUNTS, Record
+from macroslip.integrate.status import Status
+from macroslip.traction import law as traction_law
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from macroslip.roller.model import RollerModel
+    from macroslip.study.case import Case
+
+INTERFACES = ("inner", "outer", "cage")
+#: Works every result rests on.
+CITATIONS = (
+    "Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing",
+    "Johnson, Contact Mechanics, Cambridge University Press (1985), doi:10.1017/CBO9781139171731",
+)
+_RADAU = "Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), doi:10.1007/978-3-642-05221-7"
+
+
+def to_dataset(
+    case: Case, model: RollerModel, edges: np.ndarray, end: float, results: dict[tuple[str, int], tuple[int, Record]]
+) -> xr.Dataset:
+    """Collect the records of all rollers.
+
+    Parameters
+    ----------
+    case : Case
+    model : RollerModel
+        Of either row.
+    edges : ndarray, shape (orbits + 1,)
+        Start of the window and ends of its complete orbits [s].
+    end : float
+        End of the window [s].
+    results : dict
+        Status and record by row and roller number.
+
+    Returns
+    -------
+    xarray.Dataset
+        Every variable has `units` and `long_name`; the attributes hold the full input, the version and the works cited.
+    """
+    import xarray as xr
+
+    numbers = case.roller_numbers
+    grid = [[results[row, number] for number in numbers] for row in ROWS]
+    status = np.array([[code for code, _ in line] for line in grid], dtype=np.int8)
+    failed = status != Status.COMPLETED
+
+    def gather(name: str) -> np.ndarray:
+        values = np.array([[getattr(record, name) for _, record in line] for line in grid], dtype=float)
+        values[failed] = np.nan
+        return values
+
+    data: dict[str, Any] = {}
+
+    def put(name: str, dims: tuple[str, ...], values: np.ndarray, units: str, long_name: str, **attributes: Any) -> None:
+        data[name] = (dims, values, {"units": units, "long_name": long_name, **attributes})
+
+    rollers = ("row", "roller")
+    put("energy", (*rollers, "interface"), gather("energy"), "J", "energy dissipated by friction in the window")
+    put(
+        "orbit_energy",
+        (*rollers, "orbit", "interface"),
+        gather("orbit_energy"),
+        "J",
+        "energy dissipated by friction in each complete orbit",
+    )
+    put(
+        "peak_power",
+        (*rollers, "orbit", "interface"),
+        gather("peak_power"),
+        "W",
+        "largest frictional power in each complete orbit",
+    )
+    ratio = gather("spin_ratio")[..., 0]
+    put(
+        "min_spin_ratio",
+        rollers,
+        np.where(np.isinf(ratio), np.nan, ratio),
+        "1",
+        "smallest ratio of spin to spin in pure rolling in the window",
+    )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        outside = gather("outside_time") / gather("loaded_time")
+    put(
+        "outside_film_range",
+        (*rollers, "interface"),
+        outside,
+        "1",
+        "share of loaded time in which load or speed lay outside the film law's range",
+    )
+    put(
+        "status",
+        rollers,
+        status,
+        "1",
+        "outcome of the integration",
+        flag_values=np.array([int(s) for s in Status], dtype=np.int8),
+        flag_meanings=" ".join(s.name.lower() for s in Status),
+    )
+    for position, name in enumerate(COUNTS):
+        counts = np.array([[record.count[position] for _, record in line] for line in grid])
+        put(name, rollers, counts, "1", f"number of {name.replace('_', ' ')} of the integrator")
+    worst = np.array([[record.worst[0] for _, record in line] for line in grid])
+    put("unbalanced_force", rollers, worst, "N", "largest force left unbalanced by an accepted implicit step")
+    ended = np.array([[record.end for _, record in line] for line in grid])
+    put("end_time", rollers, ended[..., 0], "s", "time at which the integration ended")
+    put("end_slip", rollers, ended[..., 1], "m/s", "raceway slip at which the integration ended")
+    if case.traces is not None:
+        _put_traces(put, gather("trace"), model.radius, rollers)
+
+    coordinates: dict[str, Any] = {
+        "row": list(ROWS),
+        "roller": ("roller", list(numbers), {"units": "1", "long_name": "number of the roller in its row"}),
+        "interface": list(INTERFACES),
+        "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),
+        "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
+        "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
+        "start_angle": (
+            rollers,
+            np.array([initial_angles(row, case.bearing.rollers_per_row)[list(numbers)] for row in ROWS]),
+            {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"},
+        ),
+    }
+    if case.traces is not None:
+        time = grid[0][0][1].trace_time
+        coordinates["time"] = ("time", time, {"units": "s", "long_name": "time"})
+    citations = [*CITATIONS, film_law.reference(case.film), traction_law.reference(case.traction)]
+    attributes = {
+        "title": f"Roller slip of {case.bearing.name} under {case.loads.source}",
+        "source": f"macroslip {macroslip.__version__}",
+        "window_start": float(edges[0]),
+        "window_end": end,
+        "input": json.dumps(case.as_dict(), ensure_ascii=False),
+        "citations": "\n".join([*citations, _RADAU] if hasattr(case.integrator, "max_steps") else citations),
+    }
+    return xr.Dataset(data, coordinates, attributes)
+
+
+def _put_traces(put: Any, trace: np.ndarray, radius: float, rollers: tuple[str, ...]) -> None:
+    """Turn raw channels into the traces users know."""
+    slip, ring_speed, load, inner, outer, cage, cage_load = np.moveaxis(trace, -1, 0)
+    dims = (*rollers, "time")
+    put("spin", dims, (ring_speed - slip) / radius, "rad/s", "spin about the roller's axis, relative to the orbiting frame")
+    put("spin_pure", dims, ring_speed / radius, "rad/s", "spin in pure rolling, relative to the orbiting frame")
+    put("slip", dims, slip, "m/s", "slip at either raceway, ring less roller")
+    put("roller_load", dims, load, "N", "elastic load of the roller, without body forces")
+    put("cage_force", dims, cage_load, "N", "normal force of the cage on the roller, positive along the orbit")
+    put(
+        "traction",
+        (*dims, "interface"),
+        np.stack([inner, outer, cage], axis=-1),
+        "N",
+        "traction on the roller, positive where it drives the spin up",
+    )
