@@ -1,4 +1,4 @@
-"""Text of a catalogue file to plain data, with the line on which every key stands."""
+"""Text of a catalogue or case file to plain data, with the line on which every key stands."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ruamel.yaml import YAML
-from ruamel.yaml.comments import CommentedMap
+from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.constructor import DuplicateKeyError
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
@@ -17,19 +17,22 @@ from macroslip.errors import InputError
 
 @dataclass(frozen=True)
 class Source:
-    """Where a record was written: file name and line numbers (from 1) by key or by key and inner key."""
+    """Where data were written: file name and line numbers (from 1) by key and inner keys."""
 
     file: str = ""
     lines: Mapping[tuple[object, ...], int] = field(default_factory=dict)
 
     def where(self, *keys: object) -> str:
         """Name file and line of a key, or of the entry around it, as far as they are known."""
-        line = self.lines.get(keys) or self.lines.get(keys[:1])
+        depths = range(len(keys), 0, -1)
+        line = next((self.lines[keys[:depth]] for depth in depths if keys[:depth] in self.lines), None)
         return ", ".join([part for part in (self.file, f"line {line}" if line else "") if part])
 
 
-def parse(text: str, file: str) -> tuple[dict[Any, Any], Source]:
-    """Parse the text of a catalogue file.
+def parse(
+    text: str, file: str, remedy: str = "Start from one of the shipped catalogue files."
+) -> tuple[dict[Any, Any], Source]:
+    """Parse the text of a catalogue or case file.
 
     Parameters
     ----------
@@ -37,6 +40,8 @@ def parse(text: str, file: str) -> tuple[dict[Any, Any], Source]:
         YAML text: one mapping.
     file : str
         Name of the file, for messages.
+    remedy : str
+        What to do about a file that is not a mapping.
 
     Returns
     -------
@@ -68,13 +73,9 @@ def parse(text: str, file: str) -> tuple[dict[Any, Any], Source]:
             f"the file holds {'nothing' if data is None else shown(data)}",
             where=file,
             allowed="a mapping of keys to entries",
-            remedy="Start from one of the shipped catalogue files.",
+            remedy=remedy,
         )
-    lines = {(key,): line for key, line in _lines(data)}
-    for key, entry in data.items():
-        if isinstance(entry, CommentedMap):
-            lines |= {(key, inner): line for inner, line in _lines(entry)}
-    return {key: _plain(entry) for key, entry in data.items()}, Source(file, lines)
+    return _plain(data), Source(file, dict(_lines(data)))
 
 
 def _not_yaml(problem: str, where: str) -> InputError:
@@ -83,16 +84,21 @@ def _not_yaml(problem: str, where: str) -> InputError:
     )
 
 
-def _lines(mapping: CommentedMap) -> Iterator[tuple[object, int]]:
+def _lines(mapping: CommentedMap, outer: tuple[object, ...] = ()) -> Iterator[tuple[tuple[object, ...], int]]:
     """Yield keys with their lines; a key merged in from an anchor has none and falls back to the entry around it."""
     for key in mapping.lc.data or {}:
-        yield key, mapping.lc.key(key)[0] + 1
+        yield (*outer, key), mapping.lc.key(key)[0] + 1
+    for key, entry in mapping.items():
+        if isinstance(entry, CommentedMap):
+            yield from _lines(entry, (*outer, key))
 
 
 def _plain(value: Any) -> Any:
-    """Strip the parser's own scalar and mapping types, which remember how they were written."""
+    """Strip the parser's own types, which remember how they were written."""
     if isinstance(value, CommentedMap):
         return {key: _plain(entry) for key, entry in value.items()}
+    if isinstance(value, CommentedSeq):
+        return [_plain(entry) for entry in value]
     for kind in (bool, int, float, str):
         if isinstance(value, kind):
             return kind(value)

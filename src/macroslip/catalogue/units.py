@@ -1,4 +1,4 @@
-"""Units a catalogue file may use, and their conversion to SI.
+"""Units a catalogue or case file may use, and their conversion to SI.
 
 A value is converted as the decimal number that was typed and rounded once, so 70 mm is exactly the float 0.07.
 """
@@ -89,7 +89,10 @@ def _dimension(**scales: Fraction | int) -> Dimension:
 
 
 LENGTH = _dimension(m=1, mm=Fraction(1, 10**3), um=Fraction(1, 10**6))
+TIME = _dimension(s=1, ms=Fraction(1, 10**3))
+SPEED = _dimension(**{"rad/s": 1, "rpm": Fraction(math.pi) / 30})
 FORCE = _dimension(N=1, kN=10**3)
+MOMENT = _dimension(**{"N m": 1, "kN m": 10**3})
 PRESSURE = _dimension(Pa=1, MPa=10**6, GPa=10**9)
 INVERSE_PRESSURE = _dimension(**{"1/Pa": 1, "1/GPa": Fraction(1, 10**9)})
 ANGLE = _dimension(rad=1, deg=Fraction(math.pi) / 180)

@@ -1,0 +1,50 @@
+"""The command line: one command a file. What a command needs is imported when it runs, so that help comes at once."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+import macroslip
+from macroslip.cli.catalogue import bearing, lubricant
+from macroslip.cli.failure import command
+from macroslip.cli.init import init
+from macroslip.cli.loads import loads
+from macroslip.cli.reproduce import reproduce
+from macroslip.cli.run import run
+
+app = typer.Typer(
+    name="macroslip",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, 130 interrupted.",
+)
+command(app, init)
+command(app, run)
+command(app, reproduce)
+app.add_typer(loads)
+app.add_typer(bearing)
+app.add_typer(lubricant)
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"macroslip {macroslip.__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Slip, friction power and frictional energy of every roller of a wind-turbine main bearing."""
+
+
+def main() -> None:
+    """Entry point of the command `macroslip`."""
+    app()

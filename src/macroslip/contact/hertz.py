@@ -135,7 +135,7 @@ def elliptical_contact(rolling_curvature: float, lateral_curvature: float, modul
     --------
     >>> sphere = elliptical_contact(100.0, 100.0, 230.77e9)     # steel ball, 10 mm radius, on a flat
     >>> round(sphere.semi_axis_along * 100.0 ** (1 / 3) * 1e6, 2), round(sphere.pressure * 100.0 ** (1 / 3) / 1e6, 1)
-    (186.63, 1370.8)
+    (186.63, 1370.9)
     """
     from scipy.special import elliprd, elliprf
 

@@ -20,6 +20,8 @@ from macroslip.compiled import jit
 
 #: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts as failed.
 _WARM_ITERATIONS, _COLD_ITERATIONS = 40, 200
+#: Push [m] after which no roller will be met any more (thrust on a bearing without contact angle).
+_LONGEST_PUSH = 1e3
 
 
 class RingGeometry(NamedTuple):
@@ -118,7 +120,7 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
     magnitude = _length(force)
     # Without a loaded roller there is no stiffness: push the ring along the load until the rollers push back harder.
     push = (magnitude / ring.stiffness) ** (2.0 / 3.0) + abs(ring.radial_play)
-    while magnitude > tolerance and _trace(hessian) == 0.0:
+    while magnitude > tolerance and _trace(hessian) == 0.0 and push < _LONGEST_PUSH:
         for i in range(3):
             displacement[i] += push * force[i] / magnitude
         push *= 2.0
@@ -131,7 +133,9 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
         _damped_newton_step(hessian, gradient, relative * _trace(hessian), step)
         for i in range(3):
             trial[i] = displacement[i] + step[i]
-        trial_energy = _energy_gradient_hessian(ring, turn_cosine, turn_sine, trial, force, trial_gradient, trial_hessian)
+        trial_energy = _energy_gradient_hessian(
+            ring, turn_cosine, turn_sine, trial, force, trial_gradient, trial_hessian
+        )
         slope = gradient[0] * step[0] + gradient[1] * step[1] + gradient[2] * step[2]
         trial_unbalanced = _length(trial_gradient)
         in_contact = _trace(trial_hessian) > 0.0 or trial_unbalanced <= tolerance
@@ -145,6 +149,7 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
         else:
             relative = max(10.0 * relative, 1e-8)
     return _length(gradient)
+
 
 @jit
 def balance(ring, shaft_angle, force, displacement):

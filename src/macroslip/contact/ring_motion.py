@@ -79,12 +79,20 @@ def ring_motion(
     Raises
     ------
     InputError
-        If a roller load exceeds `truncation_load`.
+        If a roller load exceeds `truncation_load`, or a bearing without contact angle gets an axial load.
     MacroslipError
         If a balance did not converge.
     """
     time, speed, force = _finely_sampled(loads, model.orbit_ratio, bearing.rollers_per_row)
     ring = ring_geometry(bearing, model)
+    if not ring.axial.any() and force[:, 2].any():
+        sample = int(np.argmax(force[:, 2] != 0.0))
+        raise InputError(
+            f"the axial load is {force[sample, 2]:g} N, and rollers without contact angle carry none",
+            where=f"{loads.source}, t = {time[sample]:g} s",
+            allowed=f"zero axial load for {bearing.name}",
+            remedy="Give the bearing its contact angle",
+        )
     angle = shaft_angle(time, speed)
     displacement, unbalanced = np.empty_like(force), np.empty(time.size)
     balance_series(ring, angle, force, displacement, unbalanced)
@@ -93,12 +101,14 @@ def ring_motion(
     if not excess[worst] <= 0.0:
         raise MacroslipError(
             f"{loads.source}, t = {time[worst]:g} s: the ring balance left {unbalanced[worst]:g} N of the load "
-            f"{force[worst]} N unbalanced. This is a defect of the solver; please report it with the bearing and this load."
+            f"{force[worst]} N unbalanced. This is a defect of the solver; please report it with the bearing and this "
+            "load."
         )
     largest, sample = largest_load(ring, angle, displacement)
     if largest > truncation_load:
         raise InputError(
-            f"a roller carries {largest / 1e3:.4g} kN, at which its contact ellipse would reach beyond the roller's ends",
+            f"a roller carries {largest / 1e3:.4g} kN, at which its contact ellipse would reach beyond the roller's "
+            "ends",
             where=f"{loads.source}, t = {time[sample]:g} s",
             allowed=f"roller loads up to {truncation_load / 1e3:.4g} kN for {bearing.name}",
             remedy="Check units and signs of the loads, the bearing's size and its osculation; a truncated contact has "
@@ -116,6 +126,7 @@ def _finely_sampled(
     if pieces.max() <= 1:
         return loads.time, loads.shaft_speed, loads.force
     spans = zip(loads.time[:-1], loads.time[1:], np.maximum(pieces, 1), strict=True)
-    time = np.concatenate([*(np.linspace(start, end, count, endpoint=False) for start, end, count in spans), loads.time[-1:]])
+    pieces = [np.linspace(start, end, count, endpoint=False) for start, end, count in spans]
+    time = np.concatenate([*pieces, loads.time[-1:]])
     force = np.column_stack([np.interp(time, loads.time, component) for component in loads.force.T])
     return time, np.interp(time, loads.time, loads.shaft_speed), force

@@ -67,7 +67,10 @@ def prepare(name: str, interface: Interface) -> Any:
     """
     if name not in _prepare:
         raise InputError(
-            f"there is no film law '{name}'", where="laws.film", allowed=", ".join(names()), remedy="Choose one of these"
+            f"there is no film law '{name}'",
+            where="laws.film",
+            allowed=", ".join(names()),
+            remedy="Choose one of these",
         )
     return _prepare[name](interface)
 

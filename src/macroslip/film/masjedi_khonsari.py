@@ -50,7 +50,7 @@ def masjedi_khonsari(load, speed, material, roughness, hardness):
     Examples
     --------
     >>> round(masjedi_khonsari(1e-4, 1e-11, 4846.0, 0.0, 0.03) * 1e5, 4)
-    1.8463
+    1.8365
     """
     smooth = 2.691 * load**-0.135 * speed**0.705 * material**0.556
     rough = 0.2 * roughness**1.222 * hardness**0.223 * load**-0.229 * speed**-0.748 * material**-0.842
@@ -86,6 +86,10 @@ def prepare(interface: Interface) -> MasjediKhonsari:
 
 @jit
 def thickness(law, load, entrainment_speed):
+    """h [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0, whether in range or not.
+
+    Where roughness dominates, h hardly depends on speed and even falls with it, as U^−0.043.
+    """
     log_load = math.log(load) * (2.0 / 3.0)
     log_speed = math.log(entrainment_speed)
     smooth = math.exp(law.log_smooth - 0.135 * log_load + 0.705 * log_speed)
@@ -99,6 +103,7 @@ def thickness(law, load, entrainment_speed):
 
 @jit
 def in_range(law, load, entrainment_speed):
+    """Whether W and U are in `RANGES`; the groups that do not change with load and speed are not judged here."""
     w = law.load_group * load ** (2.0 / 3.0)
     u = law.speed_group * entrainment_speed
     return 2e-5 <= w <= 5e-4 and 1e-12 <= u <= 1e-10

@@ -1,8 +1,8 @@
 """Where on its way a roller is loaded, so that no step of an integrator can pass over a load zone or over its edge.
 
 Every interval between load samples belongs to one of three classes. `FREE`: no elastic load all through; nothing but
-the smooth body forces acts. `FIRM`: so much load all through that slip relaxes within a small part of a millisecond; the
-slip then follows the instant's balance of forces. `EDGE`: anything else; here steps must end at samples and at the
+the smooth body forces acts. `FIRM`: so much load all through that slip relaxes within a small part of a millisecond;
+the slip then follows the instant's balance of forces. `EDGE`: anything else; here steps must end at samples and at the
 instant the load begins or ends.
 """
 
@@ -24,7 +24,7 @@ FIRM_RATE = 1e4
 
 @jit
 def relaxation_rate(model, load, ring_speed):
-    """Rate (r²/I_z') d(F_i + F_o)/dv at zero slip [1/s] of a roller under `load` [N], raceways at `ring_speed` [m/s]."""
+    """Rate (r²/I_z') d(F_i + F_o)/dv at zero slip [1/s] under `load` [N], with raceways at `ring_speed` ≥ 0 [m/s]."""
     _, inner, _ = contact_force(model.inner, load, 0.0, ring_speed, 0.0)
     _, outer, _ = contact_force(model.outer, load, 0.0, ring_speed, 0.0)
     return model.mobility * (inner + outer)
@@ -60,18 +60,31 @@ def interference_at(model, motion, start_angle, interval, time):
 def classify(model, motion, start_angle, firm, classes):
     """Write the class of every sample interval into `classes`, shape (n − 1,).
 
-    Between two samples δ differs from the chord by at most |δ''| Δt²/8; the roller's turning and the ring's motion bound
-    it, and the classes keep that margin.
+    Between two samples δ differs from the chord by at most |δ''| Δt²/8. The roller's turning, its acceleration and the
+    ring's motion bound |δ''| by (φ'² + |φ''|) |d| + 2 |φ'| |d'|, and the classes keep that margin.
+
+    Parameters
+    ----------
+    model : RollerModel
+    motion : Motion
+    start_angle : float
+        Roller position φ at the first sample [rad].
+    firm : float
+        Interference from which on the roller counts as firmly held [m], see `firm_interference`.
+    classes : ndarray of int8, shape (n − 1,)
+        Filled with `FREE`, `EDGE` and `FIRM`.
     """
     last = motion.time.size - 1
     before = interference_at(model, motion, start_angle, 0, motion.time[0])
     for k in range(last):
         after = interference_at(model, motion, start_angle, k, motion.time[k + 1])
         near, far = motion.displacement[k], motion.displacement[k + 1]
-        turn = abs(model.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
-        turn *= max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
+        span = abs(model.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
+        turn = span * max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
+        quickening = span * abs(motion.shaft_speed[k + 1] - motion.shaft_speed[k])
         reach = max(math.hypot(near[0], near[1]), math.hypot(far[0], far[1]))
-        margin = 0.25 * turn * (turn * reach + math.hypot(far[0] - near[0], far[1] - near[1])) + 1e-15
+        shift = math.hypot(far[0] - near[0], far[1] - near[1])
+        margin = 0.125 * ((turn * turn + quickening) * reach + 2.0 * turn * shift) + 1e-15
         if before < -margin and after < -margin:
             classes[k] = FREE
         elif before > firm + margin and after > firm + margin:
@@ -83,7 +96,10 @@ def classify(model, motion, start_angle, firm, classes):
 
 @jit
 def edge_time(model, motion, start_angle, interval, start, end):
-    """First change of sign of the interference between `start` and `end` [s] of one interval; `end` if there is none."""
+    """Time [s] just after the interference changes sign between `start` and `end` of one interval.
+
+    It is `end` if the signs there are the same; a load that comes and goes in between is not seen.
+    """
     first = interference_at(model, motion, start_angle, interval, start)
     last = interference_at(model, motion, start_angle, interval, end)
     if first == 0.0 or first * last >= 0.0:

@@ -85,10 +85,9 @@ def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Inter
     tuple of three Interface
         In the order inner, outer, cage.
     """
-    steel = effective_modulus(bearing.youngs_modulus, bearing.poisson_ratio, bearing.youngs_modulus, bearing.poisson_ratio)
-    cage = effective_modulus(
-        bearing.youngs_modulus, bearing.poisson_ratio, bearing.cage_youngs_modulus, bearing.cage_poisson_ratio
-    )
+    own = bearing.youngs_modulus, bearing.poisson_ratio
+    steel = effective_modulus(*own, *own)
+    cage = effective_modulus(*own, bearing.cage_youngs_modulus, bearing.cage_poisson_ratio)
     found = []
     for name, curvatures, modulus in (
         ("inner", geometry.inner_curvatures(bearing), steel),

@@ -54,8 +54,9 @@ def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -
     """
     path = travel(time, shaft_speed, orbit_ratio)
     found = []
-    # What rounding takes from the last orbit of a whole number is given back.
-    for orbit in range(1, math.floor(path[-1] / (2.0 * math.pi) * (1.0 + 1e-14)) + 1):
+    # What the rounding of the sum takes from the last orbit of a whole number is given back.
+    rounding = 4e-16 * (time.size + 10)
+    for orbit in range(1, math.floor(path[-1] / (2.0 * math.pi) * (1.0 + rounding)) + 1):
         target = min(2.0 * math.pi * orbit, path[-1])
         k = min(int(np.searchsorted(path, target, side="left")), time.size - 1) - 1
         found.append(_time_in_interval(time, shaft_speed * orbit_ratio, path, k, target))

@@ -20,7 +20,7 @@ class BarusCrook(NamedTuple):
     Attributes
     ----------
     conductance : float
-        2π a b η0 per Q^(2/3) [N s m/ (m N^(2/3))]: force per slip at unit film, without the patch integral.
+        2π a b η0 per Q^(2/3) [N^(1/3) s]: force per slip at unit film, without the patch integral.
     pressure_exponent : float
         P = α_p p0 per Q^(1/3) [N^(-1/3)].
     heating : float
@@ -36,15 +36,17 @@ def prepare(interface: Interface) -> BarusCrook:
     """The law for an interface of given Hertz coefficients and lubricant."""
     hertz, lubricant = interface.hertz, interface.lubricant
     area = 2.0 * math.pi * hertz.semi_axis_across * hertz.semi_axis_along
+    heating = lubricant.temperature_viscosity * lubricant.viscosity / (8.0 * lubricant.thermal_conductivity)
     return BarusCrook(
         conductance=area * lubricant.viscosity,
         pressure_exponent=lubricant.pressure_viscosity * hertz.pressure,
-        heating=math.sqrt(lubricant.temperature_viscosity * lubricant.viscosity / (8.0 * lubricant.thermal_conductivity)),
+        heating=math.sqrt(heating),
     )
 
 
 @jit
 def traction(law, load, film_thickness, slip):
+    """F [N], ∂F/∂Δu [N s/m], ∂F/∂h [N/m] and ∂F/∂Q [-] at Q > 0 [N], h > 0 [m] and Δu [m/s]; F has the sign of Δu."""
     root_load = load ** (1.0 / 3.0)
     exponent = law.pressure_exponent * root_load
     patch, by_log_slip, by_exponent = patch_integral(exponent, law.heating * abs(slip))
@@ -56,6 +58,7 @@ def traction(law, load, film_thickness, slip):
 
 @jit
 def rising_slip(law, load):
+    """|Δu| [m/s] at which the middle of the contact, its hottest point, reaches the peak of Crook's stress."""
     return _ROOT_HEATING_AT_PEAK / law.heating * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
 
 

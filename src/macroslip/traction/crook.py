@@ -92,7 +92,7 @@ def shear_stress(viscosity, temperature_viscosity, thermal_conductivity, film_th
     Examples
     --------
     >>> round(shear_stress(0.54, 0.056, 0.125, 1e-6, 0.1), 3)
-    53989.117
+    53989.116
     """
     heating = heating_number(viscosity, temperature_viscosity, thermal_conductivity, slip)
     return viscosity * thermal_reduction(heating) * slip / film_thickness

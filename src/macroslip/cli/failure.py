@@ -1,0 +1,54 @@
+"""How a command fails: one clean paragraph and an exit code a script can act on."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import typer
+
+from macroslip.errors import MacroslipError
+
+INTERNAL_ERROR, BAD_INPUT, ROLLERS_FAILED, INTERRUPTED = 1, 2, 3, 130
+
+
+def tell(text: str) -> None:
+    """Write a line to standard error."""
+    typer.echo(text, err=True)
+
+
+def command(app: typer.Typer, function: Callable[..., None]) -> None:
+    """Add a function to the commands of `app`, under its own name.
+
+    What it raises becomes a paragraph on standard error and an exit code; only an error in the program itself shows a
+    traceback.
+    """
+
+    @functools.wraps(function)
+    def run(*args: Any, **options: Any) -> None:
+        try:
+            function(*args, **options)
+        except (typer.Exit, BrokenPipeError):  # a reader such as `head` that has seen enough is not an error
+            raise
+        except KeyboardInterrupt:
+            tell("interrupted")
+            raise typer.Exit(INTERRUPTED) from None
+        except MacroslipError as error:
+            tell(f"error: {error}")
+            raise typer.Exit(BAD_INPUT) from None
+        except OSError as error:
+            place = f"{error.filename}: " if error.filename else ""
+            tell(f"error: {place}{error.strerror or error}. Check the path, the rights to it and the room on the disk.")
+            raise typer.Exit(BAD_INPUT) from None
+        except MemoryError:
+            tell("error: the computer has not enough memory for this. Use shorter loads, fewer rollers or no traces.")
+            raise typer.Exit(BAD_INPUT) from None
+        except Exception as error:
+            import traceback
+
+            traceback.print_exc()
+            tell(f"internal error: {type(error).__name__}. This is a fault of macroslip; please report what is above.")
+            raise typer.Exit(INTERNAL_ERROR) from None
+
+    app.command()(run)

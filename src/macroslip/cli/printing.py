@@ -1,0 +1,48 @@
+"""Tables on standard output."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+PIPE_WIDTH = 160
+"""Characters a line may have where there is no terminal."""
+
+
+def console() -> Console:
+    """Standard output, which takes brackets as brackets and colours nothing by guessing."""
+    from rich.console import Console
+
+    found = Console(markup=False, highlight=False)
+    return found if found.is_terminal else Console(markup=False, highlight=False, width=PIPE_WIDTH)
+
+
+def table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
+    """Print a table; the headings say whether a column holds numbers."""
+    from rich.table import Table
+
+    shown = Table(box=None, padding=(0, 2, 0, 0))
+    for heading, numbers in headings:
+        shown.add_column(heading, justify="right" if numbers else "left")
+    for row in rows:
+        shown.add_row(*row)
+    out = console()
+    out.print(title, style="bold", soft_wrap=True)
+    out.print(shown)
+
+
+def number(value: float) -> str:
+    """Write a number with four digits, or a dash if there is none.
+
+    Examples
+    --------
+    >>> number(1234.56), number(2.14), number(0.0), number(float("nan"))
+    ('1235', '2.14', '0', '-')
+    """
+    if math.isnan(value):
+        return "-"
+    return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.4g}"

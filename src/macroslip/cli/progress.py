@@ -1,0 +1,57 @@
+"""A progress bar with the time left."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+DELAY = 1.0
+"""What is done within this time [s] shows no bar."""
+
+
+@contextmanager
+def progress_bar(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | None]:
+    """Show a bar on standard error while the block runs, if that is a terminal and it takes more than a moment.
+
+    Parameters
+    ----------
+    quiet : bool
+        Whether to show nothing.
+
+    Yields
+    ------
+    callable or None
+        To be called as `report(label, done, total)`; None if nothing is shown.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    if quiet or not console.is_terminal:
+        yield None
+        return
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        TextColumn("left"),
+    )
+    bar = Progress(*columns, console=console, transient=True, speed_estimate_period=600.0)
+    task = bar.add_task("preparing (the first run of all compiles)", total=None)
+
+    def report(label: str, done: int, total: int) -> None:
+        if label != bar.tasks[0].description:  # another piece of work: its speed is its own
+            bar.reset(task, description=label, total=total)
+        bar.update(task, completed=done)
+
+    start = threading.Timer(DELAY, bar.start)
+    start.daemon = True
+    start.start()
+    try:
+        yield report
+    finally:
+        start.cancel()
+        start.join()
+        bar.stop()

@@ -1,0 +1,36 @@
+"""`macroslip reproduce`: the paper's study, figures and numbers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from macroslip.cli.failure import ROLLERS_FAILED, tell
+from macroslip.cli.progress import progress_bar
+
+HEADLINES = 10
+"""Lines of the summary that are printed."""
+
+
+def reproduce(
+    output: Annotated[
+        Path,
+        typer.Option("--output", "-o", help="The folder to write to; what it holds of an earlier run is replaced."),
+    ],
+    threads: Annotated[int | None, typer.Option(min=1, help="Threads; all processors if not given.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
+) -> None:
+    """Reproduce the paper: its figures and numbers."""
+    from macroslip.study.reproduce import reproduce as study
+
+    with progress_bar(quiet=quiet) as report:
+        summary = study(output, threads=threads, progress=report)
+    if not quiet:
+        for line in summary["headline"][:HEADLINES]:
+            typer.echo(line)
+        typer.echo(f"written: {output}")
+    if any(summary["failed_rollers"][part] for part in ("study", "single_rollers")):
+        tell(f"failed: some rollers did not reach the end; {output}/summary.json says how many in which case.")
+        raise typer.Exit(ROLLERS_FAILED)

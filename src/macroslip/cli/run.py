@@ -1,0 +1,85 @@
+"""`macroslip run`: one case, from its file to a netCDF file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from macroslip.cli.failure import ROLLERS_FAILED, tell
+from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.cli.progress import progress_bar
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def run(
+    case: Annotated[Path, typer.Argument(help="The case file; `macroslip init` writes one.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="The netCDF file to write.")],
+    threads: Annotated[int | None, typer.Option(min=1, help="Threads; all processors if not given.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
+) -> None:
+    """Compute the slip of a case's rollers, as netCDF."""
+    from macroslip.study.case_file import read_case
+
+    check_new_file(output, force=force)
+    checked = read_case(case)
+    from macroslip.study.simulate import simulate
+
+    with progress_bar(quiet=quiet) as report:
+        progress = report and (lambda done, total: report("rollers", done, total))
+        dataset = simulate(checked, threads=threads, progress=progress)
+    # In memory first: the HDF5 library may bring the whole process down when the disk is full.
+    content = dataset.to_netcdf(engine="h5netcdf")
+    with new_file(output) as temporary:
+        temporary.write_bytes(content)
+    if not quiet:
+        _summary(dataset)
+        typer.echo(f"written: {output}")
+    if _tell_failures(dataset):
+        raise typer.Exit(ROLLERS_FAILED)
+
+
+def _summary(dataset: xr.Dataset) -> None:
+    """Print what a user looks at first, row by row."""
+    from macroslip.cli.printing import number, table
+
+    rows = []
+    for name in dataset.row.values:
+        row = dataset.sel(row=name)
+        # Of rollers that failed nothing is known; a window without a complete orbit has no peaks.
+        values = (row.energy.sum("interface", skipna=False).dropna("roller"), row.peak_power, row.min_spin_ratio)
+        energy, peak, spin = (value.values[~value.isnull().values] for value in values)
+        rows.append(
+            [
+                str(name),
+                number(energy.mean() if energy.size else float("nan")),
+                number(peak.max() if peak.size else float("nan")),
+                number(spin.min() if spin.size else float("nan")),
+                f"{int((row.status != 0).sum())} of {row.sizes['roller']}",
+            ]
+        )
+    start, end = dataset.attrs["window_start"], dataset.attrs["window_end"]
+    orbits = dataset.sizes["orbit"]
+    window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
+    numbers = "mean energy per roller [J]", "highest peak power [W]", "lowest spin / pure rolling [1]", "failed rollers"
+    headings = [("row", False), *((heading, True) for heading in numbers)]
+    table(f"{dataset.attrs['title']}, {window}", headings, rows)
+
+
+def _tell_failures(dataset: xr.Dataset) -> bool:
+    """Tell of every roller that failed when and how; whether there is one."""
+    from macroslip.integrate.status import Status
+
+    failed = [roller for roller in dataset.status.stack(one=("row", "roller")) if roller != Status.COMPLETED]
+    for roller in failed:
+        row, index = str(roller.row.values), int(roller.roller)
+        ended = dataset.sel(row=row, roller=index)
+        tell(
+            f"failed: roller {index} of the {row} row at t = {float(ended.end_time):.6g} s with a slip of "
+            f"{float(ended.end_slip):.4g} m/s: {Status(int(roller)).sentence}."
+        )
+    return bool(failed)

@@ -1,0 +1,73 @@
+"""The look of the figures: one typeface, colours for the colour-blind, markers and line styles that differ in grey."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: From Okabe and Ito's palette.
+BLACK, BLUE, ORANGE, GREEN, GREY = "#000000", "#0072B2", "#D55E00", "#009E73", "#6E6E6E"
+
+#: Line and marker of each turbulence class.
+TURBULENCE: Mapping[str, Mapping[str, object]] = MappingProxyType(
+    {
+        "A": {"color": ORANGE, "marker": "s", "linestyle": "-"},
+        "B": {"color": BLUE, "marker": "o", "linestyle": "--"},
+        "C": {"color": GREEN, "marker": "^", "linestyle": ":"},
+    }
+)
+#: Line and marker of each row.
+ROW: Mapping[str, Mapping[str, object]] = MappingProxyType(
+    {
+        "downwind": {"color": BLUE, "marker": "o", "linestyle": "-"},
+        "upwind": {"color": ORANGE, "marker": "s", "linestyle": "--"},
+    }
+)
+#: Steps from one turbulence class to the next along the wind-speed axis [m/s], so that bars do not hide each other.
+CLASS_OFFSET: Mapping[str, float] = MappingProxyType({"A": -0.35, "B": 0.0, "C": 0.35})
+
+
+def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: object) -> tuple[Figure, list]:
+    """A figure of the given size [inches] with a grid of axes, row by row, without any global plotting state."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout="constrained")
+    figure.get_layout_engine().set(wspace=0.06)
+    grid = figure.subplots(rows, columns, squeeze=False, **options)
+    return figure, list(grid.ravel())
+
+
+def finish(axes: Axes, x_label: str, y_label: str, title: str = "") -> Axes:
+    """Label the axes and take away what carries no information."""
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    if title:
+        axes.set_title(title, fontsize=10, loc="left")
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.tick_params(labelsize=9)
+    return axes
+
+
+def log_ticks(axes: Axes) -> Axes:
+    """A logarithmic vertical axis with plain numbers at 1, 2 and 5 of every decade."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    return axes
+
+
+def save(figure: Figure, folder: object, name: str) -> list[str]:
+    """Write the figure as PNG (200 dpi) and SVG into `folder` (a Path); returns the file names."""
+    files = [f"{name}.png", f"{name}.svg"]
+    figure.savefig(folder / files[0], dpi=200)
+    figure.savefig(folder / files[1], metadata={"Date": None})
+    return files

@@ -1,0 +1,40 @@
+"""A folder with a quick case on a genuine OpenFAST file, and the command line run in this process."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from typer.testing import CliRunner
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """An empty current folder."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def quick(folder):
+    """Write `case.yaml`: two rollers a row for two seconds, with further lines if wanted."""
+
+    def write(further="", loads=f"{{file: {DATA / 'sample14B.outb'}, start: 60 s, end: 62 s}}", rollers="[0, 14]"):
+        (folder / "case.yaml").write_text(f"loads: {loads}\nrollers: {rollers}\n{further}", encoding="utf-8")
+        return "case.yaml"
+
+    return write
+
+
+@pytest.fixture
+def macroslip():
+    """Run a command; gives exit code, standard output and standard error."""
+
+    def run(*arguments):
+        from macroslip.cli import app
+
+        done = CliRunner().invoke(app, [str(argument) for argument in arguments])
+        return SimpleNamespace(code=done.exit_code, out=done.stdout, err=done.stderr)
+
+    return run

@@ -1,0 +1,59 @@
+"""`macroslip bearing` and `macroslip lubricant`."""
+
+import json
+
+import pytest
+
+from macroslip import Bearing, Lubricant
+
+KINDS = [("bearing", Bearing), ("lubricant", Lubricant)]
+
+
+@pytest.mark.parametrize(("noun", "kind"), KINDS)
+def test_list(macroslip, noun, kind):
+    done = macroslip(noun, "list")
+    assert (done.code, done.err) == (0, "")
+    for name in kind.catalogue():
+        assert any(line.split()[0] == name and kind.read(name).title in line for line in done.out.splitlines())
+
+
+@pytest.mark.parametrize(("noun", "kind"), KINDS)
+def test_show_tells_every_value_as_written_with_its_origin(macroslip, noun, kind):
+    for name in kind.catalogue():
+        done = macroslip(noun, "show", name)
+        assert (done.code, done.err) == (0, "")
+        lines = {line.split()[0]: line for line in done.out.splitlines() if line.split()}
+        for key, origin in kind.read(name).provenance.items():
+            unit = "" if origin.unit == "1" else f" {origin.unit}"
+            assert f"  {origin.value}{unit}  {origin.tag}: " in lines[key]
+            assert " ".join(origin.note.split()[:3]) in lines[key]
+
+
+def test_show_tells_what_follows_from_a_bearing(macroslip):
+    out = " ".join(macroslip("bearing", "show", "skf-240-600-bc").out.split())
+    assert "stiffness K 9.258e+10 N/m^1.5" in out
+    assert "truncation load 203.2 kN" in out
+    assert "orbit ratio 0.4539" in out
+    assert "contact_angle 11.2 deg D: derived" in out
+
+
+def test_show_a_file_of_the_users_own(folder, macroslip):
+    entries = Lubricant.read("vg460-pao").as_dict() | {"name": "mine", "viscosity": {"value": 0.6, "unit": "Pa s"}}
+    (folder / "mine.yaml").write_text(json.dumps(entries))
+    out = macroslip("lubricant", "show", "mine.yaml").out
+    assert out.startswith("mine: ") and "0.6 Pa s  U: user" in out
+
+
+@pytest.mark.parametrize(("noun", "kind"), KINDS)
+def test_schema(macroslip, noun, kind):
+    done = macroslip(noun, "schema")
+    assert (done.code, json.loads(done.out)) == (0, kind.json_schema())
+
+
+def test_a_name_that_does_not_exist(folder, macroslip):
+    done = macroslip("bearing", "show", "skf")
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        "error: no bearing can be read from 'skf' (No such file or directory). Allowed: the path of a YAML file, or a "
+        f"catalogue name: skf-240-600-bc. Relative paths start at {folder}.\n"
+    )

@@ -1,0 +1,82 @@
+"""`macroslip init` writes a case file that runs, and whose every key is explained."""
+
+from ruamel.yaml import YAML
+
+from macroslip.study.case_keys import CASE
+
+
+def test_init_then_run(folder, macroslip):
+    done = macroslip("init")
+    assert (done.code, done.err) == (0, "")
+    assert done.out == "written: case.yaml\nrun it:  macroslip run case.yaml -o case.nc\n"
+    done = macroslip("run", "case.yaml", "-o", "case.nc")
+    assert (done.code, done.err) == (0, "")
+    assert "bundled case 14B, from 6.40203 s to 60 s, 8 complete orbits" in done.out
+
+
+def test_init_keeps_an_existing_file_unless_forced(folder, macroslip):
+    (folder / "mine.yaml").write_text("precious")
+    done = macroslip("init", "mine.yaml")
+    assert done.code == 2
+    assert done.err == "error: mine.yaml: the file exists. Choose another name, or replace it with --force.\n"
+    assert (folder / "mine.yaml").read_text() == "precious"
+    assert macroslip("init", "mine.yaml", "--force").code == 0
+    assert "loads:" in (folder / "mine.yaml").read_text()
+    assert [path.name for path in folder.iterdir()] == ["mine.yaml"]
+
+
+def test_init_in_a_folder_that_is_not_there(folder, macroslip):
+    done = macroslip("init", "nope/case.yaml")
+    assert (done.code, done.err) == (
+        2, "error: nope/case.yaml: there is no folder 'nope'. Make that folder first, or choose another one.\n"
+    )  # fmt: skip
+
+
+def test_the_template_shows_every_key_with_a_comment_above(folder, macroslip):
+    macroslip("init")
+    lines = (folder / "case.yaml").read_text().splitlines()
+
+    def keys(section):
+        for key, kind in section.keys.items():
+            yield key
+            yield from keys(kind) if hasattr(kind, "keys") else ()
+            for variant in getattr(kind, "sections", {}).values():
+                yield from keys(variant)
+
+    for key in set(keys(CASE)):
+        places = [n for n, line in enumerate(lines) if line.lstrip(" #").startswith(f"{key}:")]
+        assert places, f"{key} is not in the template"
+        explained = (line for n in places for line in reversed(lines[:n]) if not line.lstrip(" #").startswith("force:"))
+        assert any(line.lstrip().startswith("#") for line in explained), f"{key} has no comment"
+
+
+def test_the_values_of_the_template_are_the_defaults(folder, macroslip):
+    from macroslip import Case, HubLoads
+    from macroslip.study.case_file import read_case
+
+    macroslip("init")
+    case = read_case("case.yaml").as_dict()
+    plain = Case(loads=HubLoads.bundled("14B").window(0.0, 60.0)).as_dict()
+    assert case | {"window": None} == plain | {"window": None}
+    assert case["window"] == {"start": None, "end": 60.0}
+
+
+def test_what_the_template_comments_out_is_right_too(folder, macroslip):
+    """Each alternative has to run the moment its comment signs are taken away."""
+    from macroslip.study.case_file import read_case
+
+    macroslip("init")
+    text = (folder / "case.yaml").read_text()
+    data = YAML(typ="safe", pure=True).load(text)
+    for start in ("  # hub:\n", "  # main_bearing:\n"):
+        block = text[text.index(start) :].split("\n\n")[0]
+        uncommented = "loads:\n" + block.replace("  # ", "  ", 1).replace("\n  # ", "\n  ")
+        (folder / "one.yaml").write_text(uncommented)
+        read_case("one.yaml")
+    for start in ("# integrator:\n#   method: backward", "# integrator:\n#   method: explicit", "# traces:\n"):
+        block = text[text.index(start) :].split("\n\n")[0]
+        block = block if block.count("# integrator:") < 2 else block[: block.rindex("# integrator:")]
+        uncommented = "\n".join(line.removeprefix("# ").removeprefix("#") for line in block.splitlines())
+        (folder / "one.yaml").write_text("loads: {bundled: 14B}\n" + uncommented + "\n")
+        read_case("one.yaml")
+    assert data["loads"] == {"bundled": "14B", "start": "0 s", "end": "60 s"}

@@ -1,0 +1,97 @@
+"""The command as a whole: version, help, speed of starting, usage errors, the progress bar."""
+
+import io
+import subprocess
+import sys
+import time
+
+import pytest
+
+import macroslip as package
+from macroslip.cli import progress
+
+
+def start(*arguments):
+    command = [sys.executable, "-c", "from macroslip.cli import main; main()", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+
+def test_version(macroslip):
+    assert macroslip("--version").out == f"macroslip {package.__version__}\n"
+
+
+def test_help_imports_nothing_heavy():
+    heavy = "numpy numba pandas xarray pydantic ruamel matplotlib scipy pyarrow"
+    code = (
+        "import sys\nfrom macroslip.cli import app\ntry: app(['--help'])\nexcept SystemExit: pass\n"
+        f"print([name for name in '{heavy}'.split() if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_help_names_every_command_and_exit_code(macroslip):
+    out = macroslip("--help").out
+    for word in ("init", "run", "reproduce", "loads", "bearing", "lubricant", "--version", "3 some rollers failed"):
+        assert word in " ".join(out.split())
+
+
+def test_usage_errors():
+    done = start("run", "case.yaml")
+    assert done.returncode == 2 and "Traceback" not in done.stderr and "--output" in done.stderr
+    done = start("run", "case.yaml", "-o", "x.nc", "--threads", "0")
+    assert done.returncode == 2 and "--threads" in done.stderr
+    assert start("walk").returncode == 2
+
+
+def test_a_reader_that_closes_early_is_no_error():
+    command = f"{sys.executable} -c 'from macroslip.cli import main; main()' bearing schema | head -1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
+    assert (done.stdout, done.stderr) == ("{\n", "")
+
+
+class Terminal(io.StringIO):
+    """A terminal to write to."""
+
+    def isatty(self):
+        return True
+
+
+@pytest.fixture
+def stderr(monkeypatch):
+    """Make standard error a terminal (or a plain file), within the test itself: pytest sets its own before that."""
+    monkeypatch.setenv("TERM", "xterm")
+
+    def set_to(kind):
+        monkeypatch.setattr(sys, "stderr", kind())
+        return sys.stderr
+
+    return set_to
+
+
+def test_the_bar_shows_label_count_and_time_left(stderr, monkeypatch):
+    screen = stderr(Terminal)
+    monkeypatch.setattr(progress, "DELAY", 0.0)
+    with progress.progress_bar(quiet=False) as report:
+        for stage in ("study", "figures"):
+            for done in range(1, 4):
+                report(stage, done, 3)
+                time.sleep(0.12)
+    shown = screen.getvalue()
+    assert "study" in shown and "figures" in shown and "3/3" in shown and "left" in shown
+
+
+def test_no_bar_for_what_is_quick(stderr):
+    screen = stderr(Terminal)
+    with progress.progress_bar(quiet=False) as report:
+        report("rollers", 1, 1)
+    assert "rollers" not in screen.getvalue()
+
+
+def test_no_bar_when_quiet_or_without_a_terminal(stderr):
+    stderr(Terminal)
+    with progress.progress_bar(quiet=True) as report:
+        assert report is None
+    stderr(io.StringIO)
+    with progress.progress_bar(quiet=False) as report:
+        assert report is None
