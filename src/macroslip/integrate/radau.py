@@ -8,19 +8,21 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit
+from macroslip.integrate.crossing import crossing
 from macroslip.integrate.peak import follow_peak, start_peak
 from macroslip.integrate.radau_step import (
     NODES,
     WEIGHTS,
+    collocation,
     energy_error,
     newton_update,
     residuals,
     slip_error,
 )
-from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, write_trace
+from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
 from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
 from macroslip.roller.forces import SlipForces, slip_forces, station
-from macroslip.roller.load_zone import EDGE, classify, edge_time
+from macroslip.roller.load_zone import EDGE, FREE, classify, edge_time
 from macroslip.roller.orbit import instant, interval_of
 from macroslip.traction.law import rising_slip
 
@@ -31,8 +33,19 @@ _EDGE_STEP = 1e-3
 _NEWTON_ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage.
 _FORCE_TOLERANCE = 1e-9
+#: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a coast and adds up;
+#: errors of energy are of either sign and its estimate is of low order, hence far too large.
+_SLIP_SHARE, _ENERGY_SHARE = 0.1, 10.0
 #: Part of a sample interval below which energy is not controlled more finely.
 _SHORT_PART = 0.05
+#: Parts of a step between the stages at which the equation's defect is looked at, and its weight as an error.
+_DEFECT_NODES = (0.4, 0.83)
+_DEFECT_WEIGHT = 0.25
+#: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
+#: must be for the power there to be meaningful.
+_PEAK_PARTS, _RESOLVED = 10, 30.0
+#: Part of the longest step above which steps end on the cusps of light contacts.
+_CUSP_PART = 0.03
 #: Largest relative change of slip in a step taken where traction may fall with slip.
 _HOT_CHANGE = 0.2
 
@@ -113,6 +126,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     evaluations, steps, rejections = 1, 0, 0
     peaks = np.empty((2, 4))
     start_peak(peaks, time, p_inner, p_outer, p_cage)
+    top_power, last_orbit = 0.0, -1
     status = COMPLETED
     barrier = time
     zone = -1
@@ -140,8 +154,9 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 slip = _rebalanced(model, motion, interval, at, slip)
                 forces = slip_forces(model, at, slip)
                 p_inner, p_outer, p_cage = powers(at, forces, slip)
-                start_peak(peaks, time, p_inner, p_outer, p_cage)
                 evaluations += 4
+            # Loads have a kink at every sample; no parabola for a peak should reach across it.
+            start_peak(peaks, time, p_inner, p_outer, p_cage)
             if zone == EDGE:
                 barrier = edge_time(model, motion, start_angle, interval, time, barrier)
                 if was != EDGE:
@@ -222,8 +237,32 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             step = 0.25 * h
             barrier = min(barrier, _sample_after(motion, interval, time, step))
             continue
+        # Traction of a contact whose load passes through zero has a cusp there; a long step ends on it.
+        if h > _CUSP_PART * limits.longest_step:
+            part = min(
+                crossing(forces.cage_load, f1.cage_load, f2.cage_load, f3.cage_load),
+                crossing(_lean(at), _lean(at1), _lean(at2), _lean(at3)) if zone == FREE else 1.0,
+            )
+            if part < 1.0:
+                rejections += 1
+                failed_before = True
+                step = part * h
+                barrier = min(barrier, time + step)
+                continue
         least = max(min(forces.slope, f1.slope, f2.slope, f3.slope), 0.0)
         slip_off = slip_error(scale, least, total, s1, s2, s3)
+        if zone == EDGE:
+            # Grip can vanish between two stages, and then the embedded estimate may vanish by accident.
+            for part in _DEFECT_NODES:
+                increment, rate = collocation(part, s1, s2, s3)
+                when = time + part * h
+                there = station(model, start_angle, instant(motion, interval, when))
+                between = slip + there.ring_speed - at.ring_speed + increment
+                push = slip_forces(model, there, between)
+                defect = rate + h * model.mobility * (push.inner + push.outer + push.cage)
+                grip = h * model.mobility * abs(push.slope)
+                slip_off = max(abs(slip_off), _DEFECT_WEIGHT * abs(defect) / (1.0 + grip))
+            evaluations += 2
         i1, o1, c1 = powers(at1, f1, v1)
         i2, o2, c2 = powers(at2, f2, v2)
         i3, o3, c3 = powers(at3, f3, v3)
@@ -236,11 +275,11 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             status = NOT_FINITE
             break
         mean_power = (spent + e_step) / (t3 - motion.time[0])
-        error = abs(slip_off) / (limits.tolerance * limits.speed_scale + 1e-300)
+        error = abs(slip_off) / (_SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300)
         # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a sample interval
         # may be off by what is allowed in that part.
         share = max(h, _SHORT_PART * sample_step)
-        error = max(error, abs(energy_off) / (limits.tolerance * max(mean_power * share, e_step) + 1e-300))
+        error = max(error, abs(energy_off) / (_ENERGY_SHARE * limits.tolerance * max(mean_power * share, e_step) + 1e-300))
         factor = 0.9 * max(error, 1e-8) ** -0.25
         if error > 1.0:
             rejections += 1
@@ -253,9 +292,30 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         if time >= record.edges[0]:
             orbit = orbit_at(record, 0.5 * (time + t3))
             add_energy(record, orbit, e_inner, e_outer, e_cage)
-            follow_peak(record, orbit, peaks, t1, i1, o1, c1)
-            follow_peak(record, orbit, peaks, t2, i2, o2, c2)
-            follow_peak(record, orbit, peaks, t3, i3, o3, c3)
+            raceways = max(i1, i2, i3, o1, o2, o3)
+            if orbit != last_orbit:
+                top_power, last_orbit = 0.0, orbit
+                raise_peak(record, orbit, 0, p_inner)
+                raise_peak(record, orbit, 1, p_outer)
+                raise_peak(record, orbit, 2, p_cage)
+            resolved = _RESOLVED * _SLIP_SHARE * limits.tolerance * limits.speed_scale
+            snapping = abs(slip) > resolved and abs(v3) < 0.7 * abs(slip)
+            if zone == EDGE and (snapping or raceways > 0.5 * top_power):
+                # A roller may just be snapping back; the peak lies between stages.
+                for part_of_peak in range(1, _PEAK_PARTS + 1):
+                    when = time + h * part_of_peak / _PEAK_PARTS
+                    increment, _ = collocation(part_of_peak / _PEAK_PARTS, s1, s2, s3)
+                    there = station(model, start_angle, instant(motion, interval, when))
+                    between = slip + there.ring_speed - at.ring_speed + increment
+                    if abs(between) > resolved:
+                        i, o, c = powers(there, slip_forces(model, there, between), between)
+                        follow_peak(record, orbit, peaks, when, i, o, c)
+                    evaluations += 1
+            else:
+                follow_peak(record, orbit, peaks, t1, i1, o1, c1)
+                follow_peak(record, orbit, peaks, t2, i2, o2, c2)
+                follow_peak(record, orbit, peaks, t3, i3, o3, c3)
+            top_power = max(top_power, raceways)
             note_state(record, model, at3, f3, v3, h)
         record.worst[0] = max(record.worst[0], unbalanced)
         time = barrier if h == left else t3
@@ -293,6 +353,12 @@ def _rebalanced(model, motion, interval, at, slip):
         forces = slip_forces(model, at, slip)
         slip += (needed - forces.inner - forces.outer - forces.cage) / forces.slope
     return slip
+
+
+@jit
+def _lean(at):
+    """Body force along the contact normal, positive outward [N]."""
+    return at.outer_load - at.inner_load
 
 
 @jit
