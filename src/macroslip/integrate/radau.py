@@ -21,7 +21,7 @@ from macroslip.integrate.radau_step import (
 )
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
 from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
-from macroslip.roller.forces import SlipForces, slip_forces, station
+from macroslip.roller.forces import SlipForces, shifted, slip_forces, station
 from macroslip.roller.load_zone import EDGE, FREE, classify, edge_time
 from macroslip.roller.orbit import instant, interval_of
 from macroslip.traction.law import rising_slip
@@ -36,6 +36,8 @@ _FORCE_TOLERANCE = 1e-9
 #: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a coast and adds up;
 #: errors of energy are of either sign and its estimate is of low order, hence far too large.
 _SLIP_SHARE, _ENERGY_SHARE = 0.1, 10.0
+#: Safety factor on the step that the error asks for, and most growth of a step.
+_SAFETY, _GROWTH = 0.8, 5.0
 #: Part of a sample interval below which energy is not controlled more finely.
 _SHORT_PART = 0.05
 #: Parts of a step between the stages at which the equation's defect is looked at, and its weight as an error.
@@ -79,15 +81,16 @@ class Limits(NamedTuple):
 
 @jit
 def _unloaded_forces():
-    return SlipForces(0.0, 0.0, 0.0, 0.0, 0.0)
+    return SlipForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @jit
-def _hot(model, at, slip):
-    """Whether traction at this slip may be on the falling branch of a raceway contact."""
-    size = abs(slip)
-    inner = at.inner_load > 0.0 and size > rising_slip(model.inner.traction, at.inner_load)
-    return inner or (at.outer_load > 0.0 and size > rising_slip(model.outer.traction, at.outer_load))
+def _surely_rising(model, at, at1, at2, at3):
+    """Slip up to which traction rises at both raceways for every load met in a step [m/s]."""
+    inner = max(at.inner_load, at1.inner_load, at2.inner_load, at3.inner_load)
+    outer = max(at.outer_load, at1.outer_load, at2.outer_load, at3.outer_load)
+    limit = rising_slip(model.inner.traction, inner) if inner > 0.0 else math.inf
+    return min(limit, rising_slip(model.outer.traction, outer)) if outer > 0.0 else limit
 
 
 @jit
@@ -215,20 +218,27 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 break
             if not math.isfinite(size) or (iteration > 2 and size > 0.9 * unbalanced):
                 break
+            # Newton's residuals shrink quadratically: the next one is foreseen from the last two, and where it is
+            # small enough the forces follow to first order, without another evaluation.
+            foreseen = size * size / unbalanced if iteration > 0 else math.inf
             unbalanced = size
             u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
             v1 += u1
             v2 += u2
             v3 += u3
+            if foreseen <= _FORCE_TOLERANCE * min(_magnitude(f1), _magnitude(f2), _magnitude(f3)) + round_off:
+                f1, f2, f3 = shifted(f1, u1), shifted(f2, u2), shifted(f3, u3)
+                s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
+                converged = True
+                unbalanced = foreseen
+                break
         if converged:
             # More than one root is possible only where traction falls with slip faster than the step allows.
             least = min(f1.slope, f2.slope, f3.slope)
             largest = max(abs(slip), abs(v1), abs(v2), abs(v3))
             if least < -0.5 * scale:
                 converged = False
-            elif largest > limits.cold_slip and (
-                _hot(model, at, slip) or _hot(model, at1, v1) or _hot(model, at2, v2) or _hot(model, at3, v3)
-            ):
+            elif largest > limits.cold_slip and largest > _surely_rising(model, at, at1, at2, at3):
                 change = max(abs(v1 - slip), abs(v2 - slip), abs(v3 - slip))
                 converged = change <= _HOT_CHANGE * abs(slip) + 1e-6 * limits.speed_scale
         if not converged:
@@ -280,7 +290,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         # may be off by what is allowed in that part.
         share = max(h, _SHORT_PART * sample_step)
         error = max(error, abs(energy_off) / (_ENERGY_SHARE * limits.tolerance * max(mean_power * share, e_step) + 1e-300))
-        factor = 0.9 * max(error, 1e-8) ** -0.25
+        factor = _SAFETY * max(error, 1e-8) ** -0.25
         if error > 1.0:
             rejections += 1
             failed_before = True
@@ -322,7 +332,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         interval = k3
         slip, at, forces = v3, at3, f3
         p_inner, p_outer, p_cage = i3, o3, c3
-        step = h * min(1.0 if failed_before else 5.0, factor)
+        step = h * min(1.0 if failed_before else _GROWTH, factor)
         failed_before = False
         while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
             write_trace(record, next_trace, at, forces, slip)
