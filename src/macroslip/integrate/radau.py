@@ -38,6 +38,8 @@ _FORCE_TOLERANCE = 1e-9
 _SLIP_SHARE, _ENERGY_SHARE = 0.1, 10.0
 #: Safety factor on the step that the error asks for, and most growth of a step.
 _SAFETY, _GROWTH = 0.8, 5.0
+#: Change of slip, as part of the raceway speed, up to which a firmly held roller counts as settled.
+_SETTLED = 1e-6
 #: Part of a sample interval below which energy is not controlled more finely.
 _SHORT_PART = 0.05
 #: Parts of a step between the stages at which the equation's defect is looked at, and its weight as an error.
@@ -154,10 +156,14 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                     last += 1
             barrier = min(motion.time[last + 1], stops[next_stop])
             if at.interference > limits.firm and time == motion.time[interval]:
-                slip = _rebalanced(model, motion, interval, at, slip)
-                forces = slip_forces(model, at, slip)
-                p_inner, p_outer, p_cage = powers(at, forces, slip)
-                evaluations += 4
+                balanced = _rebalanced(model, motion, interval, at, slip)
+                evaluations += 3
+                # A roller that still skids, or has not settled yet, goes its own way.
+                if abs(balanced - slip) < _SETTLED * limits.speed_scale:
+                    slip = balanced
+                    forces = slip_forces(model, at, slip)
+                    p_inner, p_outer, p_cage = powers(at, forces, slip)
+                    evaluations += 1
             # Loads have a kink at every sample; no parabola for a peak should reach across it.
             start_peak(peaks, time, p_inner, p_outer, p_cage)
             if zone == EDGE:
