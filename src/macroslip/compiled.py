@@ -35,9 +35,14 @@ def add_source(text: str) -> None:
 
 
 class _PackageCache(FunctionCache):
+    def __init__(self, function: Callable):
+        super().__init__(function)
+        # The stamp outdates the whole index, so that kernels of older sources are overwritten and do not pile up.
+        self._cache_file._source_stamp = (self._cache_file._source_stamp, _package_hash())
+
     def _index_key(self, sig, codegen):
         extra = hashlib.sha256("\0".join(_extra_sources).encode()).hexdigest()
-        return (*super()._index_key(sig, codegen), _package_hash(), extra)
+        return (*super()._index_key(sig, codegen), extra)
 
 
 def jit(function: Callable) -> Callable:

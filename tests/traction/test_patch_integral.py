@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.traction import crook_patch_integral
-from macroslip.traction.patch_integral import linear_patch, moment_of_coth, patch_integral
+from macroslip.traction.patch_integral import moment_of_coth, patch_integral
 
 # Where the code changes its formula, and neighbours at both sides.
-LEAST_LOG, SMALL_P, MEDIUM_P, LARGE_U = math.log(1e-4), 0.25, 1.2, 1.1
+COOL_LOG, SMALL_P, MEDIUM_P, LARGE_U = 0.5 * math.log(0.02), 0.4, 1.2, 1.1
 EDGES_P = [0.0, 1e-300, 1e-12, 1e-6, 1e-3, 0.05, 0.999, 1.001, 2.0, 3.3, 5.0, 10.0, 20.0, 31.0, 45.0, 60.0] + [
     edge * side for edge in (SMALL_P, MEDIUM_P, 0.5, 1.0) for side in (1 - 1e-9, 1.0, 1 + 1e-9)
 ]
@@ -61,7 +61,7 @@ def test_value_and_slopes_over_the_whole_range():
 def test_both_sides_of_the_changes_of_formula(side):
     p = np.array(EDGES_P)
     # q1 = q0 e^{P/2} at the end of the series for little heating; u1 and u0 at the end of the power series of M.
-    check(p, LEAST_LOG - 0.5 * p + side)
+    check(p, COOL_LOG - 0.5 * p + side)
     check(p, math.log(math.sinh(LARGE_U)) - 0.5 * p + side)
     check(p, np.full(p.size, math.log(math.sinh(LARGE_U))) + side)
 
@@ -131,7 +131,7 @@ def test_published_check_values(p, b0, expected):
     assert patch_integral(p, math.sqrt(b0))[0] == pytest.approx(expected, rel=2e-14, abs=0.0)
 
 
-@pytest.mark.parametrize("p", [0.0, 1e-9, 0.1, 0.999999, 1.0, 5.0, 60.0, 350.0])
+@pytest.mark.parametrize("p", [0.0, 1e-9, 0.1, 0.4, 0.999999, 1.0, 1.2, 5.0, 60.0, 350.0])
 def test_cold_patch_is_the_linear_limit(p):
     with mpmath.workdps(40):
         x = mpmath.mpf(p)
@@ -140,9 +140,8 @@ def test_cold_patch_is_the_linear_limit(p):
         # ∫ s² e^{xs} ds
         slope = (mpmath.exp(x) - 2 * value) / x if p > 1e-12 else mpmath.mpf(1) / 3
         value, slope = float(value), float(slope)
-    assert linear_patch(p, math.exp(p)) == pytest.approx((value, slope), rel=1e-14, abs=0.0)
     found = patch_integral(p, 0.0)
-    assert found == pytest.approx((value, 0.0, slope), rel=1e-14, abs=0.0)
+    assert found == pytest.approx((value, 0.0, slope), rel=2e-14, abs=0.0)
 
 
 def test_cold_patch_stays_a_number_beyond_the_range():

@@ -39,7 +39,7 @@ def follow_peak(record, orbit, samples, time, inner, outer, cage):
     """Take up the powers at a new time; raise the orbit's peaks to the samples and to the parabolas through them."""
     # Where spacing changes much between samples a fast transient has just ended, and a parabola would extrapolate it.
     before, after = samples[1, 0] - samples[0, 0], time - samples[1, 0]
-    even = before > 0.0 and after > 0.0 and before < 6.0 * after and after < 6.0 * before
+    even = before > 0.0 and after > 0.0 and before < 4.0 * after and after < 4.0 * before
     for interface in range(3):
         power = inner if interface == 0 else (outer if interface == 1 else cage)
         raise_peak(record, orbit, interface, power)

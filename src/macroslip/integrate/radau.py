@@ -8,19 +8,21 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit
+from macroslip.integrate.crossing import crossing
 from macroslip.integrate.peak import follow_peak, start_peak
 from macroslip.integrate.radau_step import (
     NODES,
     WEIGHTS,
+    collocation,
     energy_error,
     newton_update,
     residuals,
     slip_error,
 )
-from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, write_trace
+from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
 from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
-from macroslip.roller.forces import SlipForces, slip_forces, station
-from macroslip.roller.load_zone import EDGE, classify, edge_time
+from macroslip.roller.forces import SlipForces, shifted, slip_forces, station
+from macroslip.roller.load_zone import EDGE, FREE, classify, edge_time
 from macroslip.roller.orbit import instant, interval_of
 from macroslip.traction.law import rising_slip
 
@@ -31,8 +33,23 @@ _EDGE_STEP = 1e-3
 _NEWTON_ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage.
 _FORCE_TOLERANCE = 1e-9
+#: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a coast and adds up;
+#: errors of energy are of either sign and its estimate is of low order, hence far too large.
+_SLIP_SHARE, _ENERGY_SHARE = 0.1, 10.0
+#: Safety factor on the step that the error asks for, and most growth of a step.
+_SAFETY, _GROWTH = 0.8, 5.0
+#: Change of slip, as part of the raceway speed, up to which a firmly held roller counts as settled.
+_SETTLED = 1e-6
 #: Part of a sample interval below which energy is not controlled more finely.
 _SHORT_PART = 0.05
+#: Parts of a step between the stages at which the equation's defect is looked at, and its weight as an error.
+_DEFECT_NODES = (0.4, 0.83)
+_DEFECT_WEIGHT = 0.25
+#: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
+#: must be for the power there to be meaningful.
+_PEAK_PARTS, _RESOLVED = 10, 30.0
+#: Part of the longest step above which steps end on the cusps of light contacts.
+_CUSP_PART = 0.03
 #: Largest relative change of slip in a step taken where traction may fall with slip.
 _HOT_CHANGE = 0.2
 
@@ -66,15 +83,16 @@ class Limits(NamedTuple):
 
 @jit
 def _unloaded_forces():
-    return SlipForces(0.0, 0.0, 0.0, 0.0, 0.0)
+    return SlipForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @jit
-def _hot(model, at, slip):
-    """Whether traction at this slip may be on the falling branch of a raceway contact."""
-    size = abs(slip)
-    inner = at.inner_load > 0.0 and size > rising_slip(model.inner.traction, at.inner_load)
-    return inner or (at.outer_load > 0.0 and size > rising_slip(model.outer.traction, at.outer_load))
+def _surely_rising(model, at, at1, at2, at3):
+    """Slip up to which traction rises at both raceways for every load met in a step [m/s]."""
+    inner = max(at.inner_load, at1.inner_load, at2.inner_load, at3.inner_load)
+    outer = max(at.outer_load, at1.outer_load, at2.outer_load, at3.outer_load)
+    limit = rising_slip(model.inner.traction, inner) if inner > 0.0 else math.inf
+    return min(limit, rising_slip(model.outer.traction, outer)) if outer > 0.0 else limit
 
 
 @jit
@@ -113,6 +131,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     evaluations, steps, rejections = 1, 0, 0
     peaks = np.empty((2, 4))
     start_peak(peaks, time, p_inner, p_outer, p_cage)
+    top_power, last_orbit = 0.0, -1
     status = COMPLETED
     barrier = time
     zone = -1
@@ -137,11 +156,16 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                     last += 1
             barrier = min(motion.time[last + 1], stops[next_stop])
             if at.interference > limits.firm and time == motion.time[interval]:
-                slip = _rebalanced(model, motion, interval, at, slip)
-                forces = slip_forces(model, at, slip)
-                p_inner, p_outer, p_cage = powers(at, forces, slip)
-                start_peak(peaks, time, p_inner, p_outer, p_cage)
-                evaluations += 4
+                balanced = _rebalanced(model, motion, interval, at, slip)
+                evaluations += 3
+                # A roller that still skids, or has not settled yet, goes its own way.
+                if abs(balanced - slip) < _SETTLED * limits.speed_scale:
+                    slip = balanced
+                    forces = slip_forces(model, at, slip)
+                    p_inner, p_outer, p_cage = powers(at, forces, slip)
+                    evaluations += 1
+            # Loads have a kink at every sample; no parabola for a peak should reach across it.
+            start_peak(peaks, time, p_inner, p_outer, p_cage)
             if zone == EDGE:
                 barrier = edge_time(model, motion, start_angle, interval, time, barrier)
                 if was != EDGE:
@@ -200,20 +224,27 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 break
             if not math.isfinite(size) or (iteration > 2 and size > 0.9 * unbalanced):
                 break
+            # Newton's residuals shrink quadratically: the next one is foreseen from the last two, and where it is
+            # small enough the forces follow to first order, without another evaluation.
+            foreseen = size * size / unbalanced if iteration > 0 else math.inf
             unbalanced = size
             u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
             v1 += u1
             v2 += u2
             v3 += u3
+            if foreseen <= _FORCE_TOLERANCE * min(_magnitude(f1), _magnitude(f2), _magnitude(f3)) + round_off:
+                f1, f2, f3 = shifted(f1, u1), shifted(f2, u2), shifted(f3, u3)
+                s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
+                converged = True
+                unbalanced = foreseen
+                break
         if converged:
             # More than one root is possible only where traction falls with slip faster than the step allows.
             least = min(f1.slope, f2.slope, f3.slope)
             largest = max(abs(slip), abs(v1), abs(v2), abs(v3))
             if least < -0.5 * scale:
                 converged = False
-            elif largest > limits.cold_slip and (
-                _hot(model, at, slip) or _hot(model, at1, v1) or _hot(model, at2, v2) or _hot(model, at3, v3)
-            ):
+            elif largest > limits.cold_slip and largest > _surely_rising(model, at, at1, at2, at3):
                 change = max(abs(v1 - slip), abs(v2 - slip), abs(v3 - slip))
                 converged = change <= _HOT_CHANGE * abs(slip) + 1e-6 * limits.speed_scale
         if not converged:
@@ -222,8 +253,32 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             step = 0.25 * h
             barrier = min(barrier, _sample_after(motion, interval, time, step))
             continue
+        # Traction of a contact whose load passes through zero has a cusp there; a long step ends on it.
+        if h > _CUSP_PART * limits.longest_step:
+            part = min(
+                crossing(forces.cage_load, f1.cage_load, f2.cage_load, f3.cage_load),
+                crossing(_lean(at), _lean(at1), _lean(at2), _lean(at3)) if zone == FREE else 1.0,
+            )
+            if part < 1.0:
+                rejections += 1
+                failed_before = True
+                step = part * h
+                barrier = min(barrier, time + step)
+                continue
         least = max(min(forces.slope, f1.slope, f2.slope, f3.slope), 0.0)
         slip_off = slip_error(scale, least, total, s1, s2, s3)
+        if zone == EDGE:
+            # Grip can vanish between two stages, and then the embedded estimate may vanish by accident.
+            for part in _DEFECT_NODES:
+                increment, rate = collocation(part, s1, s2, s3)
+                when = time + part * h
+                there = station(model, start_angle, instant(motion, interval, when))
+                between = slip + there.ring_speed - at.ring_speed + increment
+                push = slip_forces(model, there, between)
+                defect = rate + h * model.mobility * (push.inner + push.outer + push.cage)
+                grip = h * model.mobility * abs(push.slope)
+                slip_off = max(abs(slip_off), _DEFECT_WEIGHT * abs(defect) / (1.0 + grip))
+            evaluations += 2
         i1, o1, c1 = powers(at1, f1, v1)
         i2, o2, c2 = powers(at2, f2, v2)
         i3, o3, c3 = powers(at3, f3, v3)
@@ -236,12 +291,12 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             status = NOT_FINITE
             break
         mean_power = (spent + e_step) / (t3 - motion.time[0])
-        error = abs(slip_off) / (limits.tolerance * limits.speed_scale + 1e-300)
+        error = abs(slip_off) / (_SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300)
         # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a sample interval
         # may be off by what is allowed in that part.
         share = max(h, _SHORT_PART * sample_step)
-        error = max(error, abs(energy_off) / (limits.tolerance * max(mean_power * share, e_step) + 1e-300))
-        factor = 0.9 * max(error, 1e-8) ** -0.25
+        error = max(error, abs(energy_off) / (_ENERGY_SHARE * limits.tolerance * max(mean_power * share, e_step) + 1e-300))
+        factor = _SAFETY * max(error, 1e-8) ** -0.25
         if error > 1.0:
             rejections += 1
             failed_before = True
@@ -253,16 +308,37 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         if time >= record.edges[0]:
             orbit = orbit_at(record, 0.5 * (time + t3))
             add_energy(record, orbit, e_inner, e_outer, e_cage)
-            follow_peak(record, orbit, peaks, t1, i1, o1, c1)
-            follow_peak(record, orbit, peaks, t2, i2, o2, c2)
-            follow_peak(record, orbit, peaks, t3, i3, o3, c3)
+            raceways = max(i1, i2, i3, o1, o2, o3)
+            if orbit != last_orbit:
+                top_power, last_orbit = 0.0, orbit
+                raise_peak(record, orbit, 0, p_inner)
+                raise_peak(record, orbit, 1, p_outer)
+                raise_peak(record, orbit, 2, p_cage)
+            resolved = _RESOLVED * _SLIP_SHARE * limits.tolerance * limits.speed_scale
+            snapping = abs(slip) > resolved and abs(v3) < 0.7 * abs(slip)
+            if zone == EDGE and (snapping or raceways > 0.5 * top_power):
+                # A roller may just be snapping back; the peak lies between stages.
+                for part_of_peak in range(1, _PEAK_PARTS + 1):
+                    when = time + h * part_of_peak / _PEAK_PARTS
+                    increment, _ = collocation(part_of_peak / _PEAK_PARTS, s1, s2, s3)
+                    there = station(model, start_angle, instant(motion, interval, when))
+                    between = slip + there.ring_speed - at.ring_speed + increment
+                    if abs(between) > resolved:
+                        i, o, c = powers(there, slip_forces(model, there, between), between)
+                        follow_peak(record, orbit, peaks, when, i, o, c)
+                    evaluations += 1
+            else:
+                follow_peak(record, orbit, peaks, t1, i1, o1, c1)
+                follow_peak(record, orbit, peaks, t2, i2, o2, c2)
+                follow_peak(record, orbit, peaks, t3, i3, o3, c3)
+            top_power = max(top_power, raceways)
             note_state(record, model, at3, f3, v3, h)
         record.worst[0] = max(record.worst[0], unbalanced)
         time = barrier if h == left else t3
         interval = k3
         slip, at, forces = v3, at3, f3
         p_inner, p_outer, p_cage = i3, o3, c3
-        step = h * min(1.0 if failed_before else 5.0, factor)
+        step = h * min(1.0 if failed_before else _GROWTH, factor)
         failed_before = False
         while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
             write_trace(record, next_trace, at, forces, slip)
@@ -293,6 +369,12 @@ def _rebalanced(model, motion, interval, at, slip):
         forces = slip_forces(model, at, slip)
         slip += (needed - forces.inner - forces.outer - forces.cage) / forces.slope
     return slip
+
+
+@jit
+def _lean(at):
+    """Body force along the contact normal, positive outward [N]."""
+    return at.outer_load - at.inner_load
 
 
 @jit

@@ -96,3 +96,23 @@ def slip_error(scale, slope, force_0, z1, z2, z3):
 def energy_error(step, p0, p1, p2, p3):
     """Estimated error of the energy spent in the step [J], from powers at the start and at the stages [W]."""
     return step * (EMBEDDED[0] * p0 + EMBEDDED[1] * p1 + EMBEDDED[2] * p2 + EMBEDDED[3] * p3)
+
+
+@jit
+def collocation(part, z1, z2, z3):
+    """Increment of the collocation polynomial [m/s] at a part of the step, and its derivative by that part [m/s].
+
+    Examples
+    --------
+    >>> increment, rate = collocation(0.5, NODES[0] ** 3, NODES[1] ** 3, 1.0)
+    >>> round(increment, 12), round(rate, 12)
+    (0.125, 0.75)
+    """
+    a, b = NODES[0], NODES[1]
+    # Newton's divided differences through (0, 0), (a, z1), (b, z2), (1, z3).
+    first = z1 / a
+    second = ((z2 - z1) / (b - a) - first) / b
+    third = ((z3 - z2) / (1.0 - b) - (z2 - z1) / (b - a)) / (1.0 - a) - second
+    increment = part * (first + (part - a) * (second + (part - b) * third))
+    rate = first + second * (2.0 * part - a) + third * ((part - a) * (part - b) + part * (2.0 * part - a - b))
+    return increment, rate

@@ -51,6 +51,8 @@ class SlipForces(NamedTuple):
         F_i, F_o, F_c [N], positive where they drive the spin ω up.
     slope : float
         d(F_i + F_o + F_c)/dv [N s/m].
+    inner_slope, outer_slope : float
+        dF_i/dv and dF_o/dv [N s/m].
     cage_load : float
         F_n,cage with its sign [N]: positive where the cage pushes the roller along +φ.
     """
@@ -59,6 +61,8 @@ class SlipForces(NamedTuple):
     outer: float
     cage: float
     slope: float
+    inner_slope: float
+    outer_slope: float
     cage_load: float
 
 
@@ -174,4 +178,20 @@ def slip_forces(model, at, slip):
     if cage_load < 0.0:
         by_load = -by_load
     slope = inner_slope + outer_slope + by_slip + by_load * (inner_slope - outer_slope)
-    return SlipForces(inner, outer, cage, slope, cage_load)
+    return SlipForces(inner, outer, cage, slope, inner_slope, outer_slope, cage_load)
+
+
+@jit
+def shifted(forces, change):
+    """The forces after a small change of slip [m/s], to first order."""
+    inner = forces.inner_slope * change
+    outer = forces.outer_slope * change
+    return SlipForces(
+        forces.inner + inner,
+        forces.outer + outer,
+        forces.cage + forces.slope * change - inner - outer,
+        forces.slope,
+        forces.inner_slope,
+        forces.outer_slope,
+        forces.cage_load + inner - outer,
+    )

@@ -37,7 +37,7 @@ class Radau:
         Steps and rejections after which a roller counts as failed.
     """
 
-    tolerance: float = 1e-4
+    tolerance: float = 2e-4
     max_steps: int = 100_000_000
 
     def __post_init__(self) -> None:

@@ -10,7 +10,7 @@ Put q = √B0 e^{Ps/2} and u = asinh q. Then Φ = I/(h² q0²) with h = P/2, q0 
 
 in which x = ln q, and u0, u1 belong to s = 0 and s = 1. M has a power series for small u and a polylogarithm form for
 large u. For small P the bracket cancels and the integral over y, then analytic in a wide neighbourhood, is taken by a
-Gauss rule whose error is below round-off; for small B0 e^P the series of g is integrated term by term. The same I gives
+Gauss rule whose error is below round-off; for small B0 e^P the power series of g is integrated term by term. The same I gives
 all derivatives: dI/dx0 = h w1 − (u1² − u0²)/2 and dI/dh = h w1.
 """
 
@@ -43,13 +43,18 @@ def _gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 _SERIES_TERMS = 18
+#: B0 e^P below which the power series of g is used, and its coefficients (−4)^n (n!)²/(2n + 1)!; what the last one
+#: leaves out is below 1e-16.
+_COOL = 0.02
+_G_SERIES = np.array([(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)])
+_G1, _G2, _G3, _G4, _G5, _G6, _G7, _G8 = (float(g) for g in _G_SERIES[1:])
 _M_SERIES = _power_series_of_m()
-_GAUSS_NODES_FEW, _GAUSS_WEIGHTS_FEW = _gauss_rule(4)
+_GAUSS_NODES_FEW, _GAUSS_WEIGHTS_FEW = _gauss_rule(5)
 _GAUSS_NODES_MANY, _GAUSS_WEIGHTS_MANY = _gauss_rule(8)
 _HALF_ZETA_3 = 0.6010284515797971
-# Largest P served by the 4-node rule and by the 8-node rule: w is analytic up to |Im x| = π/2, so the error of n nodes
-# over an interval P/2 is of order (2π·2/P)^(−2n).
-_P_FEW, _P_MANY = 0.25, 1.2
+# Largest P served by the 5-node and by the 8-node rule. The integrand's singularities, B = −1, lie π/P or more from the
+# interval of s, so that the error of n nodes is of order (4π/P)^(−2n).
+_P_FEW, _P_MANY = 0.4, 1.2
 
 
 @jit
@@ -76,39 +81,6 @@ def moment_of_coth(u):
         power *= decay
         n += 1.0
     return u * u * u / 3.0 + _HALF_ZETA_3 - total
-
-
-@jit
-def linear_patch(x, exp_x):
-    """∫₀¹ s e^{xs} ds = [e^x (x − 1) + 1]/x², the isothermal patch integral, and its derivative by x [-].
-
-    Parameters
-    ----------
-    x : float
-        Exponent, ≥ 0.
-    exp_x : float
-        e^x, passed because the caller has it.
-
-    Examples
-    --------
-    >>> linear_patch(0.0, 1.0)
-    (0.5, 0.3333333333333333)
-    >>> value, slope = linear_patch(20.0, math.exp(20.0))
-    >>> round(value, 4)
-    23045346.7845
-    """
-    if x < 1.0:
-        value = 0.0
-        slope = 0.0
-        for k in range(17, -1, -1):
-            slope = slope * x + value
-            value = value * x + _LINEAR_SERIES[k]
-        return value, slope
-    value = (exp_x * (x - 1.0) + 1.0) / (x * x)
-    return value, (exp_x - 2.0 * value) / x
-
-
-_LINEAR_SERIES = np.array([1.0 / (math.factorial(k) * (k + 2.0)) for k in range(18)])
 
 
 @jit
@@ -148,17 +120,11 @@ def patch_integral(pressure_exponent, root_heating):
     growth = math.exp(0.5 * p)
     heating = root_heating * root_heating
     q1 = root_heating * growth
-    if q1 < 1e-4:
-        # Series of g to second order in B; what is left out is below 1e-16.
-        exp_p = growth * growth
-        first, first_slope = linear_patch(p, exp_p)
-        if heating == 0.0:
-            return first, 0.0, first_slope
-        second, second_slope = linear_patch(2.0 * p, exp_p * exp_p)
-        loss = heating * 2.0 / 3.0
-        return first - loss * second, -2.0 * loss * second, first_slope - 2.0 * loss * second_slope
+    cool = q1 * q1 < _COOL
     if p < _P_MANY:
-        return _patch_by_gauss(p, root_heating)
+        return _patch_by_gauss(p, root_heating, cool)
+    if cool:
+        return _patch_by_series(p, heating, growth * growth)
     h = 0.5 * p
     u0 = math.asinh(root_heating)
     u1 = math.asinh(q1)
@@ -171,24 +137,70 @@ def patch_integral(pressure_exponent, root_heating):
 
 
 @jit
-def _patch_by_gauss(p, root_heating):
-    """The same three numbers from ∫₀¹ s w(x0 + hs) ds / q0² by Gauss-Jacobi quadrature, for small P."""
-    h = 0.5 * p
-    few = p < _P_FEW
+def _patch_by_series(p, heating, exp_p):
+    """The same three numbers from g(B) = Σ g_n B^n, integrated term by term, for small B0 e^P and P not small."""
     value = 0.0
     slope_log_slip = 0.0
     slope_pressure = 0.0
-    for k in range(4 if few else 8):
-        s = _GAUSS_NODES_FEW[k] if few else _GAUSS_NODES_MANY[k]
-        weight = _GAUSS_WEIGHTS_FEW[k] if few else _GAUSS_WEIGHTS_MANY[k]
-        growth = math.exp(h * s)
-        q = root_heating * growth
-        cosh = math.sqrt(1.0 + q * q)
-        u = math.asinh(q)
-        w = growth * growth * (u / (q * cosh))
-        # d ln w/dx = tanh u/u + (1 − tanh² u), and w here is already divided by q0², whose log-slope is 2.
-        log_slope = q / (u * cosh) + 1.0 / (cosh * cosh)
-        value += weight * w
-        slope_log_slip += weight * w * (log_slope - 2.0)
-        slope_pressure += weight * w * log_slope * 0.5 * s
+    # (B0 e^P)^n e^P and e^{−(n+1)P} keep every factor within floating point.
+    power = exp_p
+    decay = 1.0
+    for n in range(_G_SERIES.size):
+        decay /= exp_p
+        x = (n + 1.0) * p
+        weight = _G_SERIES[n] * power
+        term = weight * (x - 1.0 + decay) / (x * x)
+        value += term
+        slope_log_slip += 2.0 * n * term
+        slope_pressure += (weight - 2.0 * term) / p
+        if abs(term) < 1e-17 * value:
+            break
+        power *= heating * exp_p
+    return value, slope_log_slip, slope_pressure
+
+
+@jit
+def _g_and_slope(heating):
+    """g(B) and its logarithmic slope B g'(B) by the power series of g, for B below `_COOL`."""
+    g = _G8
+    steep = 8.0 * _G8
+    g = g * heating + _G7
+    steep = steep * heating + 7.0 * _G7
+    g = g * heating + _G6
+    steep = steep * heating + 6.0 * _G6
+    g = g * heating + _G5
+    steep = steep * heating + 5.0 * _G5
+    g = g * heating + _G4
+    steep = steep * heating + 4.0 * _G4
+    g = g * heating + _G3
+    steep = steep * heating + 3.0 * _G3
+    g = g * heating + _G2
+    steep = steep * heating + 2.0 * _G2
+    g = g * heating + _G1
+    steep = steep * heating + _G1
+    return g * heating + 1.0, steep * heating
+
+
+@jit
+def _patch_by_gauss(p, root_heating, cool):
+    """The same three numbers from ∫₀¹ s e^{Ps} g(B0 e^{Ps}) ds by Gauss-Jacobi quadrature, for small P."""
+    few = p < _P_FEW
+    nodes = _GAUSS_NODES_FEW if few else _GAUSS_NODES_MANY
+    weights = _GAUSS_WEIGHTS_FEW if few else _GAUSS_WEIGHTS_MANY
+    value = 0.0
+    slope_log_slip = 0.0
+    slope_pressure = 0.0
+    for k in range(nodes.size):
+        growth = math.exp(p * nodes[k])
+        heating = root_heating * root_heating * growth
+        if cool:
+            g, steep = _g_and_slope(heating)
+        else:
+            root = math.sqrt(heating)
+            g = math.asinh(root) / (root * math.sqrt(1.0 + heating))
+            steep = 0.5 * (1.0 - (1.0 + 2.0 * heating) * g) / (1.0 + heating)
+        share = weights[k] * growth
+        value += share * g
+        slope_log_slip += share * 2.0 * steep
+        slope_pressure += share * (g + steep) * nodes[k]
     return value, slope_log_slip, slope_pressure
