@@ -32,7 +32,7 @@ def test_every_tolerance_gives_the_answer_it_promises(turbulent, reference, tole
     assert coasting.any()
     spin_error = (abs(found.spin - reference.spin) / abs(reference.spin)).where(coasting)
     # A coast remembers; the errors of its steps add up.
-    assert float(spin_error.max()) < max(2.0 * tolerance**0.9, 3e-9) if tolerance < 1e-3 else float(spin_error.max()) < 3e-3
+    assert float(spin_error.max()) < max(tolerance, 3e-9)
 
 
 def test_default_tolerance_keeps_its_promises(turbulent, reference):
@@ -88,7 +88,7 @@ def test_standstill_reversal_and_their_mirror_image():
 
 
 @given(
-    force=st.tuples(*[st.floats(-8e5, 8e5)] * 3),
+    force=st.tuples(*[st.floats(-4.5e5, 4.5e5)] * 3),
     speed=st.floats(-3.0, 3.0),
     late_speed=st.floats(-3.0, 3.0),
     tolerance=st.sampled_from(TOLERANCES[:6]),

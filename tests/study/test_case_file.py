@@ -72,7 +72,7 @@ def test_words_stand_for_the_defaults(write):
         ("{method: backward-euler, step: 1 ms}", BackwardEuler(step=1e-3)),
         ("{method: backward-euler, step: 0.001 s, tolerance: 1e-6}", BackwardEuler(step=1e-3, tolerance=1e-6)),
         ("{method: explicit-euler, step: 1e-2 ms}", ExplicitEuler(step=1e-5)),
-        ("{tolerance: 1e-4}", Radau()),
+        ("{tolerance: 1e-4}", Radau(tolerance=1e-4)),
         ("{tolerance: 0.001}", Radau(tolerance=1e-3)),
     ],
 )

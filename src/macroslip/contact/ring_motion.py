@@ -124,7 +124,8 @@ def _finely_sampled(
     path = np.diff(travel(loads.time, loads.shaft_speed, orbit_ratio))
     pieces = np.ceil(path / (_SAMPLED_PITCH * 2.0 * np.pi / rollers_per_row) * (1.0 - 1e-9)).astype(int)
     if pieces.max() <= 1:
-        return loads.time, loads.shaft_speed, loads.force
+        # Copies: the loads are read-only, which would be another type to the compiler and compile everything twice.
+        return loads.time.copy(), loads.shaft_speed.copy(), loads.force.copy()
     spans = zip(loads.time[:-1], loads.time[1:], np.maximum(pieces, 1), strict=True)
     pieces = [np.linspace(start, end, count, endpoint=False) for start, end, count in spans]
     time = np.concatenate([*pieces, loads.time[-1:]])
