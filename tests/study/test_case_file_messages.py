@@ -148,8 +148,8 @@ def told(tmp_path):
         ),
         (
             LOADS + "integrator:\n  tolerance: 0.5\n",
-            "case.yaml, line 3, integrator.tolerance: the tolerance is 0.5. Allowed: 1e-10 to 1e-2. 1e-4 gives "
-            "energies to about 1e-5.",
+            "case.yaml, line 3, integrator.tolerance: the tolerance is 0.5. Allowed: 1e-10 to 1e-2. 2e-4 gives "
+            "energies and spin to 1e-4 and peak power to 1 %.",
         ),
         (
             LOADS + "integrator:\n  tolerance: '1e-4'\n  max_steps: 1.5\n",
