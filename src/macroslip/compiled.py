@@ -1,8 +1,8 @@
 """How physics functions are compiled: lazily, without fast-math, cached on disk, releasing the GIL.
 
 Numba's cache notices a change in the file of the function it compiled, but not in the files of the functions that were
-inlined into it. A stale kernel would be a wrong number without a sign, so the cache key here also holds a hash of every
-source file of the package and of every law registered by the user.
+inlined into it. A stale kernel would be a wrong number without a sign, so the cache key here also holds a hash of all
+sources a kernel can be made of, and of every law registered by the user.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ import numpy as np
 from numba.core.caching import FunctionCache
 
 _extra_sources: list[str] = []
+#: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
+_ROOMS_ABOVE_THE_KERNELS = ("bench", "cli", "report", "study")
 
 
 @functools.cache
@@ -24,14 +26,26 @@ def _package_hash() -> str:
     digest = hashlib.sha256()
     root = Path(__file__).parent
     for path in sorted(root.rglob("*.py")):
+        if path.relative_to(root).parts[0] in _ROOMS_ABOVE_THE_KERNELS:
+            continue
         digest.update(str(path.relative_to(root)).encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
 
-def add_source(text: str) -> None:
-    """Make compiled kernels depend on source text outside the package (a user's own law)."""
-    _extra_sources.append(text)
+def depend_on(*functions: Callable) -> None:
+    """Make kernels depend on the files that hold these compiled functions: a law of the user's own, say.
+
+    A function typed at a prompt has no file; then its bytecode and constants stand for it.
+    """
+    for function in functions:
+        plain = getattr(function, "py_func", function)
+        path = Path(plain.__code__.co_filename)
+        if path.is_relative_to(Path(__file__).parent):
+            continue
+        text = path.read_text(encoding="utf-8") if path.is_file() else repr((plain.__code__.co_code, plain.__code__.co_consts))
+        if text not in _extra_sources:
+            _extra_sources.append(text)
 
 
 class _PackageCache(FunctionCache):

@@ -166,3 +166,16 @@ def test_unknown_law_is_told_with_the_choices():
         law.prepare("dowson", interface)
     assert "masjedi-khonsari" in law.names()
     assert "10.1115/1.4005514" in law.reference("masjedi-khonsari")
+
+
+def test_groups_outside_the_range_whatever_the_load_are_told():
+    from macroslip import Bearing, Lubricant
+    from macroslip.film.law import film_range_notes
+    from macroslip.roller.model import interfaces
+
+    bearing, lubricant = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+    notes = film_range_notes("masjedi-khonsari", interfaces(bearing, lubricant))
+    # V = 7.0/230.77 = 0.0303 at every interface, just above 0.03.
+    assert notes == [f"{name}: the hardness group 0.03033 is outside 0.005 to 0.03" for name in ("inner", "outer", "cage")]
+    softer = bearing.replace(hardness=6.5e9)
+    assert film_range_notes("masjedi-khonsari", interfaces(softer, lubricant)) == []

@@ -7,11 +7,12 @@ need not know which laws exist.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from numba.extending import overload
 
+from macroslip.compiled import depend_on
 from macroslip.contact.interface import Interface
 from macroslip.errors import InputError
 
@@ -19,10 +20,18 @@ _thickness: dict[type, Callable] = {}
 _in_range: dict[type, Callable] = {}
 _prepare: dict[str, Callable[[Interface], Any]] = {}
 _references: dict[str, str] = {}
+_range_notes: dict[str, Callable[[Interface], list[str]]] = {}
 
 
 def register(
-    name: str, law: type, *, reference: str, prepare: Callable, thickness: Callable, in_range: Callable
+    name: str,
+    law: type,
+    *,
+    reference: str,
+    prepare: Callable,
+    thickness: Callable,
+    in_range: Callable,
+    range_notes: Callable = lambda interface: [],
 ) -> None:
     """Make a film law usable by name.
 
@@ -40,16 +49,25 @@ def register(
         Compiled `thickness(law, load [N], entrainment_speed [m/s]) -> (h [m], ∂h/∂u_e [s], ∂h/∂Q [m/N])`.
     in_range : callable
         Compiled `in_range(law, load, entrainment_speed) -> bool`.
+    range_notes : callable
+        `range_notes(interface) -> list of str`: what is outside the range whatever load and speed.
     """
+    depend_on(thickness, in_range)
     _prepare[name] = prepare
     _references[name] = reference
     _thickness[law] = thickness
     _in_range[law] = in_range
+    _range_notes[name] = range_notes
 
 
 def reference(name: str) -> str:
     """What to cite where the law called `name` was used."""
     return _references[name]
+
+
+def film_range_notes(name: str, interfaces: Iterable[Interface]) -> list[str]:
+    """What lies outside the range of the law called `name` at some interface, whatever load and speed."""
+    return [f"{interface.name}: {note}" for interface in interfaces for note in _range_notes[name](interface)]
 
 
 def names() -> list[str]:

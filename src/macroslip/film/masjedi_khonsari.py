@@ -109,6 +109,20 @@ def in_range(law, load, entrainment_speed):
     return 2e-5 <= w <= 5e-4 and 1e-12 <= u <= 1e-10
 
 
+def range_notes(interface: Interface) -> list[str]:
+    """The groups that load and speed do not change, where they are outside `RANGES`."""
+    groups = {
+        "material": interface.lubricant.pressure_viscosity * interface.modulus,
+        "roughness": interface.roughness / interface.rolling_radius,
+        "hardness": interface.hardness / interface.modulus,
+    }
+    outside = {name: value for name, value in groups.items() if not RANGES[name][0] <= value <= RANGES[name][1]}
+    return [
+        f"the {name} group {value:.4g} is outside {RANGES[name][0]:g} to {RANGES[name][1]:g}"
+        for name, value in outside.items()
+    ]
+
+
 register(
     "masjedi-khonsari",
     MasjediKhonsari,
@@ -116,4 +130,5 @@ register(
     prepare=prepare,
     thickness=thickness,
     in_range=in_range,
+    range_notes=range_notes,
 )

@@ -34,7 +34,12 @@ _RADAU = "Hairer and Wanner, Solving Ordinary Differential Equations II, Springe
 
 
 def to_dataset(
-    case: Case, model: RollerModel, edges: np.ndarray, end: float, results: dict[tuple[str, int], tuple[int, Record]]
+    case: Case,
+    model: RollerModel,
+    edges: np.ndarray,
+    end: float,
+    results: dict[tuple[str, int], tuple[int, Record]],
+    film_range_notes: list[str],
 ) -> xr.Dataset:
     """Collect the records of all rollers.
 
@@ -49,6 +54,8 @@ def to_dataset(
         End of the window [s].
     results : dict
         Status and record by row and roller number.
+    film_range_notes : list of str
+        What lies outside the film law's range whatever the load.
 
     Returns
     -------
@@ -147,6 +154,7 @@ def to_dataset(
         "source": f"macroslip {macroslip.__version__}",
         "window_start": float(edges[0]),
         "window_end": end,
+        "film_range_notes": "\n".join(film_range_notes),
         "input": json.dumps(case.as_dict(), ensure_ascii=False),
         "citations": "\n".join([*citations, _RADAU] if hasattr(case.integrator, "max_steps") else citations),
     }

@@ -110,7 +110,8 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: _Progres
         experiments = _experiments(varying, result, threads, report)
         figures = _figures(numbers, turns, experiments)
         _save(figures, folder, report)
-        study.to_netcdf(folder / STUDY, engine="h5netcdf")
+        # In memory first: the HDF5 library may bring the whole process down when the disk is full.
+        (folder / STUDY).write_bytes(study.to_netcdf(engine="h5netcdf"))
         statements = _statements(numbers, turns, experiments)
         failed = _failures(study, turns, experiments)
         summary = _plain(

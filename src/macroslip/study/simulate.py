@@ -11,12 +11,13 @@ import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.contact.ring_motion import ring_motion
+from macroslip.film.law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.radau import Limits, integrate_radau, longest_step
 from macroslip.integrate.record import Record, new_record
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.roller.load_zone import empty_classes, firm_interference
-from macroslip.roller.model import RollerModel, roller_model, truncation_load
+from macroslip.roller.model import RollerModel, interfaces, roller_model, truncation_load
 from macroslip.roller.orbit import Motion
 from macroslip.roller.travel import orbit_times
 from macroslip.study.case import BackwardEuler, Case, Radau
@@ -93,13 +94,18 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
     results = {jobs[0]: run(jobs[0][0], angles[jobs[0][0]][jobs[0][1]])}
     if progress:
         progress(1, len(jobs))
-    with ThreadPoolExecutor(threads or len(os.sched_getaffinity(0))) as pool:
+    pool = ThreadPoolExecutor(threads or len(os.sched_getaffinity(0)))
+    try:
         futures = {pool.submit(run, row, angles[row][number]): (row, number) for row, number in jobs[1:]}
         for done, future in enumerate(as_completed(futures), start=2):
             results[futures[future]] = future.result()
             if progress:
                 progress(done, len(jobs))
-    return to_dataset(case, model, edges, end, results)
+    finally:
+        # An interrupt waits for the rollers under way only.
+        pool.shutdown(cancel_futures=True)
+    notes = film_range_notes(case.film, interfaces(case.bearing, case.lubricant))
+    return to_dataset(case, model, edges, end, results, notes)
 
 
 def _limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:

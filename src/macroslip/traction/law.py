@@ -10,6 +10,7 @@ from typing import Any
 
 from numba.extending import overload
 
+from macroslip.compiled import depend_on
 from macroslip.contact.interface import Interface
 from macroslip.errors import InputError
 
@@ -41,6 +42,7 @@ def register(
         Compiled `rising_slip(law, load) -> |Δu|` [m/s] up to which traction surely rises with slip. The integrator
         needs it to know where an implicit step can have more than one root.
     """
+    depend_on(traction, rising_slip)
     _prepare[name] = prepare
     _references[name] = reference
     _traction[law] = traction
