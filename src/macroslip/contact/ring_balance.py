@@ -142,9 +142,10 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
         # Close to the solution the energy no longer resolves the progress that the unbalanced force still shows.
         if in_contact and (trial_energy <= energy + 1e-4 * slope or trial_unbalanced <= 0.5 * unbalanced):
             energy = trial_energy
-            displacement[:] = trial
-            gradient[:] = trial_gradient
-            hessian[:] = trial_hessian
+            for i in range(3):
+                displacement[i] = trial[i]
+            gradient, trial_gradient = trial_gradient, gradient
+            hessian, trial_hessian = trial_hessian, hessian
             relative = max(0.1 * relative, 1e-14)
         else:
             relative = max(10.0 * relative, 1e-8)
@@ -177,7 +178,8 @@ def balance(ring, shaft_angle, force, displacement):
     unbalanced = _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, _WARM_ITERATIONS)
     if unbalanced > tolerance:
         # A start at the far side of the play would have to slide round the whole bearing; from the middle it is short.
-        displacement[:] = 0.0
+        for i in range(3):
+            displacement[i] = 0.0
         unbalanced = _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, _COLD_ITERATIONS)
     return unbalanced
 
@@ -201,7 +203,8 @@ def balance_series(ring, shaft_angle, force, displacement, unbalanced):
     current = np.zeros(3)
     for k in range(shaft_angle.size):
         unbalanced[k] = balance(ring, shaft_angle[k], force[k], current)
-        displacement[k] = current
+        for i in range(3):
+            displacement[k, i] = current[i]
 
 
 @jit

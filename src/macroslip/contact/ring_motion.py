@@ -49,9 +49,9 @@ def largest_load(ring, angle, displacement):
     largest, sample = 0.0, 0
     for k in range(angle.size):
         roller_loads(ring, angle[k], displacement[k], loads)
-        here = loads.max()
-        if here > largest:
-            largest, sample = here, k
+        for j in range(loads.size):
+            if loads[j] > largest:
+                largest, sample = loads[j], k
     return largest, sample
 
 

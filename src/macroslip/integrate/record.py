@@ -87,7 +87,14 @@ def orbit_at(record, time):
     edges = record.edges
     if time < edges[0] or time >= edges[-1]:
         return -1
-    return np.searchsorted(edges, time, side="right") - 1
+    low, high = 0, edges.size - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if edges[middle] <= time:
+            low = middle
+        else:
+            high = middle
+    return low
 
 
 @jit
