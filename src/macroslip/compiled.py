@@ -7,6 +7,7 @@ sources a kernel can be made of, and of every law registered by the user.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 from collections.abc import Callable
@@ -14,7 +15,7 @@ from pathlib import Path
 
 import numba
 import numpy as np
-from numba.core.caching import FunctionCache
+from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 _extra_sources: list[str] = []
 #: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
@@ -49,19 +50,46 @@ def depend_on(*functions: Callable) -> None:
 
 
 class _PackageCache(FunctionCache):
+    """Numba's cache of one function, outdated by any change of the sources a kernel can be made of.
+
+    Kernels compiled while laws of the user's own are registered go into an index of their own: an index holds the
+    types of all its kernels, and a process that does not know such a law could not read it.
+    """
+
     def __init__(self, function: Callable):
         super().__init__(function)
         # The stamp outdates the whole index, so that kernels of older sources are overwritten and do not pile up.
-        self._cache_file._source_stamp = (self._cache_file._source_stamp, _package_hash())
+        self._stamp = (self._cache_file._source_stamp, _package_hash())
+        self._files: dict[str, IndexDataCacheFile] = {}
 
-    def _index_key(self, sig, codegen):
-        extra = hashlib.sha256("\0".join(_extra_sources).encode()).hexdigest()
-        return (*super()._index_key(sig, codegen), extra)
+    def _use_file(self) -> None:
+        laws = hashlib.sha256("\0".join(sorted(_extra_sources)).encode()).hexdigest()[:12] if _extra_sources else ""
+        if laws not in self._files:
+            base = self._impl.filename_base + (f"-{laws}" if laws else "")
+            self._files[laws] = IndexDataCacheFile(self._cache_path, base, self._stamp)
+        self._cache_file = self._files[laws]
+
+    def load_overload(self, sig, target_context):
+        self._use_file()
+        return super().load_overload(sig, target_context)
+
+    def save_overload(self, sig, data):
+        self._use_file()
+        # A kernel that cannot be stored, on a full disk say, is compiled again next time.
+        with contextlib.suppress(OSError):
+            super().save_overload(sig, data)
 
 
 def jit(function: Callable) -> Callable:
     """Compile a scalar physics function on first call; division by zero gives inf or NaN as in NumPy."""
     dispatcher = numba.njit(nogil=True, error_model="numpy")(function)
+    dispatcher._cache = _PackageCache(function)
+    return dispatcher
+
+
+def jit_inline(function: Callable) -> Callable:
+    """Compile into the caller: for functions of every force evaluation, where passing the arguments costs as much."""
+    dispatcher = numba.njit(nogil=True, error_model="numpy", forceinline=True)(function)
     dispatcher._cache = _PackageCache(function)
     return dispatcher
 

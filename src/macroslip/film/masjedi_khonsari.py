@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 from macroslip.film.law import register
 
@@ -84,7 +84,7 @@ def prepare(interface: Interface) -> MasjediKhonsari:
     )
 
 
-@jit
+@jit_inline
 def thickness(law, load, entrainment_speed):
     """h [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0, whether in range or not.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.film.law import film_thickness
 from macroslip.traction.law import patch_traction
 
@@ -66,7 +66,7 @@ class SlipForces(NamedTuple):
     cage_load: float
 
 
-@jit
+@jit_inline
 def interference(model, cosine, sine, now):
     """Approach δ = (dX cos φ + dY sin φ − P_d/2) cos α + s dZ sin α [m] of a roller at cos φ, sin φ."""
     radial = now.displacement_x * cosine + now.displacement_y * sine - model.radial_play
@@ -114,7 +114,7 @@ def station(model, start_angle, now):
     )
 
 
-@jit
+@jit_inline
 def contact_force(contact, load, slip, entrainment_speed, entrainment_slope):
     """Traction of one contact, and its derivatives by slip (with the film's change) and by load.
 
@@ -181,7 +181,7 @@ def slip_forces(model, at, slip):
     return SlipForces(inner, outer, cage, slope, inner_slope, outer_slope, cage_load)
 
 
-@jit
+@jit_inline
 def shifted(forces, change):
     """The forces after a small change of slip [m/s], to first order."""
     inner = forces.inner_slope * change

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 from macroslip.traction.law import register
 from macroslip.traction.patch_integral import patch_integral
@@ -44,7 +44,7 @@ def prepare(interface: Interface) -> BarusCrook:
     )
 
 
-@jit
+@jit_inline
 def traction(law, load, film_thickness, slip):
     """F [N], ∂F/∂Δu [N s/m], ∂F/∂h [N/m] and ∂F/∂Q [-] at Q > 0 [N], h > 0 [m] and Δu [m/s]; F has the sign of Δu."""
     root_load = load ** (1.0 / 3.0)
