@@ -9,8 +9,8 @@ from macroslip import BackwardEuler, BearingLoads, Case, ExplicitEuler, HubLoads
 from macroslip.integrate.status import Status
 
 
-def run(loads, integrator, **settings):
-    return simulate(Case(loads=loads, rollers=[3], integrator=integrator, **settings)).isel(roller=0)
+def run(loads, integrator, roller=3, **settings):
+    return simulate(Case(loads=loads, rollers=[roller], integrator=integrator, **settings)).isel(roller=0)
 
 
 @pytest.fixture(scope="module")
@@ -33,13 +33,16 @@ def test_first_order_where_nothing_is_stiff(coasting, method):
 
 def test_explicit_euler_is_unstable_in_the_load_zone_and_backward_euler_is_not():
     loads = BearingLoads.constant([0.0, -343e3, 0.0], 2.143, 9.0)
-    explicit = run(loads, ExplicitEuler(step=1e-3)).sel(row="downwind")
-    backward = run(loads, BackwardEuler(step=1e-3)).sel(row="downwind")
-    exact = run(loads, Radau(tolerance=1e-8)).sel(row="downwind")
+    # Roller 14 starts at the top, unloaded, and meets the load zone after two to three seconds.
+    explicit = run(loads, ExplicitEuler(step=1e-3), roller=14).sel(row="downwind")
+    backward = run(loads, BackwardEuler(step=1e-3), roller=14).sel(row="downwind")
+    exact = run(loads, Radau(tolerance=1e-8), roller=14).sel(row="downwind")
     assert backward.status == Status.COMPLETED
     assert float(backward.energy.sum()) == pytest.approx(float(exact.energy.sum()), rel=2e-2)
-    wrong = explicit.status == Status.NOT_FINITE or abs(float(explicit.energy.sum() / exact.energy.sum()) - 1) > 10.0
-    assert wrong
+    # Unstable does not mean infinite: traction falls with slip. It still is a failure, and shown as one.
+    assert explicit.status == Status.IMPOSSIBLE_SLIP
+    assert explicit.energy.isnull().all()
+    assert 2.0 < float(explicit.end_time) < 3.0
 
 
 def test_stopping_the_iteration_early_leaves_spurious_force_and_energy():

@@ -193,7 +193,7 @@ def test_explicit_euler_is_lost_where_the_step_exceeds_the_relaxation_time(exper
     assert limit <= lost < limit + 5.0
     assert stability.deviation_explicit.sel(angle=slice(None, limit)).max() < 0.02
     assert verdicts.euler_stability(stability).verdict == verdicts.AGREES
-    stable = stability.assign_attrs(largest_deviation_explicit=0.01)
+    stable = stability.assign_attrs(largest_deviation_explicit=0.01, status_explicit=0)
     assert verdicts.euler_stability(stable).verdict == verdicts.PARTLY
     overflowed = stability.assign_attrs(largest_deviation_explicit=float("nan"), status_explicit=2)
     assert verdicts.euler_stability(overflowed).verdict == verdicts.AGREES

@@ -8,13 +8,13 @@ from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
 from macroslip.integrate.explicit_euler import explicit_euler_step
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
-from macroslip.integrate.status import COMPLETED, NO_ROOT, NOT_FINITE
+from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE
 from macroslip.roller.forces import slip_forces, station
 from macroslip.roller.orbit import instant, interval_of
 
 
 @jit
-def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, tolerance, record):
+def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, tolerance, largest_slip, record):
     """Integrate the spin of one roller with explicit or backward Euler.
 
     Parameters
@@ -33,6 +33,9 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
         Backward Euler if true, explicit Euler if not.
     tolerance : float
         Of the nonlinear iteration of backward Euler, relative change of spin.
+    largest_slip : float
+        Slip [m/s] beyond which the integration stops as unstable. Friction pulls a roller's surface towards the speed
+        of the rings and of the cage only, so its true slip never leaves the range these speeds span.
     record : Record
         Filled. Energies are rectangles with the power of the state a step is evaluated at, traces are the first
         state at or after each trace time.
@@ -73,6 +76,9 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
         slip = reached.ring_speed - model.radius * spin
         if not math.isfinite(slip):
             status = NO_ROOT if implicit else NOT_FINITE
+            break
+        if abs(slip) > largest_slip:
+            time, status = after, IMPOSSIBLE_SLIP
             break
         forces = slip_forces(model, reached, slip)
         evaluations += 1

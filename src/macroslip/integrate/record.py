@@ -39,7 +39,7 @@ class Record(NamedTuple):
     trace_time : ndarray, shape (m,)
         Times of the traces [s].
     trace : ndarray, shape (m, 7)
-        Traces, see `TRACES`.
+        Traces, see `TRACES`; NaN after an integration that ended early.
     """
 
     edges: np.ndarray
@@ -71,7 +71,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
         worst=np.zeros(1),
         end=np.zeros(2),
         trace_time=trace_time,
-        trace=np.zeros((trace_time.size, len(TRACES))),
+        trace=np.full((trace_time.size, len(TRACES)), np.nan),
     )
 
 

@@ -19,6 +19,7 @@ class Status(IntEnum):
     NOT_FINITE = 2, "forces or slip became NaN or infinite; use an implicit integrator or a smaller step"
     TOO_MANY_STEPS = 3, "the step limit was reached; loosen the tolerance or raise integrator.max_steps"
     NO_ROOT = 4, "the implicit equation of a step was not solved to its tolerance; use a smaller step"
+    IMPOSSIBLE_SLIP = 5, "slip left the range that friction allows, so the step is unstable; use a smaller one or radau"
 
     def __new__(cls, value: int, sentence: str):
         member = int.__new__(cls, value)
@@ -28,4 +29,4 @@ class Status(IntEnum):
 
 
 #: Plain integers for compiled code.
-COMPLETED, STEP_TOO_SMALL, NOT_FINITE, TOO_MANY_STEPS, NO_ROOT = (int(status) for status in Status)
+COMPLETED, STEP_TOO_SMALL, NOT_FINITE, TOO_MANY_STEPS, NO_ROOT, IMPOSSIBLE_SLIP = range(6)

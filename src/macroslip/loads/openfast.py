@@ -134,7 +134,7 @@ class _Channels:
             f"of the channels needed, {', '.join(self.missing)} {'are' if len(self.missing) > 1 else 'is'} not in the "
             f"file ({len(self.names)} channels)", where=self.where,
             allowed=f"{'; '.join(self.looked_for)}, in upper or lower case.{note}",
-            remedy=f"Add to the OutList of the ElastoDyn input file, and run OpenFAST again:\n{lines}")
+            remedy=f"Add to the OutList of the ElastoDyn input file\n{lines}\nand run OpenFAST again.")
 
 
 def turn_to_fixed(along_ya: NDArray, along_za: NDArray, azimuth: NDArray) -> tuple[NDArray, NDArray]:

@@ -30,7 +30,7 @@ class Drivetrain:
         well.
     tilt : float [rad]
         Shaft tilt, positive when the hub end is up, at most 0.3 rad (17°) either way. OpenFAST's ShftTilt has the
-        opposite sign. Used only for the weight of the shaft.
+        opposite sign. Directs the weight of the shaft and of the rollers.
     shaft_mass : float [kg]
         Mass of the shaft with what is fixed to it, except the rotor, whose weight is in the hub loads. 0 to 1e6 kg.
     shaft_mass_station : float [m]

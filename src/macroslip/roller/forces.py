@@ -1,6 +1,6 @@
 """Forces on one roller: what its place on the orbit gives it, and what its slip adds.
 
-Signs follow the roller frame: x tangential, clockwise seen along +Z0; a tangential force that drives the spin ω up is
+Signs follow the roller frame: x tangential, against a positive orbit; a tangential force that drives the spin ω up is
 positive in the spin equation. Δu = u2 − u1 at every interface (28)-(31).
 """
 

@@ -130,7 +130,9 @@ def to_dataset(
     put("end_time", rollers, ended[..., 0], "s", "time at which the integration ended")
     put("end_slip", rollers, ended[..., 1], "m/s", "raceway slip at which the integration ended")
     if case.traces is not None:
-        _put_traces(put, gather("trace"), model.radius, rollers)
+        # Up to where an integration ended its traces are kept: they show why.
+        trace = np.array([[record.trace for _, record in line] for line in grid])
+        _put_traces(put, trace, model.radius, rollers)
 
     coordinates: dict[str, Any] = {
         "row": list(ROWS),

@@ -75,6 +75,7 @@ def run_study(
         "title": "Frictional energy and peak power of the rollers over wind speed and turbulence",
         "source": attributes["source"],
         "input": json.dumps({**json.loads(attributes["input"]), "loads": loads}, ensure_ascii=False),
+        "film_range_notes": attributes["film_range_notes"],
         "citations": attributes["citations"],
     }
     return study

@@ -76,6 +76,7 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
     trace_time = _trace_times(case, motion)
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     limits = _limits(case, motion, model, largest)
+    largest_slip = _largest_slip(motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
 
     def run(row: str, angle: float) -> tuple[int, Record]:
@@ -86,7 +87,10 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
         implicit = isinstance(case.integrator, BackwardEuler)
         tolerance = case.integrator.tolerance if implicit else 0.0
         step = case.integrator.step
-        return integrate_fixed_step(models[row], motion, angle, 0.0, end, step, implicit, tolerance, record), record
+        status = integrate_fixed_step(
+            models[row], motion, angle, 0.0, end, step, implicit, tolerance, largest_slip, record
+        )
+        return status, record
 
     angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in ROWS}
     jobs = [(row, number) for row in ROWS for number in case.roller_numbers]
@@ -94,7 +98,7 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
     results = {jobs[0]: run(jobs[0][0], angles[jobs[0][0]][jobs[0][1]])}
     if progress:
         progress(1, len(jobs))
-    pool = ThreadPoolExecutor(threads or len(os.sched_getaffinity(0)))
+    pool = ThreadPoolExecutor(threads or usable_processors())
     try:
         futures = {pool.submit(run, row, angles[row][number]): (row, number) for row, number in jobs[1:]}
         for done, future in enumerate(as_completed(futures), start=2):
@@ -106,6 +110,11 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
         pool.shutdown(cancel_futures=True)
     notes = film_range_notes(case.film, interfaces(case.bearing, case.lubricant))
     return to_dataset(case, model, edges, end, results, notes)
+
+
+def usable_processors() -> int:
+    """Processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:
@@ -123,6 +132,12 @@ def _limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> L
         cold_slip=float(cold),
         firm=firm_interference(model, speed),
     )
+
+
+def _largest_slip(motion: Motion, model: RollerModel) -> float:
+    """Bound of slip [m/s] for a roller that starts in pure rolling: the span of ring speeds and the cage's zero."""
+    speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
+    return 1.01 * float(max(speeds.max(), 0.0) - min(speeds.min(), 0.0)) + 1e-9
 
 
 def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float) -> np.ndarray:

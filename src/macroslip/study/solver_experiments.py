@@ -7,7 +7,6 @@ milliseconds in which a roller snaps back to pure rolling.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
@@ -16,7 +15,7 @@ import numpy as np
 
 from macroslip.loads import BearingLoads
 from macroslip.study.case import BackwardEuler, Case, Radau
-from macroslip.study.simulate import simulate
+from macroslip.study.simulate import simulate, usable_processors
 from macroslip.study.single_roller import static_load
 
 if TYPE_CHECKING:
@@ -84,7 +83,7 @@ def nonlinear_tolerance(
         return values.drop_vars(["roller", "start_angle"], errors="ignore")
 
     converged = per_orbit(_CONVERGED)
-    with ThreadPoolExecutor(threads or len(os.sched_getaffinity(0))) as pool:
+    with ThreadPoolExecutor(threads or usable_processors()) as pool:
         methods = [BackwardEuler(step=step, tolerance=tolerance) for tolerance in tolerances]
         runs = dict(zip(tolerances, pool.map(per_orbit, methods), strict=True))
     return _beside_converged(

@@ -95,7 +95,7 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
             "bottom_relaxation_time_s": float(relaxation[-1]),
             "lost_angle_deg": at(angle, lost),
             "lost_load_N": at(load, lost),
-            **{f"largest_deviation_{name}": float(values.max()) for name, values in deviations.items()},
+            **{f"largest_deviation_{name}": float(np.nanmax(values)) for name, values in deviations.items()},
             **{f"status_{name}": int(run.status) for name, run in runs.items()},
         },
     )

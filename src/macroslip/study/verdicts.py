@@ -198,13 +198,13 @@ def euler_stability(stability: xr.Dataset) -> Statement:
     found = {"explicit": explicit, "backward": backward}
     failed = values["status_explicit"] != 0
     # Where it is unstable its deviation is chaotic; only the order of magnitude is the same on every machine.
-    order = "overflows" if failed else f"is off by more than {10.0 ** math.floor(math.log10(explicit)):g} times"
+    order = "leaves the range that friction allows" if failed else f"is off by more than {10.0 ** math.floor(math.log10(explicit)):g} times"
     words = f"explicit Euler at {1e3 * values['step_s']:g} ms {order if failed else f'{order} pure rolling'}"
     if math.isfinite(values["lost_angle_deg"]):
         words += f", lost {values['lost_angle_deg']:.0f}° from the bottom at {values['lost_load_N'] / 1e3:.1f} kN"
     words += f"; backward Euler is off by at most {backward:.2g}"
     if failed:
-        # An explicit method that overflowed is unstable; its missing numbers do not hide that.
+        # An explicit method that was stopped is unstable; its missing numbers do not hide that.
         found.pop("explicit")
     return Statement(
         paper="explicit Euler is unstable in the load zone, backward Euler is not",

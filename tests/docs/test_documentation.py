@@ -1,0 +1,193 @@
+"""The documentation cannot go stale: its code runs, its links resolve, and it names every key and every variable."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from macroslip import BearingLoads, Case, Traces, bundled_cases, simulate
+from macroslip.integrate.status import Status
+from macroslip.study.case_keys import CASE
+from macroslip.study.case_section import Section, Variants
+
+ROOT = Path(__file__).parents[2]
+SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
+PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+OURS = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.py"), *EXAMPLES]
+ARGUMENTS = {"02_openfast_file.py": [str(SAMPLE)]}
+#: What the pages name as the user's own files.
+PREPARATION = """
+import shutil, sys
+from macroslip.cli import app
+app(["init", "case.yaml"], standalone_mode=False)
+app(["run", "case.yaml", "-o", "case.nc", "--quiet"], standalone_mode=False)
+shutil.copy(sys.argv[1], "turbine.outb")
+"""
+#: Runs each file given in a namespace of its own.
+RUNNER = "import runpy, sys\nfor path in sys.argv[1:]: runpy.run_path(path)"
+
+
+def python_blocks(page: Path) -> list[str]:
+    """Code of the ```python blocks of a page."""
+    return re.findall(r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+
+
+def python(*arguments: str, folder: Path) -> subprocess.CompletedProcess:
+    environment = os.environ | {"MPLBACKEND": "agg", "PYTHONIOENCODING": "utf-8"}
+    return subprocess.run([sys.executable, "-W", "error", *arguments], cwd=folder, env=environment, text=True,
+                          encoding="utf-8", capture_output=True, timeout=600, check=False)
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Outcome of every example and of every page's code, run at once, each in a process and a folder of its own."""
+    prepared = tmp_path_factory.mktemp("prepared")
+    # First of all and alone: this also compiles the kernels.
+    assert (first := python("-c", PREPARATION, str(SAMPLE), folder=prepared)).returncode == 0, first.stderr
+
+    def run(path: Path) -> subprocess.CompletedProcess:
+        folder = tmp_path_factory.mktemp(path.stem)
+        if path.suffix == ".py":
+            return python(str(path), *ARGUMENTS.get(path.name, []), folder=folder)
+        for made in prepared.iterdir():
+            shutil.copy(made, folder)
+        files = [folder / f"block{number}.py" for number in range(len(python_blocks(path)))]
+        for file, code in zip(files, python_blocks(path), strict=True):
+            file.write_text(code, encoding="utf-8")
+        return python("-c", RUNNER, *map(str, files), folder=folder)
+
+    paths = [*EXAMPLES, *(page for page in PAGES if python_blocks(page)), ROOT / "docs" / "drawings.py"]
+    with ThreadPoolExecutor(2) as pool:
+        # The drawings go to a folder of their own, so that a run of the tests changes no file.
+        ARGUMENTS["drawings.py"] = [str(tmp_path_factory.mktemp("pictures"))]
+        return dict(zip(paths, pool.map(run, paths), strict=True))
+
+
+@pytest.mark.parametrize("path", [*EXAMPLES, ROOT / "docs" / "drawings.py"], ids=lambda path: path.name)
+def test_script_runs_and_says_something(path, runs):
+    assert runs[path].returncode == 0, runs[path].stderr
+    assert 1 <= len(runs[path].stdout.splitlines()) <= 15
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if python_blocks(page)], ids=lambda page: page.name)
+def test_code_of_page_runs(page, runs):
+    assert runs[page].returncode == 0, runs[page].stderr
+
+
+def test_numbers_that_the_model_page_quotes(runs):
+    printed = runs[ROOT / "docs" / "model.md"].stdout
+    assert re.findall(r"([\d.]+) of the load", printed) == ["0.06", "0.14", "3.30", "47.11"]
+    assert re.findall(r"([\d.]+) W", printed) == ["8.7", "7.1"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_relative_links_resolve(page):
+    links = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8"))
+    broken = [link for link in links if "://" not in link and not (page.parent / link).exists()]
+    assert broken == []
+
+
+def test_index_names_every_page_and_every_example():
+    index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    pages = [path.name for path in (ROOT / "docs").glob("*.md") if path.name != "index.md"]
+    missing = [name for name in [*pages, *(path.name for path in EXAMPLES)] if f"{name})" not in index]
+    assert missing == []
+
+
+def keys(kind, prefix: str = "") -> list[str]:
+    """Full names of all keys of a section of the case file, as `loads.hub.force`."""
+    sections = kind.sections.values() if isinstance(kind, Variants) else [kind]
+    found = []
+    for section in sections:
+        for key, inner in section.keys.items():
+            found.append(prefix + key)
+            if isinstance(inner, (Section, Variants)):
+                found += keys(inner, f"{prefix}{key}.")
+    return found
+
+
+def test_input_page_names_every_key_of_a_case():
+    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
+    sections = {"drivetrain", "forces", "laws", "integrator", "window"}
+    names = [key for key in keys(CASE) if key not in sections]
+    # Keys of the constant loads stand together in the row of their section.
+    names = [key.removeprefix("loads.hub.").removeprefix("loads.main_bearing.") for key in names]
+    assert [name for name in names if name not in quoted] == []
+
+
+def test_input_page_names_every_law_and_method():
+    text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
+    laws, integrator = CASE.keys["laws"].keys, CASE.keys["integrator"].sections
+    laws = {*laws["film"].names(), *laws["traction"].names()}
+    names = [*laws, *integrator, bundled_cases()[0], bundled_cases()[-1]]
+    missing = [name for name in names if f"`{name}`" not in text]
+    assert missing == []
+
+
+def test_input_page_shows_the_lines_that_the_program_asks_for():
+    from macroslip.loads.openfast import _MEANING
+
+    text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
+    missing = [name for name, meaning in _MEANING.items() if not re.search(rf'"{name}" +- {re.escape(meaning)}', text)]
+    assert missing == []
+
+
+@pytest.fixture(scope="module")
+def dataset():
+    loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.2)
+    return simulate(Case(loads=loads, rollers=[0], traces=Traces(step=0.1)))
+
+
+def test_results_page_names_every_variable_coordinate_and_attribute(dataset):
+    text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    names = [*dataset.variables, *dataset.attrs, *dataset.interface.values, *dataset.row.values]
+    assert [name for name in names if f"`{name}`" not in text] == []
+
+
+def test_results_page_gives_the_units_of_every_variable(dataset):
+    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "results.md").read_text(encoding="utf-8"), re.MULTILINE)
+    cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)] for row in rows]
+    for name, variable in dataset.data_vars.items():
+        found = [row for row in cells if f"`{name}`" in row[0]]
+        assert any(variable.units in re.split(", ", cell) for row in found for cell in row[1:]), name
+
+
+def test_results_page_has_the_sentence_of_every_status():
+    text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    assert [status for status in Status if f"| {int(status)} | {status.sentence} |" not in text] == []
+
+
+def test_results_page_names_what_reproduce_writes():
+    text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    source = (ROOT / "src" / "macroslip" / "study" / "reproduce.py").read_text(encoding="utf-8")
+    summary = re.search(r"summary = _plain\(\s*\{(.*?)\n            \}", source, re.DOTALL).group(1)
+    names = re.findall(r'^ {16}"(\w+)":', summary, re.MULTILINE)
+    figures = [name.removeprefix("figure_") for name in re.findall(r'"(\w+)": lambda: draw\.', source)]
+    study = re.findall(r'put\(\s*"(\w+)"', (ROOT / "src/macroslip/study/paper_study.py").read_text(encoding="utf-8"))
+    assert len(names) > 5 and len(figures) > 5 and len(study) > 4
+    missing = [name for name in [*names, *study] if f"`{name}`" not in text]
+    assert missing + [name for name in figures if f"`{name}`" not in text and f"`figure_{name}`" not in text] == []
+
+
+def test_model_page_names_modules_that_exist():
+    text = (ROOT / "docs" / "model.md").read_text(encoding="utf-8")
+    modules = re.findall(r"`((?!src/)[a-z_]+/[a-z_]*(?:\.py)?)`", text)
+    assert len(modules) > 15
+    assert [name for name in modules if not (ROOT / "src" / "macroslip" / name).exists()] == []
+
+
+@pytest.mark.parametrize("path", sorted(OURS), ids=lambda path: path.name)
+def test_page_or_script_names_no_machine(path):
+    text = path.read_text(encoding="utf-8")
+    assert re.findall(r"(?:^|[\s\"'`(=])(?:/(?:home|root|tmp|work|Users|mnt|opt)/|[A-Z]:\\)\S*", text) == []
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
+def test_example_says_what_it_is_and_how_to_run_it(path):
+    assert re.match(rf'""".+\n(.*\n)*? {{4}}python examples/{re.escape(path.name)}', path.read_text(encoding="utf-8"))
