@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from macroslip.report.style import BLACK, BLUE, GREY, ORANGE, ROW, finish, log_ticks
 
 if TYPE_CHECKING:
@@ -18,8 +20,8 @@ _ANGLE = "angle from the bottom [°]"
 def plot_stability(axes: Axes, stability: xr.Dataset) -> Axes:
     """Figure A1: spin over pure rolling by explicit and backward Euler and converged.
 
-    Takes the dataset of `macroslip.study.stability.compare_stability`. The axis shows −1 to 3; explicit Euler leaves
-    it.
+    Takes the dataset of `macroslip.study.stability.compare_stability`. The cross marks where
+    explicit Euler was stopped, because slip had left the range that friction allows.
     """
     angle = stability.angle.values
     explicit = {"color": ORANGE, "linewidth": 0.9, "marker": "s", "markersize": 2.5}
@@ -27,8 +29,13 @@ def plot_stability(axes: Axes, stability: xr.Dataset) -> Axes:
     axes.plot(angle, stability.spin_ratio_backward.values, color=BLUE, linewidth=2.4, label="backward Euler")
     converged = stability.spin_ratio_converged.values
     axes.plot(angle, converged, color=BLACK, linestyle="--", linewidth=1.2, label="converged (Radau)")
-    axes.set_ylim(-1.0, 3.0)
+    axes.set_ylim(0.0, 2.2)
     _mark_limit(axes, stability)
+    computed = np.flatnonzero(np.isfinite(stability.spin_ratio_explicit.values))
+    if 0 < computed.size < angle.size:
+        last = angle[computed[-1]]
+        axes.plot([last], stability.spin_ratio_explicit.values[computed[-1:]], "x", color=BLACK, markersize=8)
+        axes.annotate("stopped", (last, 0.62), fontsize="small", color=BLACK, xytext=(6, 0), textcoords="offset points")
     return finish(axes, _ANGLE, "spin / spin in pure rolling [–]")
 
 
