@@ -8,18 +8,17 @@ need not know which laws exist.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
 
 from numba.extending import overload
 
 from macroslip.compiled import depend_on
 from macroslip.contact.interface import Interface
-from macroslip.errors import InputError
+from macroslip.contact.law_list import LawList
 
+_laws = LawList("film")
+names, reference, prepare = _laws.names, _laws.reference, _laws.prepare
 _thickness: dict[type, Callable] = {}
 _in_range: dict[type, Callable] = {}
-_prepare: dict[str, Callable[[Interface], Any]] = {}
-_references: dict[str, str] = {}
 _range_notes: dict[str, Callable[[Interface], list[str]]] = {}
 
 
@@ -53,44 +52,15 @@ def register(
         `range_notes(interface) -> list of str`: what is outside the range whatever load and speed.
     """
     depend_on(thickness, in_range)
-    _prepare[name] = prepare
-    _references[name] = reference
+    _laws.add(name, prepare, reference)
     _thickness[law] = thickness
     _in_range[law] = in_range
     _range_notes[name] = range_notes
 
 
-def reference(name: str) -> str:
-    """What to cite where the law called `name` was used."""
-    return _references[name]
-
-
 def film_range_notes(name: str, interfaces: Iterable[Interface]) -> list[str]:
     """What lies outside the range of the law called `name` at some interface, whatever load and speed."""
     return [f"{interface.name}: {note}" for interface in interfaces for note in _range_notes[name](interface)]
-
-
-def names() -> list[str]:
-    """Names of the registered film laws."""
-    return sorted(_prepare)
-
-
-def prepare(name: str, interface: Interface) -> Any:
-    """The law called `name`, prepared for an interface.
-
-    Raises
-    ------
-    InputError
-        If there is no such law; the message lists those that exist.
-    """
-    if name not in _prepare:
-        raise InputError(
-            f"there is no film law '{name}'",
-            where="laws.film",
-            allowed=", ".join(names()),
-            remedy="Choose one of these",
-        )
-    return _prepare[name](interface)
 
 
 def film_thickness(law, load, entrainment_speed):

@@ -6,18 +6,16 @@ Built like `macroslip.film.law`: a `NamedTuple` of numbers for one interface, wh
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from numba.extending import overload
 
 from macroslip.compiled import depend_on
-from macroslip.contact.interface import Interface
-from macroslip.errors import InputError
+from macroslip.contact.law_list import LawList
 
+_laws = LawList("traction")
+names, reference, prepare = _laws.names, _laws.reference, _laws.prepare
 _traction: dict[type, Callable] = {}
 _rising_slip: dict[type, Callable] = {}
-_prepare: dict[str, Callable[[Interface], Any]] = {}
-_references: dict[str, str] = {}
 
 
 def register(
@@ -43,38 +41,9 @@ def register(
         needs it to know where an implicit step can have more than one root.
     """
     depend_on(traction, rising_slip)
-    _prepare[name] = prepare
-    _references[name] = reference
+    _laws.add(name, prepare, reference)
     _traction[law] = traction
     _rising_slip[law] = rising_slip
-
-
-def reference(name: str) -> str:
-    """What to cite where the law called `name` was used."""
-    return _references[name]
-
-
-def names() -> list[str]:
-    """Names of the registered traction laws."""
-    return sorted(_prepare)
-
-
-def prepare(name: str, interface: Interface) -> Any:
-    """The law called `name`, prepared for an interface.
-
-    Raises
-    ------
-    InputError
-        If there is no such law; the message lists those that exist.
-    """
-    if name not in _prepare:
-        raise InputError(
-            f"there is no traction law '{name}'",
-            where="laws.traction",
-            allowed=", ".join(names()),
-            remedy="Choose one of these",
-        )
-    return _prepare[name](interface)
 
 
 def patch_traction(law, load, film_thickness, slip):
