@@ -65,13 +65,21 @@ def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -
 
 def _time_in_interval(time: np.ndarray, speed: np.ndarray, path: np.ndarray, k: int, target: float) -> float:
     """Time at which the path reaches `target` inside interval k, by bisection on the exact integral."""
-    low, high = float(time[k]), float(time[k + 1])
-    slope = (speed[k + 1] - speed[k]) / (time[k + 1] - time[k])
-    for _ in range(100):
+    start, end = float(time[k]), float(time[k + 1])
+    first = float(speed[k])
+    rate = (float(speed[k + 1]) - first) / (end - start)
+    wanted = target - float(path[k])
+    low, high = start, end
+    while True:
         middle = 0.5 * (low + high)
-        here = np.array([speed[k], speed[k] + slope * (middle - time[k])])
-        if path[k] + travel(np.array([time[k], middle]), here, 1.0)[-1] < target:
+        if not low < middle < high:
+            return high
+        last = first + rate * (middle - start)
+        if first * last < 0.0:
+            here = 0.5 * (first * first + last * last) / abs(rate)
+        else:
+            here = 0.5 * abs(first + last) * (middle - start)
+        if here < wanted:
             low = middle
         else:
             high = middle
-    return high

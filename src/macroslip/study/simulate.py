@@ -94,14 +94,11 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
 
     angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in ROWS}
     jobs = [(row, number) for row in ROWS for number in case.roller_numbers]
-    # The first roller compiles the kernel; the others find it ready.
-    results = {jobs[0]: run(jobs[0][0], angles[jobs[0][0]][jobs[0][1]])}
-    if progress:
-        progress(1, len(jobs))
+    results = {}
     pool = ThreadPoolExecutor(threads or usable_processors())
     try:
-        futures = {pool.submit(run, row, angles[row][number]): (row, number) for row, number in jobs[1:]}
-        for done, future in enumerate(as_completed(futures), start=2):
+        futures = {pool.submit(run, row, angles[row][number]): (row, number) for row, number in jobs}
+        for done, future in enumerate(as_completed(futures), start=1):
             results[futures[future]] = future.result()
             if progress:
                 progress(done, len(jobs))
