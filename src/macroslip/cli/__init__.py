@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 import macroslip
+from macroslip.cli.bench import bench
 from macroslip.cli.catalogue import bearing, lubricant
 from macroslip.cli.failure import command
 from macroslip.cli.init import init
@@ -25,6 +26,7 @@ app = typer.Typer(
 command(app, init)
 command(app, run)
 command(app, reproduce)
+command(app, bench)
 app.add_typer(loads)
 app.add_typer(bearing)
 app.add_typer(lubricant)
