@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import time
 from collections.abc import Callable
@@ -20,6 +21,8 @@ from macroslip.study.simulate import simulate
 
 _REPEATS = 3
 _CASE = "14B"
+#: Rounds of hashing in one piece of work: some ten milliseconds.
+_HASHES = 100_000
 
 
 def cpu_seconds(histories: list[History], tolerance: float) -> float:
@@ -70,6 +73,7 @@ def two_threads(*, quick: bool) -> dict[str, float] | None:
     -------
     dict
         `simulate`: of the whole call, with its serial preparation; `rollers`: of the integration of the rollers alone;
+        `hashing`: of work that has nothing to do with rollers and shows what two processors were worth at that moment;
         and the wall times behind them [s]. Each is the least of several, taken in turn.
     """
     if len(os.sched_getaffinity(0)) < 2:
@@ -82,11 +86,16 @@ def two_threads(*, quick: bool) -> dict[str, float] | None:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(lambda history: own.integrate(history, case.integrator.tolerance, np.empty(0)), rollers))
 
-    walls = {"simulate": {1: [], 2: []}, "rollers": {1: [], 2: []}}
+    def hashing(threads: int) -> None:
+        with ThreadPoolExecutor(threads) as pool:
+            list(pool.map(lambda _: hashlib.pbkdf2_hmac("sha256", b"macroslip", b"bench", _HASHES), range(8)))
+
+    runs = {"simulate": lambda threads: simulate(case, threads=threads), "rollers": alone, "hashing": hashing}
+    walls = {name: {1: [], 2: []} for name in runs}
     simulate(case, threads=2)
     for _ in range(_REPEATS):
         for threads in (1, 2):
-            for name, run in (("simulate", lambda n: simulate(case, threads=n)), ("rollers", alone)):
+            for name, run in runs.items():
                 start = time.perf_counter()
                 run(threads)
                 walls[name][threads].append(time.perf_counter() - start)
