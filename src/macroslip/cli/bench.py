@@ -86,7 +86,7 @@ def _limits(summary: dict[str, Any]) -> None:
         _line("simulated over CPU time, default tolerance", speed["factor"], targets["real_time_factor"], errors),
     ]
     if threads is not None:
-        both = f"the rollers alone {threads['rollers']:.3g}; plain hashing, a measure of the machine, {threads['hashing']:.3g}"
+        both = f"rollers alone {threads['rollers']:.3g}; the machine itself, by hashing, {threads['hashing']:.3g}"
         rows.append(_line("two threads over one, simulate()", threads["simulate"], targets["thread_speedup"], both))
     for kind, growth in summary["linearity"].items():
         rows.append([f"growth with {kind}, exponent", number(growth["exponent"]), "1", "", ""])
