@@ -15,7 +15,7 @@ from macroslip.roller.load_zone import EDGE, classify, edge_time, empty_classes,
 from macroslip.roller.model import RollerModel, roller_model, truncation_load
 from macroslip.roller.orbit import Motion
 from macroslip.study.case import Case
-from macroslip.study.simulate import _limits
+from macroslip.study.simulate import radau_limits
 
 #: Cases, first second and length of the stretches [s], for the full and for the quick run; every case gives both rows.
 FULL = (("12A", "14B", "24A"), 100.0, 30.0)
@@ -105,7 +105,7 @@ def histories_of(name: str, start: float | None, end: float | None, rollers: Seq
     loads = main_bearing_load(case.loads, case.drivetrain)
     models = {row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=case.drivetrain.tilt) for row in ROWS}
     motion, largest = ring_motion(loads, bearing, models["downwind"], truncation_load(bearing, lubricant))
-    limits = _limits(case, motion, models["downwind"], largest)
+    limits = radau_limits(case, motion, models["downwind"], largest)
     found = []
     length = motion.time[-1] - motion.time[0]
     for row in ROWS:

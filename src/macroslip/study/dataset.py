@@ -16,6 +16,7 @@ from macroslip.bearing.frames import ROWS, initial_angles
 from macroslip.film import law as film_law
 from macroslip.integrate.record import COUNTS, Record
 from macroslip.integrate.status import Status
+from macroslip.study.case import Radau
 from macroslip.traction import law as traction_law
 
 if TYPE_CHECKING:
@@ -158,7 +159,7 @@ def to_dataset(
         "window_end": end,
         "film_range_notes": "\n".join(film_range_notes),
         "input": json.dumps(case.as_dict(), ensure_ascii=False),
-        "citations": "\n".join([*citations, _RADAU] if hasattr(case.integrator, "max_steps") else citations),
+        "citations": "\n".join([*citations, _RADAU] if isinstance(case.integrator, Radau) else citations),
     }
     return xr.Dataset(data, coordinates, attributes)
 

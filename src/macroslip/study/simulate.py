@@ -72,10 +72,10 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
     }
     model = models["downwind"]
     motion, largest = ring_motion(loads, case.bearing, model, truncation_load(case.bearing, case.lubricant))
-    edges = _orbit_edges(case, motion, model.orbit_ratio)
-    trace_time = _trace_times(case, motion)
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
-    limits = _limits(case, motion, model, largest)
+    edges = _orbit_edges(case, motion, model.orbit_ratio, end)
+    trace_time = _trace_times(case, motion, end)
+    limits = radau_limits(case, motion, model, largest)
     largest_slip = _largest_slip(motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
 
@@ -114,7 +114,7 @@ def usable_processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:
+def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:
     """Bounds of the Radau integrator that hold for all rollers of the case; None for the Euler methods."""
     if not isinstance(case.integrator, Radau):
         return None
@@ -137,10 +137,9 @@ def _largest_slip(motion: Motion, model: RollerModel) -> float:
     return 1.01 * float(max(speeds.max(), 0.0) - min(speeds.min(), 0.0)) + 1e-9
 
 
-def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float) -> np.ndarray:
+def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> np.ndarray:
     """Start of the window and the ends of the complete orbits in it [s]."""
     times = orbit_times(motion.time, motion.shaft_speed, orbit_ratio)
-    end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     if case.window.start is None:
         start = times[0] if times.size and times[0] < end else motion.time[0]
         return np.concatenate([[start], times[(times > start) & (times <= end)]])
@@ -153,13 +152,11 @@ def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float) -> np.ndarray:
     return np.concatenate([[start], times[times <= end]])
 
 
-def _trace_times(case: Case, motion: Motion) -> np.ndarray:
+def _trace_times(case: Case, motion: Motion, window_end: float) -> np.ndarray:
     """Times at which traces are kept [s], never past the end of the simulation."""
     if case.traces is None:
         return np.empty(0)
     start = motion.time[0] if case.traces.start is None else case.traces.start
-    end = motion.time[-1] if case.traces.end is None else case.traces.end
-    if case.window.end is not None:
-        end = min(end, case.window.end)
+    end = window_end if case.traces.end is None else min(case.traces.end, window_end)
     count = int(np.floor((end - start) / case.traces.step * (1.0 + 1e-12))) + 1
     return np.minimum(start + case.traces.step * np.arange(max(count, 0)), end)
