@@ -1,0 +1,204 @@
+"""Traction of a film that is limited in stress and heats itself, integrated over the contact ellipse with microslip."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit
+from macroslip.traction.chord import chord_stress
+from macroslip.traction.chord_table import ChordTable, interpolated_stress
+from macroslip.traction.slip_field import graded_rule, rolling_lines
+
+_LINE, _LINE_WEIGHTS = graded_rule(10, both_ends=False)
+_MIDDLE, _MIDDLE_WEIGHTS = graded_rule(14, both_ends=True)
+_FINE_LINE, _FINE_LINE_WEIGHTS = graded_rule(32, both_ends=False)
+_FINE_MIDDLE, _FINE_MIDDLE_WEIGHTS = graded_rule(40, both_ends=True)
+
+
+def _chords(nodes: int) -> tuple[np.ndarray, np.ndarray]:
+    """sin φ and weights of ∫ cos²φ f(sin φ) dφ over −π/2 to π/2, by Gauss-Chebyshev quadrature of the second kind."""
+    angle = np.pi * np.arange(1, nodes + 1) / (nodes + 1)
+    return np.cos(angle), np.pi / (nodes + 1) * np.sin(angle) ** 2
+
+
+_STATIONS, _STATION_WEIGHTS = _chords(12)
+#: Slip below which a chord is not looked up: its stress is proportional to slip and far below round-off of the rest.
+_NO_SLIP = 1e-30
+
+
+class FilmShear(NamedTuple):
+    """The law for one interface.
+
+    Attributes
+    ----------
+    table : ChordTable
+        Stress along chords.
+    semi_axis_across, semi_axis_along : float
+        Of the contact ellipse per Q^(1/3) [m/N^(1/3)].
+    pressure : float
+        p0 per Q^(1/3) [Pa/N^(1/3)].
+    """
+
+    table: ChordTable
+    semi_axis_across: float
+    semi_axis_along: float
+    pressure: float
+
+
+class Patch(NamedTuple):
+    """What a film does to a roller over a whole contact; every integral is over the patch.
+
+    Attributes
+    ----------
+    force : float
+        F = ∫τ dA [N], positive where it drives the spin up.
+    lag : float
+        ∫τ h/r dA [N]: by so much the moment about the roller's axis, over r, falls short of the force.
+    skew : float
+        ∫τ ζ dA [N m].
+    force_slope, lag_slope : float
+        Derivatives of force and lag by Δu, along the change of state the slip field names [N s/m].
+    force_by_film, lag_by_film : float
+        Derivatives by film thickness [N/m].
+    """
+
+    force: float
+    lag: float
+    skew: float
+    force_slope: float
+    lag_slope: float
+    force_by_film: float
+    lag_by_film: float
+
+
+@jit
+def uniform_traction(law, load, film_thickness, slip):
+    """F [N], ∂F/∂Δu [N s/m], ∂F/∂h [N/m] and ∂F/∂Q [-] where slip is the same all over the patch.
+
+    Parameters
+    ----------
+    law : FilmShear
+    load : float
+        Q > 0 [N].
+    film_thickness : float
+        h > 0 [m].
+    slip : float
+        Δu [m/s].
+    """
+    root_load = load ** (1.0 / 3.0)
+    area = 2.0 * law.semi_axis_across * law.semi_axis_along * root_load * root_load
+    pressure = law.pressure * root_load
+    speed = max(abs(slip), _NO_SLIP)
+    total, by_slip, by_film, by_pressure = 0.0, 0.0, 0.0, 0.0
+    half = (_STATIONS.size + 1) // 2
+    for k in range(half):
+        # The ellipse is symmetrical; the middle chord of an odd number counts once.
+        weight = _STATION_WEIGHTS[k] * (1.0 if 2 * k + 1 == _STATIONS.size else 2.0)
+        height = math.sqrt(1.0 - _STATIONS[k] * _STATIONS[k])
+        chord = interpolated_stress(law.table, pressure * height, film_thickness, speed)
+        part = weight * chord.stress
+        total += part
+        by_slip += part * chord.by_slip
+        by_film += part * chord.by_film
+        by_pressure += part * chord.by_pressure
+    force = math.copysign(area * total, slip)
+    return (
+        force,
+        area * by_slip / speed,
+        math.copysign(area * by_film, slip) / film_thickness,
+        (2.0 * force + math.copysign(area * by_pressure, slip)) / (3.0 * load),
+    )
+
+
+@jit
+def microslip_traction(law, load, film_thickness, field, shape, fine):
+    """Traction of a curved and tilted contact.
+
+    Parameters
+    ----------
+    law : FilmShear
+    load : float
+        Q > 0 [N].
+    film_thickness : float
+        h > 0 [m], the same all over the patch.
+    field : SlipField
+        How slip varies over the stations.
+    shape : ContactShape
+        Contour radius R_d, roller radius and half length of the roller.
+    fine : bool
+        True: a finer rule along the stations, and chords by quadrature instead of the table, for error estimates.
+        Then the slopes are zero.
+
+    Returns
+    -------
+    Patch
+
+    Notes
+    -----
+    The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
+    """
+    root_load = load ** (1.0 / 3.0)
+    across = law.semi_axis_across * root_load
+    along = law.semi_axis_along * root_load
+    pressure = law.pressure * root_load
+    half = min(across, shape.half_length)
+    lines = rolling_lines(field, shape.contour_radius, half)
+    end = math.asin(half / across)
+    first, second = math.asin(lines.first / across), math.asin(lines.second / across)
+    first_cosine, second_cosine = math.cos(first), math.cos(second)
+    first_moves = lines.first_by_slip / (across * first_cosine) if first_cosine > 1e-9 else 0.0
+    second_moves = lines.second_by_slip / (across * second_cosine) if second_cosine > 1e-9 else 0.0
+    area = 2.0 * across * along
+    force, lag, skew = 0.0, 0.0, 0.0
+    force_slope, lag_slope, force_by_film, lag_by_film = 0.0, 0.0, 0.0, 0.0
+    for segment in range(3):
+        if segment == 1:
+            start, length, start_moves, grows = first, second - first, first_moves, second_moves - first_moves
+            nodes = _FINE_MIDDLE if fine else _MIDDLE
+            weights = _FINE_MIDDLE_WEIGHTS if fine else _MIDDLE_WEIGHTS
+        else:
+            if segment == 0:
+                start, length, start_moves, grows = first, -(first + end), first_moves, -first_moves
+            else:
+                start, length, start_moves, grows = second, end - second, second_moves, -second_moves
+            nodes = _FINE_LINE if fine else _LINE
+            weights = _FINE_LINE_WEIGHTS if fine else _LINE_WEIGHTS
+        if abs(length) < 1e-12:
+            continue
+        growth = grows / length
+        for k in range(nodes.size):
+            angle = start + length * nodes[k]
+            sine, cosine = math.sin(angle), math.cos(angle)
+            station = across * sine
+            drop = 0.5 * station * station / shape.contour_radius
+            slip = field.sliding + field.curvature_rate * drop - field.spin_rate * station
+            speed = max(abs(slip), _NO_SLIP)
+            weight = math.copysign(area * weights[k] * abs(length) * cosine * cosine, slip)
+            arm = drop / shape.roller_radius
+            if fine:
+                part = weight * chord_stress(law.table.fluid, pressure * cosine, film_thickness, speed)
+                force += part
+                lag += part * arm
+                skew += part * station
+                continue
+            chord = interpolated_stress(law.table, pressure * cosine, film_thickness, speed)
+            part = weight * chord.stress
+            force += part
+            lag += part * arm
+            skew += part * station
+            # The node moves with the lines of pure rolling, and with it pressure, slip, chord and arm.
+            moves = start_moves + grows * nodes[k]
+            slip_change = 1.0 + field.curvature_slope * drop
+            slip_change += (field.curvature_rate * station / shape.contour_radius - field.spin_rate) * across * cosine * moves
+            change = chord.by_slip * slip_change / slip if slip != 0.0 else 0.0
+            change += growth - sine / cosine * (2.0 + chord.by_pressure) * moves
+            force_slope += part * change
+            lag_slope += part * (arm * change + station * across * cosine * moves / (shape.contour_radius * shape.roller_radius))
+            force_by_film += part * chord.by_film
+            lag_by_film += part * arm * chord.by_film
+    return Patch(
+        force, lag, skew, force_slope, lag_slope, force_by_film / film_thickness, lag_by_film / film_thickness
+    )
