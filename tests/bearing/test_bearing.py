@@ -81,6 +81,7 @@ RANGES = {
     "poisson_ratio": (-1e-9, 0.5), "density": (500, 25000), "cage_youngs_modulus": (1e8, 1e12),
     "cage_poisson_ratio": (-1e-9, 0.5),
     "composite_roughness": (0, 1e-4), "hardness": (1e8, 1e11),
+    "thermal_conductivity": (0, 1000), "specific_heat": (0, 10000),
 }  # fmt: skip
 
 
@@ -88,7 +89,7 @@ RANGES = {
 def test_every_quantity_has_a_range(base, key):
     low, high = RANGES[key]
     step = 1 if key == "rollers_per_row" else 1e-6 * (high - low)
-    told = re.compile(rf"\b{key} is [^ ]+( \S+)?\. Allowed: a (whole )?number (above|at least) .* and (below|at most) ")
+    told = re.compile(rf"\b{key} is [^ ]+( [^.]+)?\. Allowed: a (whole )?number (above|at least) .* and (below|at most) ")
     for outside in (low - step, high + step):
         with pytest.raises(InputError, match=told):
             base.replace(**{key: outside})

@@ -55,7 +55,7 @@ def test_base_bearing_has_the_specified_values_in_si(base):
         "outer_raceway_radius": 0.4149, "row_offset": 0.074,
         "osculation_inner": 0.98, "osculation_outer": 0.98, "diametral_clearance": 2e-4, "youngs_modulus": 210e9,
         "poisson_ratio": 0.3, "density": 7850.0, "cage_youngs_modulus": 210e9, "cage_poisson_ratio": 0.3,
-        "composite_roughness": 3e-7, "hardness": 7e9,
+        "composite_roughness": 3e-7, "hardness": 7e9, "thermal_conductivity": 46.0, "specific_heat": 460.0,
     }  # fmt: skip
     values = base.model_dump()
     del values["title"]

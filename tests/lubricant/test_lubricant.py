@@ -23,7 +23,8 @@ def test_base_lubricant_has_the_specified_values_in_si(base):
     assert values == {
         "name": "vg460-pao", "inlet_temperature": 308.15, "viscosity": 0.54, "pressure_viscosity": 21e-9,
         "temperature_viscosity": 0.056, "thermal_conductivity": 0.125, "density": 900.0, "fill_factor": 0.7,
-        "drag_coefficient": 1.0,
+        "drag_coefficient": 1.0, "limiting_shear": 0.042, "eyring_stress": 3.3e6, "boundary_friction": 0.1,
+        "starvation": 0.7,
     }  # fmt: skip
 
 
@@ -51,7 +52,8 @@ def test_other_units_give_the_same(base):
     [
         ("inlet_temperature", 199.9, 500.1), ("viscosity", 0, 1001), ("pressure_viscosity", 0, 1.1e-7),
         ("temperature_viscosity", 0, 1.1), ("thermal_conductivity", 0, 10.1), ("density", 99, 5001),
-        ("fill_factor", -0.1, 1.1), ("drag_coefficient", -0.1, 101),
+        ("fill_factor", -0.1, 1.1), ("drag_coefficient", -0.1, 101), ("limiting_shear", 0, 0.6),
+        ("eyring_stress", 9e3, 1.1e9), ("boundary_friction", -0.1, 1.1), ("starvation", 0, 1.1),
     ],
 )  # fmt: skip
 def test_every_quantity_has_a_range(base, key, low, high):

@@ -10,7 +10,17 @@ from pydantic import Field
 
 from macroslip.catalogue import Record
 from macroslip.catalogue.source import Source
-from macroslip.catalogue.units import ANGLE, DENSITY, FORCE, LENGTH, MASS, NUMBER, PRESSURE
+from macroslip.catalogue.units import (
+    ANGLE,
+    CONDUCTIVITY,
+    DENSITY,
+    FORCE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    PRESSURE,
+    SPECIFIC_HEAT,
+)
 from macroslip.errors import InputError
 
 SPHERE_TOLERANCE = 0.01
@@ -109,6 +119,13 @@ class Bearing(Record):
     hardness: Annotated[
         float, PRESSURE, Field(ge=1e8, le=1e11, description="Vickers hardness of the softer surface, as a pressure")
     ]
+
+    thermal_conductivity: Annotated[
+        float | None, CONDUCTIVITY, Field(gt=0, le=1000, description="thermal conductivity of rollers and raceways")
+    ] = None
+    specific_heat: Annotated[
+        float | None, SPECIFIC_HEAT, Field(gt=0, le=10000, description="specific heat of rollers and raceways")
+    ] = None
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         # Centres of neighbouring rollers are a chord of the pitch circle apart.

@@ -204,6 +204,41 @@ class Record(BaseModel):
         record._fill(values, provenance, source)
         return record
 
+    def require(self, *keys: str, purpose: str) -> None:
+        """Refuse a record that lacks optional quantities something needs.
+
+        Parameters
+        ----------
+        *keys : str
+            Names of the quantities.
+        purpose : str
+            What needs them, for the message: "the physical model", say.
+
+        Raises
+        ------
+        InputError
+            If a quantity has no value; the message names all that are missing, and the form to add them in.
+
+        Examples
+        --------
+        >>> from macroslip.bearing import Bearing
+        >>> bearing = Bearing.read("skf-240-600-bc").replace(name="mine", mass=None)
+        >>> bearing.require("mass", purpose="the cage")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+            ...
+        macroslip.errors.InputError: bearing mine: it has no mass, which the cage needs. Allowed: ...
+        """
+        missing = [key for key in keys if getattr(self, key) is None]
+        if not missing:
+            return
+        kinds, fields = dimensions(type(self)), type(self).model_fields
+        raise InputError(
+            f"it has no {', no '.join(missing)}, which {purpose} needs",
+            where=f"{self.noun} {self.name}",
+            allowed="; ".join(f"{key}: {allowed_text(fields[key], kinds[key])}" for key in missing),
+            remedy="Add to its file: " + ", ".join(f"{key}: {{value: ..., unit: {kinds[key].choices}}}" for key in missing),
+        )
+
     def as_dict(self) -> dict[str, Any]:
         """Give the record in the form of a catalogue file, with plain numbers and text only.
 

@@ -100,6 +100,7 @@ TEMPERATURE = Dimension({"K": Unit(Fraction(1)), "degC": Unit(Fraction(1), Fract
 INVERSE_TEMPERATURE = _dimension(**{"1/K": 1})
 VISCOSITY = _dimension(**{"Pa s": 1})
 CONDUCTIVITY = _dimension(**{"W/(m K)": 1})
+SPECIFIC_HEAT = _dimension(**{"J/(kg K)": 1})
 MASS = _dimension(kg=1)
 DENSITY = _dimension(**{"kg/m3": 1})
 NUMBER = _dimension(**{"1": 1})
