@@ -112,9 +112,9 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
     Notes
     -----
     The limit of high Péclet number. It errs on the hot side: beside Jaeger's integral the rise is too large by 14 % at
-    L = 0.5, 6.3 % at 1, 2.3 % at 2, 0.4 % at 5 and 0.1 % at 10 (`peclet_number`; measured in the tests). A surface at
-    rest, as the cage's pocket, is taken to accept no heat: all of it goes into the other one, which is the most the
-    other one can get.
+    L = 0.5, 6.3 % at 1, 2.3 % at 2, 0.4 % at 5 and 0.1 % at 10 (`peclet_number`; measured in the tests). The middle of
+    the base bearing's raceway contacts has L = 2.5 at 1 kN and 9 at 50 kN, at rated speed. A surface at rest, as the
+    cage's pocket, is taken to accept no heat: all of it goes into the other one, which is the most that one can get.
     Surfaces that move in opposite directions have their peaks at opposite sides; the formula then equates the peaks,
     as Blok does, and not the temperatures point by point.
 
@@ -129,12 +129,12 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
 
     Examples
     --------
-    The inner raceway of the base bearing, 60 W/m and 0.4 mm, both steel surfaces at 0.37 m/s:
+    The middle of a raceway contact of the base bearing at 50 kN and rated speed, with 9 W over 66 mm:
 
     >>> steel = effusivity(46.0, 7850.0, 460.0)
-    >>> round(flash_temperature(60.0, 0.4e-3, 0.37, 0.37, steel, steel), 4)
-    0.1504
-    >>> flash_temperature(60.0, 0.4e-3, 0.0, 0.0, steel, steel)
+    >>> round(flash_temperature(136.0, 0.63e-3, 0.37, 0.37, steel, steel), 4)
+    0.2716
+    >>> flash_temperature(136.0, 0.63e-3, 0.0, 0.0, steel, steel)
     inf
     """
     if power_per_length == 0.0:
