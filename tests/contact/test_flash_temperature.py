@@ -1,4 +1,4 @@
-"""Flash temperature against Jaeger's integral of moving line sources, and heat flow into a half-space by differences."""
+"""Flash temperature against Jaeger's moving sources, and heat flow into two half-spaces by differences."""
 
 import math
 
