@@ -1,0 +1,45 @@
+"""The page prints what it says it prints."""
+
+import contextlib
+import io
+import re
+from pathlib import Path
+
+import pytest
+
+from macroslip import Bearing, Lubricant
+from macroslip.torque import skf_torque
+from macroslip.torque.skf import SERIES
+
+PAGE = (Path(__file__).parents[2] / "docs" / "friction-torque.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+
+
+def printed(code):
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(code, {})
+    return out.getvalue()
+
+
+def test_numbers_of_the_base_bearing():
+    (shown,) = re.findall(r"^prints\n\n```\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+    assert printed(BLOCKS[0]) == shown
+
+
+def test_numbers_of_the_oil_bath():
+    rolling, drag = re.findall(r"\d+", printed(BLOCKS[1]))
+    assert f"adds up to {rolling} N m" in PAGE and f"amounts to {drag} N m" in PAGE
+
+
+@pytest.mark.parametrize("viscosity", [500, 600])
+def test_numbers_at_the_edge_of_the_range(viscosity):
+    oil = Lubricant.read("vg460-pao")
+    oil = oil.replace(viscosity=viscosity * 1e-6 * oil.density)
+    total = skf_torque(Bearing.read("skf-240-600-bc"), oil, 344.07e3, 164.36e3, 20.463 * 3.141593 / 30).total
+    assert f"{total:.0f} N m at {viscosity} mm²/s" in PAGE
+
+
+def test_constants_of_the_table():
+    for row, constants in zip(("R1, R2, R3, R4", "S1, S2, S3, S4"), SERIES["240"], strict=True):
+        (values,) = re.findall(rf"^\| {row} \| (.*?) \|", PAGE, re.MULTILINE)
+        assert tuple(map(float, values.split(", "))) == constants
