@@ -7,14 +7,10 @@ positive in the spin equation. Δu = u2 − u1 at every interface (28)-(31).
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.film.law import film_thickness
-from macroslip.traction.law import patch_traction
-
-#: Entrainment speed below which the film formula is not followed further [m/s].
-LOWEST_ENTRAINMENT_SPEED = 1e-6
+from macroslip.roller.contact_force import cage_force, raceway_force
 
 
 class Station(NamedTuple):
@@ -48,13 +44,17 @@ class SlipForces(NamedTuple):
     Attributes
     ----------
     inner, outer, cage : float
-        F_i, F_o, F_c [N], positive where they drive the spin ω up.
+        F_i, F_o, F_c [N] in the spin equation, that is moments over r, positive where they drive the spin ω up.
     slope : float
         d(F_i + F_o + F_c)/dv [N s/m].
     inner_slope, outer_slope : float
         dF_i/dv and dF_o/dv [N s/m].
     cage_load : float
         F_n,cage with its sign [N]: positive where the cage pushes the roller along +φ.
+    cage_load_slope : float
+        dF_n,cage/dv [N s/m].
+    inner_detail, outer_detail, cage_detail : Detail or None
+        What curved contacts add; None for plain ones.
     """
 
     inner: float
@@ -64,6 +64,10 @@ class SlipForces(NamedTuple):
     inner_slope: float
     outer_slope: float
     cage_load: float
+    cage_load_slope: float
+    inner_detail: Any
+    outer_detail: Any
+    cage_detail: Any
 
 
 @jit_inline
@@ -114,37 +118,6 @@ def station(model, start_angle, now):
     )
 
 
-@jit_inline
-def contact_force(contact, load, slip, entrainment_speed, entrainment_slope):
-    """Traction of one contact, and its derivatives by slip (with the film's change) and by load.
-
-    Parameters
-    ----------
-    contact : Contact
-    load : float
-        Normal load [N]; a contact without load has no traction.
-    slip : float
-        Δu [m/s].
-    entrainment_speed : float
-        u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`.
-    entrainment_slope : float
-        du_e/dΔu [-].
-
-    Returns
-    -------
-    tuple of float
-        F [N], dF/dΔu [N s/m], ∂F/∂Q [-].
-    """
-    if load <= 0.0:
-        return 0.0, 0.0, 0.0
-    if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
-        entrainment_speed = LOWEST_ENTRAINMENT_SPEED
-        entrainment_slope = 0.0
-    film, film_by_speed, film_by_load = film_thickness(contact.film, load, entrainment_speed)
-    force, by_slip, by_film, by_load = patch_traction(contact.traction, load, film, slip)
-    return force, by_slip + by_film * film_by_speed * entrainment_slope, by_load + by_film * film_by_load
-
-
 @jit
 def slip_forces(model, at, slip):
     """Traction at both raceways and at the cage for the raceway slip v = Δu_in = Δu_out.
@@ -168,22 +141,35 @@ def slip_forces(model, at, slip):
     surface_speed = at.ring_speed - slip
     mean_speed = at.ring_speed - 0.5 * slip
     mean_slope = -0.5 if mean_speed >= 0.0 else 0.5
-    inner, inner_slope, _ = contact_force(model.inner, at.inner_load, slip, abs(mean_speed), mean_slope)
-    outer, outer_slope, _ = contact_force(model.outer, at.outer_load, slip, abs(mean_speed), mean_slope)
-    cage_load = at.tangential + inner - outer
+    inner = raceway_force(model.inner, at.inner_load, slip, at.ring_speed, abs(mean_speed), mean_slope)
+    outer = raceway_force(model.outer, at.outer_load, slip, at.ring_speed, abs(mean_speed), mean_slope)
+    cage_load = at.tangential + inner.pull - outer.pull
+    cage_load_slope = inner.pull_slope - outer.pull_slope
     cage_slope = -0.5 if surface_speed >= 0.0 else 0.5
-    cage, by_slip, by_load = contact_force(
+    cage, by_slip, by_load, cage_detail = cage_force(
         model.cage, abs(cage_load), -surface_speed, 0.5 * abs(surface_speed), cage_slope
     )
     if cage_load < 0.0:
         by_load = -by_load
-    slope = inner_slope + outer_slope + by_slip + by_load * (inner_slope - outer_slope)
-    return SlipForces(inner, outer, cage, slope, inner_slope, outer_slope, cage_load)
+    slope = inner.spin_slope + outer.spin_slope + by_slip + by_load * cage_load_slope
+    return SlipForces(
+        inner.spin,
+        outer.spin,
+        cage,
+        slope,
+        inner.spin_slope,
+        outer.spin_slope,
+        cage_load,
+        cage_load_slope,
+        inner.detail,
+        outer.detail,
+        cage_detail,
+    )
 
 
 @jit_inline
 def shifted(forces, change):
-    """The forces after a small change of slip [m/s], to first order."""
+    """The forces after a small change of slip [m/s], to first order; the details are left as they are."""
     inner = forces.inner_slope * change
     outer = forces.outer_slope * change
     return SlipForces(
@@ -193,5 +179,9 @@ def shifted(forces, change):
         forces.slope,
         forces.inner_slope,
         forces.outer_slope,
-        forces.cage_load + inner - outer,
+        forces.cage_load + forces.cage_load_slope * change,
+        forces.cage_load_slope,
+        forces.inner_detail,
+        forces.outer_detail,
+        forces.cage_detail,
     )

@@ -57,7 +57,7 @@ def traction(law, load, film_thickness, slip):
 
 
 @jit
-def rising_slip(law, load):
+def rising_slip(law, load, film_thickness):
     """|Δu| [m/s] at which the middle of the contact, its hottest point, reaches the peak of Crook's stress."""
     return _ROOT_HEATING_AT_PEAK / law.heating * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
 

@@ -8,8 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit
-from macroslip.traction.chord import chord_stress
+from macroslip.traction.chord import characteristic_stress, chord_stress, log_viscosity
 from macroslip.traction.chord_table import ChordTable, interpolated_stress
+from macroslip.traction.law import register_type
+from macroslip.traction.patch import Patch
+from macroslip.traction.rheology import limited_stress
 from macroslip.traction.slip_field import graded_rule, rolling_lines
 
 _LINE, _LINE_WEIGHTS = graded_rule(10, both_ends=False)
@@ -27,6 +30,8 @@ def _chords(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 _STATIONS, _STATION_WEIGHTS = _chords(12)
 #: Slip below which a chord is not looked up: its stress is proportional to slip and far below round-off of the rest.
 _NO_SLIP = 1e-30
+#: √B at which Crook's shear stress peaks (B = 2.2767), and a slip no contact exceeds [m/s].
+_ROOT_HEATING_AT_PEAK, _FASTEST = 1.5088, 10.0
 
 
 class FilmShear(NamedTuple):
@@ -46,32 +51,6 @@ class FilmShear(NamedTuple):
     semi_axis_across: float
     semi_axis_along: float
     pressure: float
-
-
-class Patch(NamedTuple):
-    """What a film does to a roller over a whole contact; every integral is over the patch.
-
-    Attributes
-    ----------
-    force : float
-        F = ∫τ dA [N], positive where it drives the spin up.
-    lag : float
-        ∫τ h/r dA [N]: by so much the moment about the roller's axis, over r, falls short of the force.
-    skew : float
-        ∫τ ζ dA [N m].
-    force_slope, lag_slope : float
-        Derivatives of force and lag by Δu, along the change of state the slip field names [N s/m].
-    force_by_film, lag_by_film : float
-        Derivatives by film thickness [N/m].
-    """
-
-    force: float
-    lag: float
-    skew: float
-    force_slope: float
-    lag_slope: float
-    force_by_film: float
-    lag_by_film: float
 
 
 @jit
@@ -202,3 +181,24 @@ def microslip_traction(law, load, film_thickness, field, shape, fine):
     return Patch(
         force, lag, skew, force_slope, lag_slope, force_by_film / film_thickness, lag_by_film / film_thickness
     )
+
+
+@jit
+def rising_slip(law, load, film_thickness):
+    """Local slip [m/s] up to which stress rises with slip at every point of the contact.
+
+    Stress rises while β h τ Δu < 8k (`macroslip.traction.film_shear`), which holds at least as long as in a Newtonian
+    film, and at least up to where the largest stress there can be reaches it.
+    """
+    fluid = law.table.fluid
+    if fluid.heating == 0.0:
+        return math.inf
+    pressure = law.pressure * load ** (1.0 / 3.0)
+    log_eta, _ = log_viscosity(fluid, pressure)
+    newtonian = _ROOT_HEATING_AT_PEAK * math.exp(-0.5 * log_eta) / math.sqrt(fluid.heating)
+    viscous = math.exp(log_eta) * _FASTEST / film_thickness
+    largest, _ = limited_stress(fluid.rheology, viscous, characteristic_stress(fluid, pressure))
+    return max(newtonian, 1.0 / (fluid.heating * film_thickness * largest))
+
+
+register_type(FilmShear, traction=uniform_traction, rising_slip=rising_slip, microslip=microslip_traction)

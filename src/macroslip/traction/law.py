@@ -11,11 +11,13 @@ from numba.extending import overload
 
 from macroslip.compiled import depend_on
 from macroslip.contact.law_list import LawList
+from macroslip.traction.patch import Patch
 
 _laws = LawList("traction")
 names, reference, prepare = _laws.names, _laws.reference, _laws.prepare
 _traction: dict[type, Callable] = {}
 _rising_slip: dict[type, Callable] = {}
+_microslip: dict[type, Callable] = {}
 
 
 def register(
@@ -37,13 +39,32 @@ def register(
         Compiled `traction(law, load [N], film_thickness [m], slip [m/s]) -> (F [N], ∂F/∂Δu [N s/m], ∂F/∂h [N/m],
         ∂F/∂Q [-])`; F has the sign of the slip and vanishes with it.
     rising_slip : callable
-        Compiled `rising_slip(law, load) -> |Δu|` [m/s] up to which traction surely rises with slip. The integrator
-        needs it to know where an implicit step can have more than one root.
+        Compiled `rising_slip(law, load, film_thickness) -> |Δu|` [m/s] up to which traction surely rises with slip. The
+        integrator needs it to know where an implicit step can have more than one root.
+    """
+    _laws.add(name, prepare, reference)
+    register_type(law, traction=traction, rising_slip=rising_slip)
+
+
+def register_type(
+    law: type, *, traction: Callable, rising_slip: Callable, microslip: Callable | None = None
+) -> None:
+    """Tell which compiled functions belong to a law's type, without a name to choose it by.
+
+    Parameters
+    ----------
+    law, traction, rising_slip
+        As for `register`.
+    microslip : callable, optional
+        Compiled `microslip(law, load, film_thickness, field, shape, fine) -> Patch` for a slip that varies over the
+        contact. A law without it takes the slip of the middle for the whole contact.
     """
     depend_on(traction, rising_slip)
-    _laws.add(name, prepare, reference)
     _traction[law] = traction
     _rising_slip[law] = rising_slip
+    if microslip is not None:
+        depend_on(microslip)
+        _microslip[law] = microslip
 
 
 def patch_traction(law, load, film_thickness, slip):
@@ -51,9 +72,17 @@ def patch_traction(law, load, film_thickness, slip):
     return _traction[type(law)](law, load, film_thickness, slip)
 
 
-def rising_slip(law, load):
-    """Slip [m/s] up to which traction surely rises with slip at this load [N]."""
-    return _rising_slip[type(law)](law, load)
+def patch_traction_microslip(law, load, film_thickness, field, shape, fine):
+    """Traction of a contact over which slip varies as `field` says, a `Patch`; `fine` asks for a finer quadrature."""
+    if shape.microslip and type(law) in _microslip:
+        return _microslip[type(law)](law, load, film_thickness, field, shape, fine)
+    force, slope, by_film, _ = _traction[type(law)](law, load, film_thickness, field.sliding)
+    return Patch(force, 0.0, 0.0, slope, 0.0, by_film, 0.0)
+
+
+def rising_slip(law, load, film_thickness):
+    """Slip [m/s] up to which traction surely rises with slip at this load [N] and film thickness [m]."""
+    return _rising_slip[type(law)](law, load, film_thickness)
 
 
 @overload(patch_traction)
@@ -62,7 +91,25 @@ def _patch_traction(law, load, film_thickness, slip):
     return lambda law, load, film_thickness, slip: implementation(law, load, film_thickness, slip)
 
 
+@overload(patch_traction_microslip)
+def _patch_traction_microslip(law, load, film_thickness, field, shape, fine):
+    uniform = _traction[law.instance_class]
+    varying = _microslip.get(law.instance_class)
+
+    def alike(law, load, film_thickness, field, shape, fine):
+        force, slope, by_film, _ = uniform(law, load, film_thickness, field.sliding)
+        return Patch(force, 0.0, 0.0, slope, 0.0, by_film, 0.0)
+
+    def either(law, load, film_thickness, field, shape, fine):
+        if shape.microslip:
+            return varying(law, load, film_thickness, field, shape, fine)
+        force, slope, by_film, _ = uniform(law, load, film_thickness, field.sliding)
+        return Patch(force, 0.0, 0.0, slope, 0.0, by_film, 0.0)
+
+    return alike if varying is None else either
+
+
 @overload(rising_slip)
-def _rising_slip_of(law, load):
+def _rising_slip_of(law, load, film_thickness):
     implementation = _rising_slip[law.instance_class]
-    return lambda law, load: implementation(law, load)
+    return lambda law, load, film_thickness: implementation(law, load, film_thickness)

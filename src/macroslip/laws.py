@@ -1,0 +1,160 @@
+"""Which physics a case uses inside its contacts, chosen mechanism by mechanism, with two named sets.
+
+`Laws.paper()` is the model of Hart et al.; `Laws.physical()` switches on everything the program knows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from macroslip.errors import InputError
+from macroslip.traction.rheology import RHEOLOGIES
+
+VISCOSITIES = ("barus", "roelands")
+#: The traction that is built from viscosity, rheology, heating, microslip and asperities.
+MECHANISMS = "mechanisms"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Laws:
+    """Mechanisms in the contacts of a roller. The defaults are the paper's model.
+
+    Parameters
+    ----------
+    film : str
+        Name of a film law.
+    starvation : bool
+        Whether the film is thinner by the lubricant's `starvation` factor.
+    inlet_heating : bool
+        Whether shear in the inlet warms the oil and thins the film.
+    viscosity : "barus" or "roelands"
+        How viscosity rises with pressure; both have the slope `pressure_viscosity` at ambient pressure.
+    rheology : "newtonian", "limiting-shear" or "eyring"
+        How the film's stress falls behind the Newtonian one: not at all, limited to `limiting_shear` times pressure, or
+        by Eyring's law with `eyring_stress`.
+    heating : bool
+        Whether shear heats the film and lowers its viscosity (Crook).
+    microslip : bool
+        Whether slip varies along the roller, by the contact's curvature and by the contact angle.
+    asperities : str
+        Name of a law for the share of the load that asperities carry, with `boundary_friction`; "none" without them.
+    traction : str
+        "mechanisms": built from the choices above. Otherwise the name of a registered traction law, which replaces
+        viscosity, rheology, heating and microslip.
+
+    Raises
+    ------
+    InputError
+        For a choice that does not exist, or one that a law of one's own makes void.
+
+    Examples
+    --------
+    >>> Laws.physical().rheology, Laws.paper().rheology
+    ('limiting-shear', 'newtonian')
+    >>> Laws.paper().but(rheology="eyring", viscosity="roelands").name
+    'paper, but rheology eyring, viscosity roelands'
+    """
+
+    film: str = "masjedi-khonsari"
+    starvation: bool = False
+    inlet_heating: bool = False
+    viscosity: str = "barus"
+    rheology: str = "newtonian"
+    heating: bool = True
+    microslip: bool = False
+    asperities: str = "none"
+    traction: str = MECHANISMS
+
+    def __post_init__(self) -> None:
+        from macroslip.film import asperity_load
+
+        for name, allowed in (
+            ("viscosity", VISCOSITIES),
+            ("rheology", tuple(RHEOLOGIES)),
+            ("asperities", tuple(asperity_load.names())),
+        ):
+            value = getattr(self, name)
+            if value not in allowed:
+                raise InputError(f"'{value}' does not exist", where=f"laws.{name}", allowed=", ".join(allowed))
+        for name in ("starvation", "inlet_heating", "heating", "microslip"):
+            if not isinstance(getattr(self, name), bool):
+                raise InputError(f"it is {getattr(self, name)!r}", where=f"laws.{name}", allowed="true or false")
+        if self.traction != MECHANISMS:
+            void = [
+                name for name in ("viscosity", "rheology", "heating", "microslip") if getattr(self, name) != _DEFAULTS[name]
+            ]
+            if void:
+                raise InputError(
+                    f"the traction law '{self.traction}' replaces {', '.join(void)}, chosen beside it",
+                    where="laws.traction",
+                    allowed=f"{MECHANISMS}, or a law of one's own without these",
+                    remedy="Leave them out, or base the case on the paper model",
+                )
+
+    @classmethod
+    def paper(cls) -> Laws:
+        """The model of the paper: rough film, Newtonian Barus oil heated by its own shear, one slip a contact."""
+        return cls()
+
+    @classmethod
+    def physical(cls) -> Laws:
+        """All mechanisms: film for every load, starved and heated in the inlet; Roelands; limiting shear; microslip;
+        asperities."""
+        return cls(
+            film="masjedi-khonsari-moes",
+            starvation=True,
+            inlet_heating=True,
+            viscosity="roelands",
+            rheology="limiting-shear",
+            microslip=True,
+            asperities="masjedi-khonsari",
+        )
+
+    @classmethod
+    def named(cls, name: str) -> Laws:
+        """The set called `name`: paper or physical.
+
+        Raises
+        ------
+        InputError
+            For any other name.
+        """
+        if name not in MODELS:
+            raise InputError(f"'{name}' does not exist", where="laws.model", allowed=", ".join(MODELS))
+        return cls.paper() if name == "paper" else cls.physical()
+
+    def but(self, **changes: Any) -> Laws:
+        """The same with some choices changed."""
+        return replace(self, **changes)
+
+    @property
+    def name(self) -> str:
+        """The set's name, or the one it is nearest to with what differs."""
+        best = None
+        for model in MODELS:
+            other = Laws.named(model)
+            off = [f"{one.name} {_word(getattr(self, one.name))}" for one in fields(self) if _differs(self, other, one.name)]
+            if best is None or len(off) < len(best[1]):
+                best = model, off
+        return best[0] + (f", but {', '.join(sorted(best[1]))}" if best[1] else "")
+
+    @property
+    def is_closed_form(self) -> bool:
+        """Whether traction is the paper's, for which there is a closed form."""
+        return all(
+            getattr(self, name) == _DEFAULTS[name] for name in ("viscosity", "rheology", "heating", "microslip", "traction")
+        )
+
+
+_DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
+#: Named sets.
+MODELS = ("paper", "physical")
+
+
+def _word(value: Any) -> str:
+    return ("on" if value else "off") if isinstance(value, bool) else str(value)
+
+
+def _differs(one: Laws, other: Laws, name: str) -> bool:
+    return getattr(one, name) != getattr(other, name)

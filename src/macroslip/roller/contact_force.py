@@ -1,0 +1,311 @@
+"""Traction of one contact of a roller: film, traction and, in a curved contact, microslip and asperities together.
+
+Two kinds of contact exist. A `PlainContact` slides alike all over, as in the paper's model; the kernels made of it know
+nothing of the rest. A `CurvedContact` has a slip field over the stations along the roller's axis, and asperities that
+share the load. Which kind a roller has follows from the types in its model when the kernel is compiled.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from numba import types
+from numba.extending import overload
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.shape import ContactShape
+from macroslip.film.asperity_load import AsperityLoad, asperity_share
+from macroslip.film.law import film_thickness
+from macroslip.traction.asperity_friction import AsperityFriction, asperity_friction
+from macroslip.traction.law import patch_traction, patch_traction_microslip, rising_slip
+from macroslip.traction.slip_field import SlipField
+
+#: Entrainment speed below which the film formula is not followed further [m/s].
+LOWEST_ENTRAINMENT_SPEED = 1e-6
+
+
+class PlainContact(NamedTuple):
+    """Film and traction law of one interface, each prepared for it."""
+
+    film: Any
+    traction: Any
+
+
+class CurvedContact(NamedTuple):
+    """Laws of one interface whose slip may vary along the roller, and whose asperities may touch.
+
+    Attributes
+    ----------
+    film, traction : NamedTuple
+        Laws, each prepared for the interface.
+    asperity_load : AsperityLoad
+        Share of the load that asperities carry.
+    asperity_friction : AsperityFriction
+        What they do with it.
+    shape : ContactShape
+        How slip varies.
+    semi_axis_across, semi_axis_along : float
+        Of the contact ellipse per Q^(1/3) [m/N^(1/3)].
+    effusivity_1, effusivity_2 : float
+        Thermal effusivity of roller and counterpart [J/(m² K √s)]; NaN where unknown.
+    roughness : float
+        Composite RMS roughness [m].
+    """
+
+    film: Any
+    traction: Any
+    asperity_load: AsperityLoad
+    asperity_friction: AsperityFriction
+    shape: ContactShape
+    semi_axis_across: float
+    semi_axis_along: float
+    effusivity_1: float
+    effusivity_2: float
+    roughness: float
+
+
+class Detail(NamedTuple):
+    """What a curved contact adds to its force.
+
+    Attributes
+    ----------
+    lag : float
+        ∫τ h/r dA [N]: by so much the moment about the roller's axis, over r, falls short of the force.
+    skew : float
+        Skew moment ∫τ ζ dA [N m].
+    asperity_power : float
+        Part of the frictional power that asperities dissipate [W].
+    """
+
+    lag: float
+    skew: float
+    asperity_power: float
+
+
+class ContactForce(NamedTuple):
+    """Traction of a raceway contact on the roller.
+
+    Attributes
+    ----------
+    spin : float
+        Moment about the roller's axis over r [N], positive where it drives the spin up.
+    pull : float
+        Tangential force ∫τ dA [N]; equal to `spin` where slip does not vary.
+    spin_slope, pull_slope : float
+        Their derivatives by slip, with the film's change [N s/m].
+    detail : Detail or None
+        None for a plain contact.
+    """
+
+    spin: float
+    pull: float
+    spin_slope: float
+    pull_slope: float
+    detail: Any
+
+
+@jit_inline
+def contact_force(contact, load, slip, entrainment_speed, entrainment_slope):
+    """Traction of one contact with the same slip everywhere, and its derivatives by slip and by load.
+
+    Parameters
+    ----------
+    contact : PlainContact or CurvedContact
+    load : float
+        Normal load [N]; a contact without load has no traction.
+    slip : float
+        Δu [m/s].
+    entrainment_speed : float
+        u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`.
+    entrainment_slope : float
+        du_e/dΔu [-].
+
+    Returns
+    -------
+    tuple of float
+        F [N], dF/dΔu with the film's change [N s/m], ∂F/∂Q [-].
+    """
+    if load <= 0.0:
+        return 0.0, 0.0, 0.0
+    if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
+        entrainment_speed = LOWEST_ENTRAINMENT_SPEED
+        entrainment_slope = 0.0
+    film, film_by_speed, film_by_load = film_thickness(contact.film, load, entrainment_speed)
+    force, by_slip, by_film, by_load = patch_traction(contact.traction, load, film, slip)
+    return force, by_slip + by_film * film_by_speed * entrainment_slope, by_load + by_film * film_by_load
+
+
+@jit_inline
+def _plain_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
+    force, slope, _ = contact_force(contact, load, slip, entrainment_speed, entrainment_slope)
+    return ContactForce(force, force, slope, slope, None)
+
+
+@jit_inline
+def slip_field(shape, slip, ring_speed):
+    """Slip over the stations of a raceway contact whose ring moves past the roller's centre at `ring_speed` [m/s]."""
+    if not shape.microslip:
+        return SlipField(slip, 0.0, 0.0, 0.0)
+    slowing = 1.0 / shape.roller_radius
+    return SlipField(slip, ring_speed * shape.curvature_ratio - slip * slowing, ring_speed * shape.spin_ratio, -slowing)
+
+
+@jit
+def _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
+    if load <= 0.0:
+        return ContactForce(0.0, 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0))
+    if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
+        entrainment_speed = LOWEST_ENTRAINMENT_SPEED
+        entrainment_slope = 0.0
+    film, film_by_speed, _ = film_thickness(contact.film, load, entrainment_speed)
+    field = slip_field(contact.shape, slip, ring_speed)
+    patch = patch_traction_microslip(contact.traction, load, film, field, contact.shape, False)
+    share = asperity_share(contact.asperity_load, load, entrainment_speed, film)
+    rough = asperity_friction(contact.asperity_friction, load, share, field, contact.shape)
+    fluid = 1.0 - share
+    thinning = film_by_speed * entrainment_slope
+    pull = fluid * patch.force + rough.force
+    lag = fluid * patch.lag + rough.lag
+    pull_slope = fluid * (patch.force_slope + patch.force_by_film * thinning) + rough.force_slope
+    lag_slope = fluid * (patch.lag_slope + patch.lag_by_film * thinning) + rough.lag_slope
+    detail = Detail(lag, fluid * patch.skew + rough.skew, rough.power)
+    return ContactForce(pull - lag, pull, pull_slope - lag_slope, pull_slope, detail)
+
+
+@jit
+def _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope):
+    if load <= 0.0:
+        return 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0)
+    force, slope, by_load = contact_force(contact, load, slip, entrainment_speed, entrainment_slope)
+    film, _, _ = film_thickness(contact.film, load, max(entrainment_speed, LOWEST_ENTRAINMENT_SPEED))
+    share = asperity_share(contact.asperity_load, load, max(entrainment_speed, LOWEST_ENTRAINMENT_SPEED), film)
+    field = SlipField(slip, 0.0, 0.0, 0.0)
+    rough = asperity_friction(contact.asperity_friction, load, share, field, contact.shape)
+    fluid = 1.0 - share
+    return (
+        fluid * force + rough.force,
+        fluid * slope + rough.force_slope,
+        fluid * by_load + rough.force / load,
+        Detail(0.0, 0.0, rough.power),
+    )
+
+
+def raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
+    """Traction of a raceway contact.
+
+    Parameters
+    ----------
+    contact : PlainContact or CurvedContact
+    load : float
+        Normal load [N]; a contact without load has no traction.
+    slip : float
+        Δu at the middle of the contact [m/s].
+    ring_speed : float
+        Speed u2 of the ring past the roller's centre [m/s].
+    entrainment_speed : float
+        u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`; that of the middle serves the whole contact.
+    entrainment_slope : float
+        du_e/dΔu [-].
+
+    Returns
+    -------
+    ContactForce
+        With asperities, film and asperities in proportion to the load each carries: the film acts on its share of the
+        area at the full Hertz pressure.
+    """
+    compiled = _curved_raceway if isinstance(contact, CurvedContact) else _plain_raceway
+    return compiled(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope)
+
+
+def cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
+    """Traction of the cage contact, which slides alike all over: F [N], dF/dΔu [N s/m], ∂F/∂Q [-] and a `Detail`."""
+    if isinstance(contact, CurvedContact):
+        return _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope)
+    return (*contact_force(contact, load, slip, entrainment_speed, entrainment_slope), None)
+
+
+def friction_power(contact, slip, ring_speed, spin_force, detail):
+    """Frictional power of a contact ∫τ v dA [W] (33): |F Δu| where slip does not vary, else with microslip's part."""
+    if detail is None:
+        return abs(spin_force * slip)
+    return _curved_power(contact, slip, ring_speed, spin_force, detail)
+
+
+@jit_inline
+def _curved_power(contact, slip, ring_speed, spin_force, detail):
+    shape = contact.shape
+    if not shape.microslip:
+        return abs(spin_force * slip)
+    curvature = shape.curvature_ratio * shape.roller_radius * detail.lag
+    return slip * spin_force + ring_speed * (curvature - shape.spin_ratio * detail.skew)
+
+
+@jit
+def steady_slip(contact, load, entrainment_speed, variation):
+    """Slip [m/s] up to which traction of a contact surely rises with slip, where microslip varies by `variation` [m/s].
+
+    Film thickness is that at `entrainment_speed` [m/s], the highest in question: a thick film heats up first.
+    """
+    if load <= 0.0:
+        return math.inf
+    film, _, _ = film_thickness(contact.film, load, max(entrainment_speed, LOWEST_ENTRAINMENT_SPEED))
+    return rising_slip(contact.traction, load, film) - variation
+
+
+def slip_variation(contact, load, ring_speed):
+    """Largest difference [m/s] between the slip at a station and that of the middle."""
+    return _curved_variation(contact, load, ring_speed) if isinstance(contact, CurvedContact) else 0.0
+
+
+@jit
+def _curved_variation(contact, load, ring_speed):
+    shape = contact.shape
+    if not shape.microslip or load <= 0.0:
+        return 0.0
+    half = min(contact.semi_axis_across * load ** (1.0 / 3.0), shape.half_length)
+    return abs(ring_speed) * half * (abs(shape.spin_ratio) + 0.5 * half * shape.curvature_ratio / shape.contour_radius)
+
+
+def _is_curved(contact) -> bool:
+    return isinstance(contact, types.NamedTuple) and contact.instance_class is CurvedContact
+
+
+@overload(raceway_force)
+def _raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
+    compiled = _curved_raceway if _is_curved(contact) else _plain_raceway
+
+    def implementation(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
+        return compiled(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope)
+
+    return implementation
+
+
+@overload(cage_force)
+def _cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
+    if _is_curved(contact):
+        return lambda contact, load, slip, entrainment_speed, entrainment_slope: _curved_cage(
+            contact, load, slip, entrainment_speed, entrainment_slope
+        )
+
+    def plain(contact, load, slip, entrainment_speed, entrainment_slope):
+        force, slope, by_load = contact_force(contact, load, slip, entrainment_speed, entrainment_slope)
+        return force, slope, by_load, None
+
+    return plain
+
+
+@overload(friction_power)
+def _friction_power(contact, slip, ring_speed, spin_force, detail):
+    if _is_curved(contact):
+        return lambda contact, slip, ring_speed, spin_force, detail: _curved_power(
+            contact, slip, ring_speed, spin_force, detail
+        )
+    return lambda contact, slip, ring_speed, spin_force, detail: abs(spin_force * slip)
+
+
+@overload(slip_variation)
+def _slip_variation(contact, load, ring_speed):
+    if _is_curved(contact):
+        return lambda contact, load, ring_speed: _curved_variation(contact, load, ring_speed)
+    return lambda contact, load, ring_speed: 0.0
