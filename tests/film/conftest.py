@@ -11,6 +11,10 @@ with the Fischer-Burmeister function for the inequality; finite volumes with cen
 from __future__ import annotations
 
 import numpy as np
+import pytest
+
+from macroslip import Bearing, Lubricant
+from macroslip.roller.model import interfaces
 
 
 def _log_kernel(x, edges):
@@ -133,3 +137,15 @@ def solve(load, material, rigid=False, cells=240):
         else:
             raise RuntimeError(f"no convergence at M = {target}, L = {exponent}")
     return float(height.min()), float(flux[np.argmax(unknown[:-1])] / 6.0)
+
+
+@pytest.fixture(scope="session")
+def numerical_film():
+    """`solve`, the full numerical solution."""
+    return solve
+
+
+@pytest.fixture(scope="session")
+def base():
+    """Interfaces of the base bearing: inner, outer, cage."""
+    return interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
