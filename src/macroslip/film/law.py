@@ -51,11 +51,19 @@ def register(
     range_notes : callable
         `range_notes(interface) -> list of str`: what is outside the range whatever load and speed.
     """
-    depend_on(thickness, in_range)
     _laws.add(name, prepare, reference)
+    _range_notes[name] = range_notes
+    register_type(law, thickness=thickness, in_range=in_range)
+
+
+def register_type(law: type, *, thickness: Callable, in_range: Callable) -> None:
+    """Say which compiled functions belong to a `NamedTuple` class that has no name of its own in case files.
+
+    For classes that hold another law and change what it gives; parameters are those of `register`.
+    """
+    depend_on(thickness, in_range)
     _thickness[law] = thickness
     _in_range[law] = in_range
-    _range_notes[name] = range_notes
 
 
 def film_range_notes(name: str, interfaces: Iterable[Interface]) -> list[str]:

@@ -42,8 +42,8 @@ def moes(load, material):
 
     Notes
     -----
-    Smooth surfaces, flooded inlet, isothermal, Barus' law, incompressible. Within 4 % of full numerical solutions for
-    M = 0.05 to 20 at L = 0 and 4, and M = 0.05 to 1 at L up to 15.
+    Smooth surfaces, flooded inlet, isothermal, Barus' law, incompressible. Within 5 % of full numerical solutions of
+    that problem for M = 0.05 to 20 at L = 0 and 4, M = 0.05 to 2 at L = 8, and M = 0.05 to 1 at L = 15.
 
     References
     ----------

@@ -11,6 +11,10 @@ with the Fischer-Burmeister function for the inequality; finite volumes with cen
 from __future__ import annotations
 
 import numpy as np
+import pytest
+
+from macroslip import Bearing, Lubricant
+from macroslip.roller.model import interfaces
 
 
 def _log_kernel(x, edges):
@@ -38,7 +42,7 @@ def _grid(inlet, outlet, finest, growth):
 
 
 def solve(load, material, rigid=False, cells=240):
-    """Film thickness H at X = 0 and the smallest one, for M = `load` and L = `material`.
+    """Smallest film thickness H, and the one that the volume flow fills, for M = `load` and L = `material`.
 
     Parameters
     ----------
@@ -52,7 +56,12 @@ def solve(load, material, rigid=False, cells=240):
     Returns
     -------
     (float, float)
-        H at X = 0, smallest H.
+        Smallest H; H where P is highest, which is the volume flow over the entrainment speed.
+
+    Raises
+    ------
+    RuntimeError
+        If Newton's method stops: at high loads and high L together the pressures are too steep for this grid.
     """
     half_width = np.sqrt(8.0 * load / np.pi) if not rigid else 0.0  # Hertz: b = R ε^½ √(8 M/π)
     film = max(2.449 / load, 1.3 * material ** (2.0 / 3.0) if rigid else 0.0)
@@ -102,7 +111,7 @@ def solve(load, material, rigid=False, cells=240):
         jacobian[0, 0] = jacobian[-1, n - 1] = 1.0
         balance = (width @ pressure - target) / target
         jacobian = np.vstack([jacobian, np.append(width, 0.0)[None, :] / target])
-        return np.append(value, balance), jacobian, height, scale
+        return np.append(value, balance), jacobian, height, scale, flux
 
     # A light contact first, which is nearly rigid; then more load, then more viscosity.
     light = min(load, 0.5)
@@ -113,12 +122,12 @@ def solve(load, material, rigid=False, cells=240):
     unknown = np.append(start, 2.449 / light)
     for target, exponent in stages:
         for _ in range(100):
-            value, jacobian, height, scale = residual(unknown, exponent, target)
+            value, jacobian, height, scale, _ = residual(unknown, exponent, target)
             change = np.linalg.solve(jacobian, -value)
             norm, damping = np.linalg.norm(value), 1.0
             while damping > 1e-4:
                 trial = unknown + damping * change
-                new, _, height, _ = residual(trial, exponent, target, scale)
+                new, _, height, _, flux = residual(trial, exponent, target, scale)
                 if np.all(np.isfinite(new)) and np.linalg.norm(new) < (1.0 - 1e-4 * damping) * norm and height.min() > 0:
                     break
                 damping *= 0.5
@@ -127,6 +136,16 @@ def solve(load, material, rigid=False, cells=240):
                 break
         else:
             raise RuntimeError(f"no convergence at M = {target}, L = {exponent}")
-    inside = unknown[:-1] > 1e-9 * unknown[:-1].max()
-    flow = height[np.flatnonzero(inside)[-1] + 1]
-    return float(np.interp(0.0, x, height)), float(height[inside].min()), float(flow)
+    return float(height.min()), float(flux[np.argmax(unknown[:-1])] / 6.0)
+
+
+@pytest.fixture(scope="session")
+def numerical_film():
+    """`solve`, the full numerical solution."""
+    return solve
+
+
+@pytest.fixture(scope="session")
+def base():
+    """Interfaces of the base bearing: inner, outer, cage."""
+    return interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
