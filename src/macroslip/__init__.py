@@ -16,6 +16,7 @@ _HOMES = {
     "Drivetrain": "macroslip.loads",
     "main_bearing_load": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
+    "Laws": "macroslip.laws",
     "Case": "macroslip.study.case",
     "Radau": "macroslip.study.case",
     "ExplicitEuler": "macroslip.study.case",

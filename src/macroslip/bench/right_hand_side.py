@@ -13,8 +13,9 @@ from macroslip.bench.histories import History
 from macroslip.compiled import jit
 from macroslip.film.masjedi_khonsari import MasjediKhonsari
 from macroslip.integrate.record import powers
+from macroslip.roller.contact_force import PlainContact
 from macroslip.roller.forces import slip_forces, station
-from macroslip.roller.model import Contact, RollerModel
+from macroslip.roller.model import RollerModel
 from macroslip.roller.orbit import Motion, instant, interval_of
 from macroslip.traction.barus_crook import BarusCrook
 
@@ -40,7 +41,7 @@ def pack(history: History, energy_unit: float = 1.0) -> np.ndarray:
 
 @jit
 def _contact(d, k):
-    return Contact(MasjediKhonsari(d[k], d[k + 1], d[k + 2], d[k + 3]), BarusCrook(d[k + 4], d[k + 5], d[k + 6]))
+    return PlainContact(MasjediKhonsari(d[k], d[k + 1], d[k + 2], d[k + 3]), BarusCrook(d[k + 4], d[k + 5], d[k + 6]))
 
 
 @jit
@@ -90,7 +91,7 @@ def rates(time, state, rate, d):
     k = int(d[INTERVAL])
     acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
     forces = slip_forces(model, at, state[0])
-    inner, outer, cage = powers(at, forces, state[0])
+    inner, outer, cage = powers(model, at, forces, state[0])
     rate[0] = -model.orbit_ratio * model.outer_radius * acceleration
     rate[0] -= model.mobility * (forces.inner + forces.outer + forces.cage)
     rate[1] = inner / d[ENERGY_UNIT]

@@ -7,6 +7,7 @@ import math
 from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
 from macroslip.integrate.explicit_euler import explicit_euler_step
+from macroslip.integrate.detail import book_stage, book_step
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
 from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE
 from macroslip.roller.forces import slip_forces, station
@@ -57,7 +58,7 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
     forces = slip_forces(model, at, slip)
     while True:
         while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
-            write_trace(record, next_trace, at, forces, slip)
+            write_trace(record, model, next_trace, at, forces, slip)
             next_trace += 1
         if time >= end:
             break
@@ -65,7 +66,7 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
         span = after - time
         interval = interval_of(motion, after, interval)
         reached = station(model, start_angle, instant(motion, interval, after))
-        inner, outer, cage = powers(at, forces, slip)
+        inner, outer, cage = powers(model, at, forces, slip)
         if implicit:
             spin, used, unbalanced = backward_euler_step(model, reached, spin, span, tolerance)
             evaluations += used
@@ -73,6 +74,7 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
         else:
             spin = explicit_euler_step(model, at, spin, span)
             evaluations += 1
+        slip_before, before = slip, forces
         slip = reached.ring_speed - model.radius * spin
         if not math.isfinite(slip):
             status = NO_ROOT if implicit else NOT_FINITE
@@ -83,7 +85,7 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
         forces = slip_forces(model, reached, slip)
         evaluations += 1
         if implicit:
-            inner, outer, cage = powers(reached, forces, slip)
+            inner, outer, cage = powers(model, reached, forces, slip)
         if time >= record.edges[0]:
             orbit = orbit_at(record, 0.5 * (time + after))
             add_energy(record, orbit, span * inner, span * outer, span * cage)
@@ -91,6 +93,12 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
             raise_peak(record, orbit, 1, outer)
             raise_peak(record, orbit, 2, cage)
             note_state(record, model, reached, forces, slip, span)
+            # Rectangles: the state a step is evaluated at stands for the whole step.
+            if implicit:
+                book_stage(record, model, reached, forces, slip, span)
+            else:
+                book_stage(record, model, at, before, slip_before, span)
+            book_step(record, model, reached, forces, slip, span, orbit, span * inner, span * outer, steps)
         time, at = after, reached
         steps += 1
     record.count[0], record.count[1], record.count[2] = steps, 0, evaluations

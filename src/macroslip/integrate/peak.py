@@ -5,6 +5,9 @@ from __future__ import annotations
 from macroslip.compiled import jit
 from macroslip.integrate.record import raise_peak
 
+#: A kink has no parabola; what one may add to the samples is bounded by this factor.
+_HIGHEST_RISE = 1.1
+
 
 @jit
 def start_peak(samples, time, inner, outer, cage):
@@ -35,6 +38,36 @@ def vertex(ta, pa, tb, pb, tc, pc):
 
 
 @jit
+def follow_step(record, orbit, samples, before, times, inner, outer, cage):
+    """Take up the powers at the stages of a step, as three calls of `follow_peak` would.
+
+    Most steps cannot raise a peak: all they hold, and a tenth more for a parabola, is below the orbit's. For those only
+    the samples move on.
+
+    Parameters
+    ----------
+    before : tuple of float
+        Powers of inner, outer and cage at the start of the step [W].
+    times, inner, outer, cage : tuple of float
+        Times [s] and powers [W] at the three stages.
+    """
+    if orbit >= 0:
+        peak = record.peak_power[orbit]
+        rises = _HIGHEST_RISE * max(before[0], inner[0], inner[1], inner[2]) > peak[0]
+        rises |= _HIGHEST_RISE * max(before[1], outer[0], outer[1], outer[2]) > peak[1]
+        rises |= _HIGHEST_RISE * max(before[2], cage[0], cage[1], cage[2]) > peak[2]
+        if rises:
+            for stage in range(3):
+                follow_peak(record, orbit, samples, times[stage], inner[stage], outer[stage], cage[stage])
+            return
+    for row in range(2):
+        samples[row, 0] = times[row + 1]
+        samples[row, 1] = inner[row + 1]
+        samples[row, 2] = outer[row + 1]
+        samples[row, 3] = cage[row + 1]
+
+
+@jit
 def follow_peak(record, orbit, samples, time, inner, outer, cage):
     """Take up the powers at a new time; raise the orbit's peaks to the samples and to the parabolas through them."""
     # Where spacing changes much between samples a fast transient has just ended, and a parabola would extrapolate it.
@@ -46,8 +79,7 @@ def follow_peak(record, orbit, samples, time, inner, outer, cage):
         first, middle = samples[0, interface + 1], samples[1, interface + 1]
         if even and middle > first and middle > power:
             top = vertex(samples[0, 0], first, samples[1, 0], middle, time, power)
-            # A kink has no parabola; what it may add is bounded.
-            raise_peak(record, orbit, interface, min(top, 1.1 * middle))
+            raise_peak(record, orbit, interface, min(top, _HIGHEST_RISE * middle))
         samples[0, interface + 1] = middle
         samples[1, interface + 1] = power
     samples[0, 0] = samples[1, 0]

@@ -9,7 +9,8 @@ import numpy as np
 
 from macroslip.compiled import jit
 from macroslip.integrate.crossing import crossing
-from macroslip.integrate.peak import follow_peak, start_peak
+from macroslip.integrate.detail import book_stage, book_step
+from macroslip.integrate.peak import follow_peak, follow_step, start_peak
 from macroslip.integrate.radau_step import (
     NODES,
     WEIGHTS,
@@ -21,10 +22,10 @@ from macroslip.integrate.radau_step import (
 )
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
 from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
-from macroslip.roller.forces import SlipForces, shifted, slip_forces, station
+from macroslip.roller.contact_force import slip_variation, steady_slip
+from macroslip.roller.forces import shifted, slip_forces, station
 from macroslip.roller.load_zone import EDGE, FIRM, FREE, classify, edge_time
 from macroslip.roller.orbit import instant, interval_of
-from macroslip.traction.law import rising_slip
 
 #: Largest part of an orbit turned in one step [rad], so that no step sees gravity's direction only where it is alike.
 _LONGEST_TURN = 0.6
@@ -82,17 +83,24 @@ class Limits(NamedTuple):
 
 
 @jit
-def _unloaded_forces():
-    return SlipForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+def _surely_rising(model, at, at1, at2, at3, slip):
+    """Slip up to which traction rises at both raceways for every load met in a step [m/s]; `slip` is the largest there."""
+    inner = max(at.inner_load, at1.inner_load, at2.inner_load, at3.inner_load)
+    outer = max(at.outer_load, at1.outer_load, at2.outer_load, at3.outer_load)
+    ring = max(abs(at.ring_speed), abs(at3.ring_speed))
+    return rising_at(model, inner, outer, ring, ring + 0.5 * abs(slip))
 
 
 @jit
-def _surely_rising(model, at, at1, at2, at3):
-    """Slip up to which traction rises at both raceways for every load met in a step [m/s]."""
-    inner = max(at.inner_load, at1.inner_load, at2.inner_load, at3.inner_load)
-    outer = max(at.outer_load, at1.outer_load, at2.outer_load, at3.outer_load)
-    limit = rising_slip(model.inner.traction, inner) if inner > 0.0 else math.inf
-    return min(limit, rising_slip(model.outer.traction, outer)) if outer > 0.0 else limit
+def rising_at(model, inner_load, outer_load, ring_speed, entrainment_speed):
+    """Slip up to which traction rises at both raceways at the given loads [N] and speeds [m/s]."""
+    inner = steady_slip(
+        model.inner, inner_load, entrainment_speed, slip_variation(model.inner, inner_load, ring_speed)
+    )
+    outer = steady_slip(
+        model.outer, outer_load, entrainment_speed, slip_variation(model.outer, outer_load, ring_speed)
+    )
+    return min(inner, outer)
 
 
 @jit
@@ -125,7 +133,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     interval = 0
     at = station(model, start_angle, instant(motion, 0, time))
     forces = slip_forces(model, at, slip)
-    p_inner, p_outer, p_cage = powers(at, forces, slip)
+    p_inner, p_outer, p_cage = powers(model, at, forces, slip)
     step = min(limits.longest_step, 1e-2)
     spent, next_stop, next_trace = 0.0, 0, 0
     evaluations, steps, rejections = 1, 0, 0
@@ -138,7 +146,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     failed_before = False
     sample_step = 0.0
     while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
-        write_trace(record, next_trace, at, forces, slip)
+        write_trace(record, model, next_trace, at, forces, slip)
         next_trace += 1
     while True:
         if time >= barrier:
@@ -162,7 +170,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 if abs(balanced - slip) < _SETTLED * limits.speed_scale:
                     slip = balanced
                     forces = slip_forces(model, at, slip)
-                    p_inner, p_outer, p_cage = powers(at, forces, slip)
+                    p_inner, p_outer, p_cage = powers(model, at, forces, slip)
                     evaluations += 1
             # Loads have a kink at every sample; no parabola for a peak should reach across it.
             start_peak(peaks, time, p_inner, p_outer, p_cage)
@@ -194,7 +202,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         # Traction of a contact whose load passes through zero has a cusp there; a long step ends on it. At the cage it
         # is foreseen with the traction at the start, whose change is small against the roller's weight.
         if h > _CUSP_PART * limits.longest_step:
-            held = forces.inner - forces.outer
+            held = forces.cage_load - at.tangential
             part = crossing(
                 at.tangential + held, at1.tangential + held, at2.tangential + held, at3.tangential + held
             )
@@ -215,7 +223,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         scale = 1.0 / (h * model.mobility)
         converged = False
         unbalanced = math.inf
-        f1, f2, f3 = _unloaded_forces(), _unloaded_forces(), _unloaded_forces()
+        f1, f2, f3 = forces, forces, forces
         for iteration in range(_NEWTON_ITERATIONS):
             f1 = slip_forces(model, at1, v1)
             f2 = slip_forces(model, at2, v2)
@@ -257,7 +265,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             largest = max(abs(slip), abs(v1), abs(v2), abs(v3))
             if least < -0.5 * scale:
                 converged = False
-            elif largest > limits.cold_slip and largest > _surely_rising(model, at, at1, at2, at3):
+            elif largest > limits.cold_slip and largest > _surely_rising(model, at, at1, at2, at3, largest):
                 change = max(abs(v1 - slip), abs(v2 - slip), abs(v3 - slip))
                 converged = change <= _HOT_CHANGE * abs(slip) + 1e-6 * limits.speed_scale
         if not converged:
@@ -281,9 +289,9 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 grip = h * model.mobility * abs(push.slope)
                 slip_off = max(abs(slip_off), _DEFECT_WEIGHT * abs(defect) / (1.0 + grip))
                 evaluations += 1
-        i1, o1, c1 = powers(at1, f1, v1)
-        i2, o2, c2 = powers(at2, f2, v2)
-        i3, o3, c3 = powers(at3, f3, v3)
+        i1, o1, c1 = powers(model, at1, f1, v1)
+        i2, o2, c2 = powers(model, at2, f2, v2)
+        i3, o3, c3 = powers(model, at3, f3, v3)
         energy_off = energy_error(h, p_inner + p_outer + p_cage, i1 + o1 + c1, i2 + o2 + c2, i3 + o3 + c3)
         e_inner = h * (WEIGHTS[0] * i1 + WEIGHTS[1] * i2 + WEIGHTS[2] * i3)
         e_outer = h * (WEIGHTS[0] * o1 + WEIGHTS[1] * o2 + WEIGHTS[2] * o3)
@@ -326,15 +334,26 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                     there = station(model, start_angle, instant(motion, interval, when))
                     between = slip + there.ring_speed - at.ring_speed + increment
                     if abs(between) > resolved:
-                        i, o, c = powers(there, slip_forces(model, there, between), between)
+                        i, o, c = powers(model, there, slip_forces(model, there, between), between)
                         follow_peak(record, orbit, peaks, when, i, o, c)
                     evaluations += 1
             else:
-                follow_peak(record, orbit, peaks, t1, i1, o1, c1)
-                follow_peak(record, orbit, peaks, t2, i2, o2, c2)
-                follow_peak(record, orbit, peaks, t3, i3, o3, c3)
+                follow_step(
+                    record,
+                    orbit,
+                    peaks,
+                    (p_inner, p_outer, p_cage),
+                    (t1, t2, t3),
+                    (i1, i2, i3),
+                    (o1, o2, o3),
+                    (c1, c2, c3),
+                )
             top_power = max(top_power, raceways)
             note_state(record, model, at3, f3, v3, h)
+            book_stage(record, model, at1, f1, v1, h * WEIGHTS[0])
+            book_stage(record, model, at2, f2, v2, h * WEIGHTS[1])
+            book_stage(record, model, at3, f3, v3, h * WEIGHTS[2])
+            book_step(record, model, at3, f3, v3, h, orbit, e_inner, e_outer, steps)
         record.worst[0] = max(record.worst[0], unbalanced)
         time = barrier if h == left else t3
         interval = k3
@@ -343,7 +362,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         step = h * min(1.0 if failed_before else _GROWTH, factor)
         failed_before = False
         while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
-            write_trace(record, next_trace, at, forces, slip)
+            write_trace(record, model, next_trace, at, forces, slip)
             next_trace += 1
     record.count[0], record.count[1], record.count[2] = steps, rejections, evaluations
     record.end[0], record.end[1] = time, slip

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import types
+from numba.extending import overload
 
 from macroslip.compiled import jit
-from macroslip.film.law import film_in_range
+from macroslip.film.law import film_in_range, film_thickness
+from macroslip.integrate.detail import EXTREMES, MECHANISMS, STATIONS
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
 
 #: Meaning of `Record.count` by position.
 COUNTS = ("steps", "rejections", "force_evaluations")
 #: Channels of `Record.trace` by position.
-TRACES = ("slip", "ring_speed", "roller_load", "force_inner", "force_outer", "force_cage", "cage_load")
+TRACES = (
+    *("slip", "ring_speed", "roller_load", "force_inner", "force_outer", "force_cage", "cage_load"),
+    *("power_inner", "power_outer", "power_cage", "film_inner", "film_outer", "film_cage", "skew_inner", "skew_outer"),
+)
 
 
 class Record(NamedTuple):
@@ -38,8 +46,21 @@ class Record(NamedTuple):
         Time [s] and slip [m/s] at which the integration ended.
     trace_time : ndarray, shape (m,)
         Times of the traces [s].
-    trace : ndarray, shape (m, 7)
+    trace : ndarray, shape (m, 15)
         Traces, see `TRACES`; NaN after an integration that ended early.
+    mechanism_energy : ndarray, shape (3, 3)
+        Energy in the window by interface and mechanism [J], see `macroslip.integrate.detail`; this and what follows is
+        filled for curved contacts only.
+    asperity_energy : ndarray, shape (3,)
+        Part of the energy dissipated by asperities [J].
+    station_energy : ndarray, shape (2, stations)
+        Energy at the raceways by station along the roller [J].
+    extreme : ndarray, shape (orbits, 3, 4)
+        Largest flash temperature [K], power per area [W/m²] and slide-roll ratio, and least Λ, in each complete orbit.
+    quadrature : ndarray, shape (2, 2)
+        Of states looked at: energy by a finer quadrature, and what the one in use is off by [J].
+    station_work : ndarray, shape (stations,)
+        Work space.
     """
 
     edges: np.ndarray
@@ -54,11 +75,19 @@ class Record(NamedTuple):
     end: np.ndarray
     trace_time: np.ndarray
     trace: np.ndarray
+    mechanism_energy: np.ndarray
+    asperity_energy: np.ndarray
+    station_energy: np.ndarray
+    extreme: np.ndarray
+    quadrature: np.ndarray
+    station_work: np.ndarray
 
 
 def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
     """An empty record for the given orbit edges [s] and trace times [s]."""
     orbits = edges.size - 1
+    extreme = np.zeros((orbits, 3, len(EXTREMES)))
+    extreme[..., EXTREMES.index("film_ratio")] = np.inf
     return Record(
         edges=edges,
         energy=np.zeros(3),
@@ -72,13 +101,23 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
         end=np.zeros(2),
         trace_time=trace_time,
         trace=np.full((trace_time.size, len(TRACES)), np.nan),
+        mechanism_energy=np.zeros((3, len(MECHANISMS))),
+        asperity_energy=np.zeros(3),
+        station_energy=np.zeros((2, STATIONS)),
+        extreme=extreme,
+        quadrature=np.zeros((2, 2)),
+        station_work=np.zeros(STATIONS),
     )
 
 
 @jit
-def powers(at, forces, slip):
-    """Frictional power |F Δu| (33) at inner, outer and cage interface [W]."""
-    return abs(forces.inner * slip), abs(forces.outer * slip), abs(forces.cage * (at.ring_speed - slip))
+def powers(model, at, forces, slip):
+    """Frictional power (33) at inner, outer and cage interface [W]."""
+    return (
+        friction_power(model.inner, slip, at.ring_speed, forces.inner, forces.inner_detail),
+        friction_power(model.outer, slip, at.ring_speed, forces.outer, forces.outer_detail),
+        abs(forces.cage * (at.ring_speed - slip)),
+    )
 
 
 @jit
@@ -138,7 +177,27 @@ def _note_range(record, interface, contact, load, speed, span):
 
 
 @jit
-def write_trace(record, index, at, forces, slip):
+def _film(contact, load, speed):
+    """Film thickness [m], or NaN for a contact without load."""
+    if load <= 0.0:
+        return math.nan
+    return film_thickness(contact.film, load, max(speed, LOWEST_ENTRAINMENT_SPEED))[0]
+
+
+def skew_moment(detail):
+    """Skew moment of a contact [N m]; NaN for a plain one, which knows of none."""
+    return math.nan if detail is None else detail.skew
+
+
+@overload(skew_moment)
+def _skew_moment(detail):
+    if isinstance(detail, types.NoneType):
+        return lambda detail: math.nan
+    return lambda detail: detail.skew
+
+
+@jit
+def write_trace(record, model, index, at, forces, slip):
     """Write the state at trace time `index`."""
     row = record.trace[index]
     row[0] = slip
@@ -148,3 +207,10 @@ def write_trace(record, index, at, forces, slip):
     row[4] = forces.outer
     row[5] = forces.cage
     row[6] = forces.cage_load
+    row[7], row[8], row[9] = powers(model, at, forces, slip)
+    raceway_speed = abs(at.ring_speed - 0.5 * slip)
+    row[10] = _film(model.inner, at.inner_load, raceway_speed)
+    row[11] = _film(model.outer, at.outer_load, raceway_speed)
+    row[12] = _film(model.cage, abs(forces.cage_load), 0.5 * abs(at.ring_speed - slip))
+    row[13] = skew_moment(forces.inner_detail)
+    row[14] = skew_moment(forces.outer_detail)

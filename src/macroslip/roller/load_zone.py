@@ -13,7 +13,8 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit
-from macroslip.roller.forces import contact_force, interference
+from macroslip.roller.contact_force import raceway_force
+from macroslip.roller.forces import interference
 from macroslip.roller.orbit import instant
 
 FREE, EDGE, FIRM = 0, 1, 2
@@ -24,10 +25,29 @@ FIRM_RATE = 1e4
 
 @jit
 def relaxation_rate(model, load, ring_speed):
-    """Rate (r²/I_z') d(F_i + F_o)/dv at zero slip [1/s] under `load` [N], with raceways at `ring_speed` ≥ 0 [m/s]."""
-    _, inner, _ = contact_force(model.inner, load, 0.0, ring_speed, 0.0)
-    _, outer, _ = contact_force(model.outer, load, 0.0, ring_speed, 0.0)
-    return model.mobility * (inner + outer)
+    """Rate (r²/I_z') d(F_i + F_o)/dv [1/s] at the slip at which F_i + F_o = 0, under `load` [N].
+
+    `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a Newton iteration held
+    within the slips that occur in the contact finds it.
+    """
+    slip, low, high = 0.0, -math.inf, math.inf
+    rate = 0.0
+    for _ in range(20):
+        inner = raceway_force(model.inner, load, slip, ring_speed, ring_speed, 0.0)
+        outer = raceway_force(model.outer, load, slip, ring_speed, ring_speed, 0.0)
+        rest, slope = inner.spin + outer.spin, inner.spin_slope + outer.spin_slope
+        rate = model.mobility * slope
+        if rest > 0.0:
+            high = slip
+        else:
+            low = slip
+        following = slip - rest / slope if slope > 0.0 else slip
+        if not low <= following <= high:
+            following = 0.5 * (low + high)
+        if abs(following - slip) <= 1e-6 * abs(slip) or not math.isfinite(following):
+            break
+        slip = following
+    return rate
 
 
 @jit

@@ -5,25 +5,16 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import macroslip.film.masjedi_khonsari  # noqa: F401  registers the law
-import macroslip.traction.barus_crook  # noqa: F401  registers the law
 from macroslip.bearing import geometry, inertia
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import effective_modulus, elliptical_contact, series_stiffness
 from macroslip.contact.interface import Interface
-from macroslip.film import law as film_law
-from macroslip.traction import law as traction_law
+from macroslip.laws import Laws
+from macroslip.roller.contacts import prepare_contact
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.lubricant import Lubricant
-
-
-class Contact(NamedTuple):
-    """Film and traction law of one interface, each prepared for it."""
-
-    film: Any
-    traction: Any
 
 
 class RollerModel(NamedTuple):
@@ -51,7 +42,7 @@ class RollerModel(NamedTuple):
         m r~ [kg m]; times Ω² gives the centrifugal force (18).
     drag : float
         ½ C_D ρ_eff 2 r l r~² [N s²]; times Ω² gives the drag (24).
-    inner, outer, cage : Contact
+    inner, outer, cage : PlainContact or CurvedContact
         Laws of the three interfaces.
     """
 
@@ -67,9 +58,9 @@ class RollerModel(NamedTuple):
     weight_along_axis: float
     centrifugal: float
     drag: float
-    inner: Contact
-    outer: Contact
-    cage: Contact
+    inner: Any
+    outer: Any
+    cage: Any
 
 
 def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Interface, Interface]:
@@ -121,8 +112,7 @@ def roller_model(
     tilt: float,
     gravity: bool = True,
     drag: bool = True,
-    film: str = "masjedi-khonsari",
-    traction: str = "barus-crook",
+    laws: Laws = Laws.paper(),
 ) -> RollerModel:
     """Prepare a roller of one row.
 
@@ -136,8 +126,8 @@ def roller_model(
         Shaft tilt [rad]; the hub end is up, so that weight has a part along +Z0.
     gravity, drag : bool
         Whether weight and drag act on the roller.
-    film, traction : str
-        Names of the laws.
+    laws : Laws
+        Mechanisms in the contacts.
 
     Returns
     -------
@@ -146,7 +136,7 @@ def roller_model(
     Raises
     ------
     InputError
-        For unknown laws, or curvatures that do not make a Hertz contact.
+        For unknown laws, values the lubricant lacks, or curvatures that do not make a Hertz contact.
 
     Notes
     -----
@@ -160,7 +150,7 @@ def roller_model(
     weight = mass * GRAVITY if gravity else 0.0
     effective_density = lubricant.fill_factor * lubricant.density
     area = 2.0 * radius * bearing.roller_length
-    contacts = [Contact(film_law.prepare(film, one), traction_law.prepare(traction, one)) for one in found]
+    contacts = [prepare_contact(laws, bearing, lubricant, one, axial_sign) for one in found]
     return RollerModel(
         radius=radius,
         mobility=radius**2 / inertia.spin_inertia(mass, radius),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from macroslip.bearing import Bearing
 from macroslip.errors import InputError
+from macroslip.laws import Laws
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 
@@ -152,8 +153,8 @@ class Case:
         Turns hub loads into main-bearing load; its tilt also directs the rollers' weight.
     gravity, drag : bool
         Whether weight and drag act on the rollers.
-    film, traction : str
-        Names of registered laws.
+    laws : Laws
+        Mechanisms in the contacts; the paper's by default, `Laws.physical()` for all of them.
     integrator : Radau, ExplicitEuler or BackwardEuler
     window : Window
     rollers : "all" or sequence of int
@@ -179,8 +180,7 @@ class Case:
     drivetrain: Drivetrain = field(default_factory=Drivetrain)
     gravity: bool = True
     drag: bool = True
-    film: str = "masjedi-khonsari"
-    traction: str = "barus-crook"
+    laws: Laws = field(default_factory=Laws.paper)
     integrator: Radau | ExplicitEuler | BackwardEuler = field(default_factory=Radau)
     window: Window = field(default_factory=Window)
     rollers: str | Sequence[int] = "all"
@@ -194,6 +194,7 @@ class Case:
             ("drivetrain", (Drivetrain,)),
             ("gravity", (bool,)),
             ("drag", (bool,)),
+            ("laws", (Laws,)),
             ("integrator", (Radau, ExplicitEuler, BackwardEuler)),
             ("window", (Window,)),
         ):
@@ -257,7 +258,7 @@ class Case:
             "lubricant": self.lubricant.as_dict(),
             "drivetrain": asdict(self.drivetrain),
             "forces": {"gravity": self.gravity, "drag": self.drag},
-            "laws": {"film": self.film, "traction": self.traction},
+            "laws": {"model": self.laws.name, **asdict(self.laws)},
             "integrator": {"method": type(self.integrator).__name__, **asdict(self.integrator)},
             "window": asdict(self.window),
             "rollers": self.rollers if self.rollers == "all" else list(self.rollers),

@@ -13,6 +13,7 @@ from macroslip.catalogue import Record
 from macroslip.catalogue.problems import together
 from macroslip.catalogue.source import Source, parse
 from macroslip.errors import InputError
+from macroslip.laws import Laws
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.study.case import BackwardEuler, Case, ExplicitEuler, Radau, Traces, Window
@@ -85,6 +86,7 @@ class _Builder:
             ("lubricant", lambda name: self.record(Lubricant, name)),
             ("loads", self.loads),
             ("drivetrain", self.drivetrain),
+            ("laws", self.laws),
             ("integrator", lambda given: _INTEGRATORS[given.pop("method")](**given)),
             ("window", lambda given: Window(**given)),
             ("rollers", lambda given: given),
@@ -98,7 +100,21 @@ class _Builder:
         self.check_against_loads(parts)
         if self.problems:
             raise together(self.problems)
-        return Case(**parts, **values.get("forces", {}), **values.get("laws", {}))
+        case = Case(**parts, **values.get("forces", {}))
+        self.check_lubricant(case)
+        return case
+
+    @staticmethod
+    def laws(given: Mapping[str, Any]) -> Laws:
+        """The named set with what differs from it."""
+        differs = {key: value for key, value in given.items() if key != "model"}
+        return Laws.named(given.get("model", "paper")).but(**differs)
+
+    def check_lubricant(self, case: Case) -> None:
+        """Find out now, not after the loads are computed, whether the lubricant has what the mechanisms need."""
+        from macroslip.roller.contacts import check_lubricant
+
+        check_lubricant(case.laws, case.lubricant)
 
     def located(self, problem: InputError, key: str) -> InputError:
         """The problem with file and line in front, unless it has them."""

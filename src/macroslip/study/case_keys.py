@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 from macroslip.catalogue.units import ANGLE, FORCE, LENGTH, MASS, MOMENT, SPEED, TIME
+from macroslip.laws import MECHANISMS, MODELS, VISCOSITIES
 from macroslip.loads import bundled_cases
 from macroslip.study.case_form import Choice, Numbers, Plain, Quantity, Vector
 from macroslip.study.case_section import Section, Variants
+from macroslip.traction.rheology import RHEOLOGIES
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 
 
 def _film_laws() -> list[str]:
-    import macroslip.roller.model  # noqa: F401  registers the laws
+    import macroslip.roller.contacts  # noqa: F401  registers the laws
     from macroslip.film import law
 
     return law.names()
 
 
 def _traction_laws() -> list[str]:
-    import macroslip.roller.model  # noqa: F401  registers the laws
     from macroslip.traction import law
 
-    return law.names()
+    return [MECHANISMS, *law.names()]
+
+
+def _asperity_laws() -> list[str]:
+    from macroslip.film import asperity_load
+
+    return asperity_load.names()
 
 
 _constant = {
@@ -65,8 +72,19 @@ CASE = Section(
             {"gravity": Plain("weight of the rollers", bool), "drag": Plain("drag of the lubricant", bool)},
         ),
         "laws": Section(
-            "laws of film and traction",
-            {"film": Choice("film thickness", _film_laws), "traction": Choice("traction", _traction_laws)},
+            "physics in the contacts: a named set, and mechanisms that differ from it",
+            {
+                "model": Choice("named set of mechanisms", lambda: list(MODELS)),
+                "film": Choice("film thickness", _film_laws),
+                "starvation": Plain("film thinned by the lubricant's starvation factor", bool),
+                "inlet_heating": Plain("film thinned by shear heating in the inlet", bool),
+                "viscosity": Choice("how viscosity rises with pressure", lambda: list(VISCOSITIES)),
+                "rheology": Choice("how the film's stress falls behind the Newtonian one", lambda: list(RHEOLOGIES)),
+                "heating": Plain("shear heating of the film", bool),
+                "microslip": Plain("slip that varies along the roller", bool),
+                "asperities": Choice("share of the load that asperities carry", _asperity_laws),
+                "traction": Choice("mechanisms, or a traction law of your own in their place", _traction_laws),
+            },
         ),
         "integrator": Variants(
             "method of integration in time",

@@ -1,7 +1,8 @@
 """The result of a case as a labelled dataset.
 
 Dimensions: `row` (downwind, upwind), `roller`, `interface` (inner, outer, cage), `orbit` (complete orbits in the window)
-and, where traces were asked for, `time`.
+and, where traces were asked for, `time`. Contacts with microslip or asperities add `raceway` (inner, outer), `mechanism`
+and `station`.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ import numpy as np
 
 import macroslip
 from macroslip.bearing.frames import ROWS, initial_angles
-from macroslip.film import law as film_law
-from macroslip.integrate.record import COUNTS, Record
+from macroslip.integrate.detail import MECHANISMS, STATIONS
+from macroslip.integrate.record import COUNTS, TRACES, Record
 from macroslip.integrate.status import Status
+from macroslip.roller.contact_force import CurvedContact
+from macroslip.roller.contacts import references
 from macroslip.study.case import Radau
-from macroslip.traction import law as traction_law
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -130,10 +132,13 @@ def to_dataset(
     ended = np.array([[record.end for _, record in line] for line in grid])
     put("end_time", rollers, ended[..., 0], "s", "time at which the integration ended")
     put("end_slip", rollers, ended[..., 1], "m/s", "raceway slip at which the integration ended")
+    curved = isinstance(model.inner, CurvedContact)
+    if curved:
+        _put_detail(put, gather, rollers)
     if case.traces is not None:
         # Up to where an integration ended its traces are kept: they show why.
         trace = np.array([[record.trace for _, record in line] for line in grid])
-        _put_traces(put, trace, model.radius, rollers)
+        _put_traces(put, trace, model, rollers, curved=curved)
 
     coordinates: dict[str, Any] = {
         "row": list(ROWS),
@@ -148,13 +153,20 @@ def to_dataset(
             {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"},
         ),
     }
+    if curved:
+        edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * case.bearing.roller_length
+        coordinates["mechanism"] = list(MECHANISMS)
+        middles = 0.5 * (edges_along[1:] + edges_along[:-1])
+        coordinates["station"] = ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"})
+        coordinates["raceway"] = list(INTERFACES[:2])
     if case.traces is not None:
         time = grid[0][0][1].trace_time
         coordinates["time"] = ("time", time, {"units": "s", "long_name": "time"})
-    citations = [*CITATIONS, film_law.reference(case.film), traction_law.reference(case.traction)]
+    citations = [*CITATIONS, *references(case.laws)]
     attributes = {
         "title": f"Roller slip of {case.bearing.name} under {case.loads.source}",
         "source": f"macroslip {macroslip.__version__}",
+        "model": case.laws.name,
         "window_start": float(edges[0]),
         "window_end": end,
         "film_range_notes": "\n".join(film_range_notes),
@@ -164,19 +176,73 @@ def to_dataset(
     return xr.Dataset(data, coordinates, attributes)
 
 
-def _put_traces(put: Any, trace: np.ndarray, radius: float, rollers: tuple[str, ...]) -> None:
+def _put_detail(put: Any, gather: Any, rollers: tuple[str, ...]) -> None:
+    """What only contacts with microslip or asperities know."""
+    put(
+        "mechanism_energy",
+        (*rollers, "interface", "mechanism"),
+        gather("mechanism_energy"),
+        "J",
+        "energy in the window by what makes surfaces slide: slip of the middle, curvature, contact angle; they add up to "
+        "the energy, and one may be negative",
+    )
+    put(
+        "asperity_energy",
+        (*rollers, "interface"),
+        gather("asperity_energy"),
+        "J",
+        "part of the energy in the window that asperities dissipate",
+    )
+    put(
+        "station_energy",
+        (*rollers, "raceway", "station"),
+        gather("station_energy"),
+        "J",
+        "energy in the window dissipated at each station along the roller",
+    )
+    extreme = gather("extreme")
+    dims = (*rollers, "orbit", "interface")
+    with np.errstate(invalid="ignore"):
+        extreme[np.isinf(extreme)] = np.nan
+    put("flash_temperature", dims, extreme[..., 0], "K", "largest rise of surface temperature in a contact per orbit")
+    put("power_density", dims, extreme[..., 1], "W/m2", "largest frictional power per contact area per orbit")
+    put("slide_roll_ratio", dims, extreme[..., 2], "1", "largest local slip over entrainment speed per orbit")
+    put("min_film_ratio", dims, extreme[..., 3], "1", "least ratio of film thickness to roughness, Lambda, per orbit")
+    fine, off = np.moveaxis(gather("quadrature"), -1, 0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        error = np.where(fine > 0.0, off / fine, np.nan)
+    put(
+        "quadrature_error",
+        (*rollers, "raceway"),
+        error,
+        "1",
+        "relative error of the film's power by the quadrature in use, from a finer one at states of the run",
+    )
+
+
+def _put_traces(put: Any, trace: np.ndarray, model: RollerModel, rollers: tuple[str, ...], *, curved: bool) -> None:
     """Turn raw channels into the traces users know."""
-    slip, ring_speed, load, inner, outer, cage, cage_load = np.moveaxis(trace, -1, 0)
+    channel = dict(zip(TRACES, np.moveaxis(trace, -1, 0), strict=True))
+    slip, ring_speed, radius = channel["slip"], channel["ring_speed"], model.radius
     dims = (*rollers, "time")
+
+    def stack(name: str, places: tuple[str, ...]) -> np.ndarray:
+        return np.stack([channel[f"{name}_{place}"] for place in places], axis=-1)
+
     put("spin", dims, (ring_speed - slip) / radius, "rad/s", "spin about the roller's axis, relative to the orbiting frame")
     put("spin_pure", dims, ring_speed / radius, "rad/s", "spin in pure rolling, relative to the orbiting frame")
-    put("slip", dims, slip, "m/s", "slip at either raceway, ring less roller")
-    put("roller_load", dims, load, "N", "elastic load of the roller, without body forces")
-    put("cage_force", dims, cage_load, "N", "normal force of the cage on the roller, positive along the orbit")
+    put("slip", dims, slip, "m/s", "slip at the middle of either raceway contact, ring less roller")
+    put("roller_load", dims, channel["roller_load"], "N", "elastic load of the roller, without body forces")
+    put("cage_force", dims, channel["cage_load"], "N", "normal force of the cage on the roller, positive along the orbit")
     put(
         "traction",
         (*dims, "interface"),
-        np.stack([inner, outer, cage], axis=-1),
+        stack("force", INTERFACES),
         "N",
-        "traction on the roller, positive where it drives the spin up",
+        "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
     )
+    put("power", (*dims, "interface"), stack("power", INTERFACES), "W", "frictional power")
+    put("film_thickness", (*dims, "interface"), stack("film", INTERFACES), "m", "central film thickness; NaN without load")
+    if curved:
+        long_name = "skew moment about the contact normal, positive where traction along +x acts at +z'"
+        put("skew_moment", (*dims, "raceway"), stack("skew", INTERFACES[:2]), "N m", long_name)

@@ -13,7 +13,7 @@ from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.contact.ring_motion import ring_motion
 from macroslip.film.law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
-from macroslip.integrate.radau import Limits, integrate_radau, longest_step
+from macroslip.integrate.radau import Limits, integrate_radau, longest_step, rising_at
 from macroslip.integrate.record import Record, new_record
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.roller.load_zone import empty_classes, firm_interference
@@ -22,7 +22,6 @@ from macroslip.roller.orbit import Motion
 from macroslip.roller.travel import orbit_times
 from macroslip.study.case import BackwardEuler, Case, Radau
 from macroslip.study.dataset import to_dataset
-from macroslip.traction.law import rising_slip
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -65,8 +64,7 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
             tilt=case.drivetrain.tilt,
             gravity=case.gravity,
             drag=case.drag,
-            film=case.film,
-            traction=case.traction,
+            laws=case.laws,
         )
         for row in ROWS
     }
@@ -105,7 +103,7 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
     finally:
         # An interrupt waits for the rollers under way only.
         pool.shutdown(cancel_futures=True)
-    notes = film_range_notes(case.film, interfaces(case.bearing, case.lubricant))
+    notes = film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))
     return to_dataset(case, model, edges, end, results, notes)
 
 
@@ -120,7 +118,8 @@ def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float)
         return None
     speed = float(np.max(np.abs(motion.shaft_speed))) * model.orbit_ratio * model.outer_radius
     heaviest = largest + abs(model.weight_in_plane) + model.centrifugal * (speed / model.outer_radius) ** 2
-    cold = min(rising_slip(contact.traction, heaviest) for contact in (model.inner, model.outer)) if heaviest else np.inf
+    # Twice the raceways' speed bounds the slip, and with it the thickest film.
+    cold = rising_at(model, heaviest, heaviest, speed, 2.0 * speed) if heaviest else np.inf
     return Limits(
         tolerance=float(case.integrator.tolerance),
         max_steps=case.integrator.max_steps,

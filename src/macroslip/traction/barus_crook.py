@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
-from macroslip.traction.law import register
+from macroslip.traction.law import register_type
 from macroslip.traction.patch_integral import patch_integral
 
 #: √B at which Crook's shear stress peaks (B = 2.2767).
@@ -62,11 +62,4 @@ def rising_slip(law, load, film_thickness):
     return _ROOT_HEATING_AT_PEAK / law.heating * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
 
 
-register(
-    "barus-crook",
-    BarusCrook,
-    reference="Crook, Phil. Trans. R. Soc. A 254 (1961) 237, doi:10.1098/rsta.1961.0014",
-    prepare=prepare,
-    traction=traction,
-    rising_slip=rising_slip,
-)
+register_type(BarusCrook, traction=traction, rising_slip=rising_slip)

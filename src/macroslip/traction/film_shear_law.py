@@ -201,4 +201,18 @@ def rising_slip(law, load, film_thickness):
     return max(newtonian, 1.0 / (fluid.heating * film_thickness * largest))
 
 
-register_type(FilmShear, traction=uniform_traction, rising_slip=rising_slip, microslip=microslip_traction)
+@jit
+def chord_traction(law, load, film_thickness, cosine, slip):
+    """Traction per length [N/m] on the chord whose length and largest pressure are `cosine` times the middle's."""
+    root_load = load ** (1.0 / 3.0)
+    stress = interpolated_stress(law.table, law.pressure * root_load * cosine, film_thickness, max(slip, _NO_SLIP)).stress
+    return 2.0 * law.semi_axis_along * root_load * cosine * stress
+
+
+register_type(
+    FilmShear,
+    traction=uniform_traction,
+    rising_slip=rising_slip,
+    microslip=microslip_traction,
+    chord=chord_traction,
+)

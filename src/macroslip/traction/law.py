@@ -18,6 +18,7 @@ names, reference, prepare = _laws.names, _laws.reference, _laws.prepare
 _traction: dict[type, Callable] = {}
 _rising_slip: dict[type, Callable] = {}
 _microslip: dict[type, Callable] = {}
+_chord: dict[type, Callable] = {}
 
 
 def register(
@@ -47,7 +48,12 @@ def register(
 
 
 def register_type(
-    law: type, *, traction: Callable, rising_slip: Callable, microslip: Callable | None = None
+    law: type,
+    *,
+    traction: Callable,
+    rising_slip: Callable,
+    microslip: Callable | None = None,
+    chord: Callable | None = None,
 ) -> None:
     """Tell which compiled functions belong to a law's type, without a name to choose it by.
 
@@ -58,6 +64,9 @@ def register_type(
     microslip : callable, optional
         Compiled `microslip(law, load, film_thickness, field, shape, fine) -> Patch` for a slip that varies over the
         contact. A law without it takes the slip of the middle for the whole contact.
+    chord : callable, optional
+        Compiled `chord(law, load, film_thickness, cosine, |slip|)`: traction per length [N/m] on the chord whose length and
+        largest pressure are `cosine` times those of the middle. A law without it spreads traction as the load.
     """
     depend_on(traction, rising_slip)
     _traction[law] = traction
@@ -65,6 +74,9 @@ def register_type(
     if microslip is not None:
         depend_on(microslip)
         _microslip[law] = microslip
+    if chord is not None:
+        depend_on(chord)
+        _chord[law] = chord
 
 
 def patch_traction(law, load, film_thickness, slip):
@@ -113,3 +125,21 @@ def _patch_traction_microslip(law, load, film_thickness, field, shape, fine):
 def _rising_slip_of(law, load, film_thickness):
     implementation = _rising_slip[law.instance_class]
     return lambda law, load, film_thickness: implementation(law, load, film_thickness)
+
+
+def chord_traction(law, load, film_thickness, across, cosine, slip):
+    """Traction per length across rolling [N/m] at one station, for |slip| [m/s] there."""
+    if type(law) in _chord:
+        return _chord[type(law)](law, load, film_thickness, cosine, slip)
+    return 0.75 * cosine * cosine / across * _traction[type(law)](law, load, film_thickness, slip)[0]
+
+
+@overload(chord_traction)
+def _chord_traction(law, load, film_thickness, across, cosine, slip):
+    chord = _chord.get(law.instance_class)
+    if chord is not None:
+        return lambda law, load, film_thickness, across, cosine, slip: chord(law, load, film_thickness, cosine, slip)
+    whole = _traction[law.instance_class]
+    return lambda law, load, film_thickness, across, cosine, slip: (
+        0.75 * cosine * cosine / across * whole(law, load, film_thickness, slip)[0]
+    )

@@ -1,0 +1,179 @@
+"""What curved contacts leave behind beside energy: mechanisms, stations, smearing criteria and the quadrature's error.
+
+For plain contacts every function here compiles to nothing.
+"""
+
+from __future__ import annotations
+
+import math
+
+from numba import types
+from numba.extending import overload
+
+from macroslip.compiled import jit
+from macroslip.contact.flash_temperature import flash_temperature
+from macroslip.film.asperity_load import asperity_share
+from macroslip.film.law import film_thickness
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
+from macroslip.traction.law import chord_traction, patch_traction_microslip
+from macroslip.traction.slip_field import slip_at
+
+#: Meaning of `Record.mechanism_energy` by position.
+MECHANISMS = ("sliding", "curvature", "contact angle")
+#: Meaning of `Record.extreme` by position.
+EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
+#: Stations along the roller's length.
+STATIONS = 24
+#: Steps between two looks at the quadrature's error.
+_LOOK_EVERY = 256
+
+
+@jit
+def _add_mechanisms(record, interface, contact, ring_speed, slip, spin_force, detail, span):
+    energy = record.mechanism_energy
+    energy[interface, 0] += span * slip * spin_force
+    if contact.shape.microslip:
+        curvature = contact.shape.curvature_ratio * contact.shape.roller_radius
+        energy[interface, 1] += span * ring_speed * curvature * detail.lag
+        energy[interface, 2] -= span * ring_speed * contact.shape.spin_ratio * detail.skew
+    record.asperity_energy[interface] += span * detail.asperity_power
+
+
+@jit
+def _book_stage(record, model, at, forces, slip, span):
+    _add_mechanisms(record, 0, model.inner, at.ring_speed, slip, forces.inner, forces.inner_detail, span)
+    _add_mechanisms(record, 1, model.outer, at.ring_speed, slip, forces.outer, forces.outer_detail, span)
+    _add_mechanisms(record, 2, model.cage, 0.0, slip - at.ring_speed, forces.cage, forces.cage_detail, span)
+
+
+@jit
+def _raise(record, orbit, interface, flash, density, ratio, film_ratio):
+    if orbit < 0:
+        return
+    extreme = record.extreme[orbit, interface]
+    extreme[0] = max(extreme[0], flash)
+    extreme[1] = max(extreme[1], density)
+    extreme[2] = max(extreme[2], ratio)
+    extreme[3] = min(extreme[3], film_ratio)
+
+
+@jit
+def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, energy):
+    """Spread the step's energy over the stations as the power at its end, and raise the orbit's extremes."""
+    if load <= 0.0:
+        return
+    entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
+    film, _, _ = film_thickness(contact.film, load, entrainment)
+    share = asperity_share(contact.asperity_load, load, entrainment, film)
+    field = slip_field(contact.shape, slip, ring_speed)
+    root_load = load ** (1.0 / 3.0)
+    across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
+    width = 2.0 * contact.shape.half_length / STATIONS
+    boundary = 0.75 * contact.asperity_friction.coefficient * share * load / across
+    powers = record.station_work
+    total, flash, density, fastest = 0.0, 0.0, 0.0, 0.0
+    for k in range(STATIONS):
+        station = (k + 0.5) * width - contact.shape.half_length
+        height = 1.0 - station * station / (across * across)
+        # The station at the end of the ellipse is covered in part.
+        covered = min(max((across - abs(station)) / width + 0.5, 0.0), 1.0)
+        if height <= 0.0:
+            powers[k] = 0.0
+            continue
+        speed = abs(slip_at(field, contact.shape.contour_radius, station))
+        chord = math.sqrt(height)
+        pull = (1.0 - share) * chord_traction(contact.traction, load, film, across, chord, speed)
+        pull += boundary * height * min(speed / contact.asperity_friction.full_slip, 1.0)
+        powers[k] = pull * speed * covered
+        total += powers[k]
+        half_width = along * chord
+        roller, ring = ring_speed - slip, ring_speed
+        flash = max(
+            flash, flash_temperature(pull * speed, half_width, roller, ring, contact.effusivity_1, contact.effusivity_2)
+        )
+        density = max(density, pull * speed / (2.0 * half_width))
+        fastest = max(fastest, speed)
+    if total > 0.0:
+        for k in range(STATIONS):
+            record.station_energy[interface, k] += energy * powers[k] / total
+    _raise(record, orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
+
+
+@jit
+def _look(record, interface, contact, load, ring_speed, slip, span):
+    """Film power by the rule in use and by a much finer one."""
+    if load <= 0.0 or not contact.shape.microslip:
+        return
+    entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
+    film, _, _ = film_thickness(contact.film, load, entrainment)
+    field = slip_field(contact.shape, slip, ring_speed)
+    shape = contact.shape
+    used = patch_traction_microslip(contact.traction, load, film, field, shape, False)
+    fine = patch_traction_microslip(contact.traction, load, film, field, shape, True)
+    curvature = ring_speed * shape.curvature_ratio * shape.roller_radius
+    spin = ring_speed * shape.spin_ratio
+    found = slip * (used.force - used.lag) + curvature * used.lag - spin * used.skew
+    better = slip * (fine.force - fine.lag) + curvature * fine.lag - spin * fine.skew
+    record.quadrature[interface, 0] += span * better
+    record.quadrature[interface, 1] += span * abs(found - better)
+
+
+@jit
+def _book_step(record, model, at, forces, slip, span, orbit, inner, outer, steps):
+    _book_raceway(record, orbit, 0, model.inner, at.inner_load, at.ring_speed, slip, inner)
+    _book_raceway(record, orbit, 1, model.outer, at.outer_load, at.ring_speed, slip, outer)
+    load = abs(forces.cage_load)
+    if load > 0.0:
+        contact = model.cage
+        surface = at.ring_speed - slip
+        entrainment = max(0.5 * abs(surface), LOWEST_ENTRAINMENT_SPEED)
+        film, _, _ = film_thickness(contact.film, load, entrainment)
+        root_load = load ** (1.0 / 3.0)
+        across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
+        per_length = 0.75 * abs(forces.cage * surface) / across
+        flash = flash_temperature(per_length, along, surface, 0.0, contact.effusivity_1, contact.effusivity_2)
+        ratio = abs(surface) / entrainment
+        _raise(record, orbit, 2, flash, per_length / (2.0 * along), ratio, film / contact.roughness)
+    if steps % _LOOK_EVERY == 0:
+        _look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, span)
+        _look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, span)
+
+
+def book_stage(record, model, at, forces, slip, span):
+    """Book energies by mechanism for a state that counts for `span` [s]."""
+
+
+def book_step(record, model, at, forces, slip, span, orbit, inner, outer, steps):
+    """Book stations, extremes and now and then the quadrature's error, for a step that ends in this state.
+
+    Parameters
+    ----------
+    inner, outer : float
+        Energy of the step at the raceways [J].
+    orbit : int
+        Orbit the step belongs to, or −1.
+    steps : int
+        Number of the step.
+    """
+
+
+def _is_curved(model) -> bool:
+    # A model is a named tuple of its fields' types; the contacts are its last three.
+    return isinstance(model, types.NamedTuple) and model.types[-1].instance_class is CurvedContact
+
+
+@overload(book_stage)
+def _book_stage_of(record, model, at, forces, slip, span):
+    if _is_curved(model):
+        return lambda record, model, at, forces, slip, span: _book_stage(record, model, at, forces, slip, span)
+    return lambda record, model, at, forces, slip, span: None
+
+
+@overload(book_step)
+def _book_step_of(record, model, at, forces, slip, span, orbit, inner, outer, steps):
+    if _is_curved(model):
+        return lambda record, model, at, forces, slip, span, orbit, inner, outer, steps: _book_step(
+            record, model, at, forces, slip, span, orbit, inner, outer, steps
+        )
+    return lambda record, model, at, forces, slip, span, orbit, inner, outer, steps: None
+

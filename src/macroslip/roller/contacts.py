@@ -1,0 +1,190 @@
+"""From the choice of mechanisms to the contacts of a roller: each law prepared for each interface."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import macroslip.film.masjedi_khonsari
+import macroslip.film.masjedi_khonsari_moes  # noqa: F401  these register their laws
+from macroslip.bearing import geometry
+from macroslip.contact.flash_temperature import effusivity
+from macroslip.contact.shape import ContactShape, common_contour_radius, slipless
+from macroslip.film import asperity_load
+from macroslip.film import law as film_law
+from macroslip.film.correction import INLET_HEATING_REFERENCE, prepare_film
+from macroslip.laws import MECHANISMS
+from macroslip.lubricant.viscosity import ROELANDS_PRESSURE, roelands_index
+from macroslip.roller.contact_force import CurvedContact, PlainContact
+from macroslip.traction import law as traction_law
+from macroslip.traction.asperity_friction import AsperityFriction
+from macroslip.traction.barus_crook import prepare as prepare_barus_crook
+from macroslip.traction.chord import Fluid
+from macroslip.traction.chord_table import chord_table
+from macroslip.traction.film_shear_law import FilmShear
+from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, RHEOLOGIES
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.contact.interface import Interface
+    from macroslip.laws import Laws
+    from macroslip.lubricant import Lubricant
+
+#: Slip [m/s] from which on asperities slide fully. Junctions of about a micrometre that cross a contact 1 mm wide at
+#: 0.4 m/s are there at some 0.1 mm/s; an engineering estimate.
+_FULL_SLIP = 1e-4
+#: Pressure by which Barus' exponent is scaled [Pa]; any will do.
+_BARUS_PRESSURE = 1e8
+#: What to cite for each mechanism.
+_REFERENCES = {
+    "barus": "Barus, Am. J. Sci. 45 (1893) 87",
+    "roelands": "Roelands, thesis, Delft (1966)",
+    "limiting-shear": "Bair and Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342",
+    "eyring": "Johnson and Tevaarwerk, Proc. R. Soc. A 356 (1977) 215, doi:10.1098/rspa.1977.0129",
+    "heating": "Crook, Phil. Trans. R. Soc. A 254 (1961) 237, doi:10.1098/rsta.1961.0014",
+}
+
+
+def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
+    """Refuse a lubricant that lacks a value the chosen mechanisms need.
+
+    Raises
+    ------
+    InputError
+        Naming the values and the mechanisms.
+    """
+    needed = {
+        "starvation": "starvation" if laws.starvation else "",
+        "limiting_shear": "limiting shear" if laws.rheology == "limiting-shear" else "",
+        "eyring_stress": "Eyring's rheology" if laws.rheology == "eyring" else "",
+        "boundary_friction": "asperity friction" if laws.asperities != "none" else "",
+    }
+    keys = [key for key, mechanism in needed.items() if mechanism and getattr(lubricant, key) is None]
+    if keys:
+        lubricant.require(*keys, purpose=" and ".join(needed[key] for key in keys))
+
+
+def fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
+    """The sheared film of a lubricant under the chosen mechanisms.
+
+    Raises
+    ------
+    InputError
+        If its viscosity is too low for Roelands' law.
+    """
+    if laws.viscosity == "roelands":
+        index = roelands_index(lubricant.viscosity, lubricant.pressure_viscosity)
+        exponent, pressure = math.log(lubricant.viscosity) + 9.67, ROELANDS_PRESSURE
+    else:
+        index, exponent, pressure = 1.0, lubricant.pressure_viscosity * _BARUS_PRESSURE, _BARUS_PRESSURE
+    rheology = RHEOLOGIES[laws.rheology]
+    characteristic = 1.0
+    if rheology == LIMITING_SHEAR:
+        characteristic = lubricant.limiting_shear
+    elif rheology == EYRING:
+        characteristic = lubricant.eyring_stress
+    heating = lubricant.temperature_viscosity / (8.0 * lubricant.thermal_conductivity) if laws.heating else 0.0
+    return Fluid(
+        rheology=rheology,
+        viscosity=lubricant.viscosity,
+        exponent=exponent,
+        index=index,
+        reference_pressure=pressure,
+        characteristic=characteristic,
+        heating=heating,
+    )
+
+
+def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, microslip: bool) -> ContactShape:
+    """How slip varies over an interface; the cage's contact slides alike all over.
+
+    The sign of ζ is that of the roller's axis z'. With z' = z cos α − y sin α (s = +1) the ring's surface at the station ζ
+    is ζ sin α nearer to the bearing axis, which gives v the term +s (Ω_in − Ω) sin α ζ; ζ counted the other way round
+    turns its sign, and that of the skew moment, and nothing else.
+    """
+    half_length = 0.5 * bearing.roller_length
+    if not microslip or interface.name == "cage":
+        return slipless(half_length)
+    roller = geometry.roller_contour_radius(bearing)
+    inner = interface.name == "inner"
+    raceway = geometry.inner_raceway_contour_radius(bearing) if inner else bearing.outer_raceway_radius
+    place = geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
+    return ContactShape(
+        microslip=True,
+        contour_radius=common_contour_radius(roller, raceway),
+        roller_radius=geometry.roller_radius(bearing),
+        half_length=half_length,
+        curvature_ratio=1.0 / interface.rolling_radius,
+        spin_ratio=axial_sign * math.sin(bearing.contact_angle) / place,
+    )
+
+
+def prepare_contact(
+    laws: Laws, bearing: Bearing, lubricant: Lubricant, interface: Interface, axial_sign: int
+) -> PlainContact | CurvedContact:
+    """The contact of one interface.
+
+    Parameters
+    ----------
+    laws : Laws
+    bearing : Bearing
+    lubricant : Lubricant
+    interface : Interface
+    axial_sign : int
+        +1 for the downwind row, −1 for the upwind row.
+
+    Returns
+    -------
+    PlainContact or CurvedContact
+        Plain where no chosen mechanism needs more, so that the paper's kernels carry nothing else.
+
+    Raises
+    ------
+    InputError
+        For a law that does not exist, or values the lubricant lacks.
+    """
+    check_lubricant(laws, lubricant)
+    starvation = lubricant.starvation if laws.starvation else 1.0
+    film = prepare_film(laws.film, interface, starvation=starvation, inlet_heating=laws.inlet_heating)
+    hertz = interface.hertz
+    if laws.traction != MECHANISMS:
+        traction = traction_law.prepare(laws.traction, interface)
+    elif laws.is_closed_form:
+        traction = prepare_barus_crook(interface)
+    else:
+        table = chord_table(fluid(laws, lubricant))
+        traction = FilmShear(table, hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure)
+    if laws.asperities == "none" and not isinstance(traction, FilmShear):
+        return PlainContact(film, traction)
+    friction = 0.0
+    if laws.asperities != "none":
+        friction = lubricant.boundary_friction
+    known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None
+    steel = effusivity(bearing.thermal_conductivity, bearing.density, bearing.specific_heat) if known else math.nan
+    return CurvedContact(
+        film=film,
+        traction=traction,
+        asperity_load=asperity_load.prepare(laws.asperities, interface),
+        asperity_friction=AsperityFriction(friction, _FULL_SLIP, hertz.semi_axis_across),
+        shape=contact_shape(bearing, interface, axial_sign, microslip=laws.microslip),
+        semi_axis_across=hertz.semi_axis_across,
+        semi_axis_along=hertz.semi_axis_along,
+        effusivity_1=steel,
+        effusivity_2=steel,
+        roughness=interface.roughness,
+    )
+
+
+def references(laws: Laws) -> list[str]:
+    """What to cite for the chosen mechanisms."""
+    found = [film_law.reference(laws.film)]
+    if laws.inlet_heating:
+        found.append(INLET_HEATING_REFERENCE)
+    if laws.traction != MECHANISMS:
+        found.append(traction_law.reference(laws.traction))
+    else:
+        found += [_REFERENCES[name] for name in (laws.viscosity, laws.rheology) if name in _REFERENCES]
+        found += [_REFERENCES["heating"]] if laws.heating else []
+    if laws.asperities != "none":
+        found.append(asperity_load.reference(laws.asperities))
+    return found
