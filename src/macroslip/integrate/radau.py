@@ -49,6 +49,8 @@ _DEFECT_WEIGHT = 0.25
 #: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
 #: must be for the power there to be meaningful.
 _PEAK_PARTS, _RESOLVED = 10, 3.0
+#: How many times the last step its polynomial may be carried on to.
+_FARTHEST = 3.0
 #: Part of the longest step above which steps end on the cusps of light contacts.
 _CUSP_PART = 0.03
 #: Largest relative change of slip in a step taken where traction may fall with slip.
@@ -145,6 +147,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     zone = -1
     failed_before = False
     sample_step = 0.0
+    z1, z2, z3, last_step = 0.0, 0.0, 0.0, 0.0
     while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
         write_trace(record, model, next_trace, at, forces, slip)
         next_trace += 1
@@ -220,6 +223,11 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         v1 = slip + d1 + drift * NODES[0] * h if drift != 0.0 else slip
         v2 = slip + d2 + drift * NODES[1] * h if drift != 0.0 else slip
         v3 = slip + d3 + drift * h if drift != 0.0 else slip
+        if zone == FIRM and last_step > 0.0 and h < _FARTHEST * last_step:
+            # A held roller's slip follows the balance of forces; the last step's polynomial foresees it.
+            v1 += d1 + collocation(1.0 + NODES[0] * h / last_step, z1, z2, z3)[0] - z3
+            v2 += d2 + collocation(1.0 + NODES[1] * h / last_step, z1, z2, z3)[0] - z3
+            v3 += d3 + collocation(1.0 + h / last_step, z1, z2, z3)[0] - z3
         scale = 1.0 / (h * model.mobility)
         converged = False
         unbalanced = math.inf
@@ -314,6 +322,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             barrier = min(barrier, _sample_after(motion, interval, time, step))
             continue
         steps += 1
+        z1, z2, z3, last_step = s1, s2, s3, h if zone == FIRM else 0.0
         spent += e_step
         if time >= record.edges[0]:
             orbit = orbit_at(record, 0.5 * (time + t3))

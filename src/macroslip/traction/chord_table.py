@@ -16,13 +16,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity
-from macroslip.traction.rheology import LIMITING_SHEAR, NEWTONIAN
+from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, NEWTONIAN
 
 #: Largest pressure of the table [Pa]; higher ones are treated as this one.
 HIGHEST_PRESSURE = 4e9
 _LOWEST_PRESSURE = 10.0
+#: Stands for β/(8k) where shear does not heat.
+_NO_HEATING = 1e-30
 _THINNEST, _THICKEST = 2e-8, 4e-4
 _FASTEST = 5.0
 _LOWEST_LOG_SLIP = -8.0
@@ -36,6 +38,8 @@ class ChordTable(NamedTuple):
     ----------
     fluid : Fluid
     coefficients : ndarray, shape (pressures + 2, slips + 2, films + 2)
+    log_viscosities : ndarray, shape (pressures + 2,)
+        Of the spline of ln η.
     pressure_spacing : float
         In p1^¼ [Pa^¼].
     slip_spacing, film_spacing : float
@@ -46,6 +50,7 @@ class ChordTable(NamedTuple):
 
     fluid: Fluid
     coefficients: np.ndarray
+    log_viscosities: np.ndarray
     pressure_spacing: float
     slip_spacing: float
     film_spacing: float
@@ -79,12 +84,15 @@ def chord_table(fluid: Fluid) -> ChordTable:
     films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + _FILM_SPACING, _FILM_SPACING)
     slowest = min(_slip_scale(fluid, p, math.exp(films[0])) for p in np.maximum(roots**4, _LOWEST_PRESSURE)[1:])
     slips = np.arange(_LOWEST_LOG_SLIP, math.log(_FASTEST / slowest) + _SLIP_SPACING, _SLIP_SPACING)
-    values = _fill(fluid, np.maximum(roots**4, _LOWEST_PRESSURE), slips, films)
+    pressures = np.maximum(roots**4, _LOWEST_PRESSURE)
+    values = _fill(fluid, pressures, slips, films)
+    viscosities = _spline_coefficients(np.array([log_viscosity(fluid, p)[0] for p in pressures]), 0)
     for axis in range(3):
         values = _spline_coefficients(values, axis)
     values = np.ascontiguousarray(values)
     values.setflags(write=False)
-    return ChordTable(fluid, values, float(roots[1]), _SLIP_SPACING, _FILM_SPACING, float(films[0]))
+    viscosities.setflags(write=False)
+    return ChordTable(fluid, values, viscosities, float(roots[1]), _SLIP_SPACING, _FILM_SPACING, float(films[0]))
 
 
 def _slip_scale(fluid: Fluid, pressure: float, film_thickness: float) -> float:
@@ -116,18 +124,39 @@ def _fill(fluid, pressures, slips, films):
 
 @jit
 def _weights(t):
-    """Cubic B-spline weights of the four coefficients around t in [0, 1), and their derivatives."""
+    """Cubic B-spline weights of the four coefficients around t in [0, 1)."""
     u = 1.0 - t
     return (
-        u * u * u / 6.0,
-        (4.0 + t * t * (3.0 * t - 6.0)) / 6.0,
-        (4.0 + u * u * (3.0 * u - 6.0)) / 6.0,
-        t * t * t / 6.0,
-        -0.5 * u * u,
-        0.5 * t * (3.0 * t - 4.0),
-        -0.5 * u * (3.0 * u - 4.0),
-        0.5 * t * t,
+        u * u * u * (1.0 / 6.0),
+        (4.0 + t * t * (3.0 * t - 6.0)) * (1.0 / 6.0),
+        (4.0 + u * u * (3.0 * u - 6.0)) * (1.0 / 6.0),
+        t * t * t * (1.0 / 6.0),
     )
+
+
+@jit
+def _slopes(t):
+    """Derivatives of the weights."""
+    u = 1.0 - t
+    return -0.5 * u * u, 0.5 * t * (3.0 * t - 4.0), -0.5 * u * (3.0 * u - 4.0), 0.5 * t * t
+
+
+class FilmPlace(NamedTuple):
+    """Where a film thickness lies in the table: it is the same for all chords of a contact."""
+
+    film_thickness: float
+    cell: int
+    weights: tuple[float, float, float, float]
+    slopes: tuple[float, float, float, float]
+
+
+@jit
+def film_place(table, film_thickness):
+    """The place of a film thickness h [m]; outside the table heating is that of its thinnest or thickest film."""
+    z = (math.log(film_thickness) - table.lowest_film) / table.film_spacing
+    z = min(max(z, 0.0), table.coefficients.shape[2] - 3.0)
+    cell = min(int(z), table.coefficients.shape[2] - 4)
+    return FilmPlace(film_thickness, cell, _weights(z - cell), _slopes(z - cell))
 
 
 class ChordStress(NamedTuple):
@@ -139,39 +168,62 @@ class ChordStress(NamedTuple):
     by_film: float
 
 
-@jit
-def interpolated_stress(table, pressure, film_thickness, slip):
-    """Mean stress along a chord from the table; arguments as for `chord_stress`, with slip > 0.
+@jit_inline
+def interpolated_stress(table, place, pressure, slip, with_film):
+    """Mean stress along a chord from the table.
+
+    Parameters
+    ----------
+    table : ChordTable
+    place : FilmPlace
+        Of the film thickness.
+    pressure : float
+        p1 [Pa], > 0.
+    slip : float
+        |Δu| > 0 [m/s].
+    with_film : bool
+        Whether the derivative by film thickness is wanted with the heating in it; without, it is that of a cool film.
 
     Returns
     -------
     ChordStress
     """
     fluid = table.fluid
+    c, viscosities = table.coefficients, table.log_viscosities
     pressure = min(max(pressure, _LOWEST_PRESSURE), HIGHEST_PRESSURE)
-    log_eta, steepness = log_viscosity(fluid, pressure)
-    scale = characteristic_slip(fluid, log_eta, pressure, film_thickness)
-    c = table.coefficients
-    x = math.sqrt(math.sqrt(pressure)) / table.pressure_spacing
-    log_slip = math.log(slip / scale)
-    y = (log_slip - _LOWEST_LOG_SLIP) / table.slip_spacing
-    z = (math.log(film_thickness) - table.lowest_film) / table.film_spacing
-    below = y < 0.0
-    if below:
-        y = 0.0
-    y = min(y, c.shape[1] - 3.0)
-    z = min(max(z, 0.0), c.shape[2] - 3.0)
+    w = math.sqrt(math.sqrt(pressure))
+    x = w / table.pressure_spacing
     i = min(int(x), c.shape[0] - 4)
+    x0, x1, x2, x3 = _weights(x - i)
+    dx0, dx1, dx2, dx3 = _slopes(x - i)
+    g0, g1, g2, g3 = viscosities[i], viscosities[i + 1], viscosities[i + 2], viscosities[i + 3]
+    log_eta = x0 * g0 + x1 * g1 + x2 * g2 + x3 * g3
+    steepness = 0.25 * x * (dx0 * g0 + dx1 * g1 + dx2 * g2 + dx3 * g3)
+    film = place.film_thickness
+    if fluid.rheology == LIMITING_SHEAR:
+        unit = fluid.characteristic * pressure
+        log_slip = math.log(slip / (film * unit)) + log_eta
+    elif fluid.rheology == EYRING:
+        unit = fluid.characteristic
+        log_slip = math.log(slip / (film * unit)) + log_eta
+    else:
+        root = math.sqrt(max(fluid.heating, _NO_HEATING))
+        unit = math.exp(0.5 * log_eta) / (film * root)
+        log_slip = math.log(slip * root) + 0.5 * log_eta
+    y = (log_slip - _LOWEST_LOG_SLIP) / table.slip_spacing
+    below = y < 0.0
+    y = min(max(y, 0.0), c.shape[1] - 3.0)
     j = min(int(y), c.shape[1] - 4)
-    k = min(int(z), c.shape[2] - 4)
-    x0, x1, x2, x3, dx0, dx1, dx2, dx3 = _weights(x - i)
-    y0, y1, y2, y3, dy0, dy1, dy2, dy3 = _weights(y - j)
-    z0, z1, z2, z3, dz0, dz1, dz2, dz3 = _weights(z - k)
+    y0, y1, y2, y3 = _weights(y - j)
+    dy0, dy1, dy2, dy3 = _slopes(y - j)
+    k = place.cell
+    z0, z1, z2, z3 = place.weights
+    dz0, dz1, dz2, dz3 = place.slopes
     value, by_x, by_y, by_z = 0.0, 0.0, 0.0, 0.0
     for m in range(4):
         wx = x0 if m == 0 else (x1 if m == 1 else (x2 if m == 2 else x3))
         dwx = dx0 if m == 0 else (dx1 if m == 1 else (dx2 if m == 2 else dx3))
-        inner, inner_y, inner_z = 0.0, 0.0, 0.0
+        inner, inner_y = 0.0, 0.0
         for n in range(4):
             wy = y0 if n == 0 else (y1 if n == 1 else (y2 if n == 2 else y3))
             dwy = dy0 if n == 0 else (dy1 if n == 1 else (dy2 if n == 2 else dy3))
@@ -179,11 +231,11 @@ def interpolated_stress(table, pressure, film_thickness, slip):
             line = z0 * c0 + z1 * c1 + z2 * c2 + z3 * c3
             inner += wy * line
             inner_y += dwy * line
-            inner_z += wy * (dz0 * c0 + dz1 * c1 + dz2 * c2 + dz3 * c3)
+            if with_film:
+                by_z += wx * wy * (dz0 * c0 + dz1 * c1 + dz2 * c2 + dz3 * c3)
         value += wx * inner
         by_x += dwx * inner
         by_y += wx * inner_y
-        by_z += wx * inner_z
     slope = by_y / table.slip_spacing
     if below:
         value += log_slip - _LOWEST_LOG_SLIP
@@ -191,12 +243,10 @@ def interpolated_stress(table, pressure, film_thickness, slip):
     by_pressure = 0.25 * by_x * x
     by_film = by_z / table.film_spacing
     if fluid.rheology == NEWTONIAN:
-        reference = log_eta + math.log(scale / film_thickness)
-        by_pressure += 0.5 * steepness + 0.5 * slope * steepness
-        by_film -= 1.0
+        by_pressure += 0.5 * steepness * (1.0 + slope)
+        by_film -= 1.0 if with_film else slope
     else:
-        reference = math.log(characteristic_stress(fluid, pressure))
         share = 1.0 if fluid.rheology == LIMITING_SHEAR else 0.0
-        by_pressure += share - slope * (share - steepness)
+        by_pressure += share + slope * (steepness - share)
         by_film -= slope
-    return ChordStress(math.exp(reference + value), slope, by_pressure, by_film)
+    return ChordStress(unit * math.exp(value), slope, by_pressure, by_film)

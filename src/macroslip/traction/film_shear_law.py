@@ -9,16 +9,14 @@ import numpy as np
 
 from macroslip.compiled import jit
 from macroslip.traction.chord import characteristic_stress, chord_stress, log_viscosity
-from macroslip.traction.chord_table import ChordTable, interpolated_stress
+from macroslip.traction.chord_table import ChordTable, film_place, interpolated_stress
 from macroslip.traction.law import register_type
 from macroslip.traction.patch import Patch
 from macroslip.traction.rheology import limited_stress
 from macroslip.traction.slip_field import graded_rule, rolling_lines
 
-_LINE, _LINE_WEIGHTS = graded_rule(10, both_ends=False)
-_MIDDLE, _MIDDLE_WEIGHTS = graded_rule(14, both_ends=True)
-_FINE_LINE, _FINE_LINE_WEIGHTS = graded_rule(32, both_ends=False)
-_FINE_MIDDLE, _FINE_MIDDLE_WEIGHTS = graded_rule(40, both_ends=True)
+_NODES, _WEIGHTS = graded_rule(12)
+_FINE_NODES, _FINE_WEIGHTS = graded_rule(40)
 
 
 def _chords(nodes: int) -> tuple[np.ndarray, np.ndarray]:
@@ -72,12 +70,13 @@ def uniform_traction(law, load, film_thickness, slip):
     pressure = law.pressure * root_load
     speed = max(abs(slip), _NO_SLIP)
     total, by_slip, by_film, by_pressure = 0.0, 0.0, 0.0, 0.0
+    place = film_place(law.table, film_thickness)
     half = (_STATIONS.size + 1) // 2
     for k in range(half):
         # The ellipse is symmetrical; the middle chord of an odd number counts once.
         weight = _STATION_WEIGHTS[k] * (1.0 if 2 * k + 1 == _STATIONS.size else 2.0)
         height = math.sqrt(1.0 - _STATIONS[k] * _STATIONS[k])
-        chord = interpolated_stress(law.table, pressure * height, film_thickness, speed)
+        chord = interpolated_stress(law.table, place, pressure * height, speed, True)
         part = weight * chord.stress
         total += part
         by_slip += part * chord.by_slip
@@ -117,45 +116,39 @@ def microslip_traction(law, load, film_thickness, field, shape, fine):
 
     Notes
     -----
-    The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
+    The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out. The derivatives by film
+    thickness leave out that heating changes with it.
     """
     root_load = load ** (1.0 / 3.0)
     across = law.semi_axis_across * root_load
-    along = law.semi_axis_along * root_load
     pressure = law.pressure * root_load
-    half = min(across, shape.half_length)
-    lines = rolling_lines(field, shape.contour_radius, half)
-    end = math.asin(half / across)
-    first, second = math.asin(lines.first / across), math.asin(lines.second / across)
-    first_cosine, second_cosine = math.cos(first), math.cos(second)
-    first_moves = lines.first_by_slip / (across * first_cosine) if first_cosine > 1e-9 else 0.0
-    second_moves = lines.second_by_slip / (across * second_cosine) if second_cosine > 1e-9 else 0.0
-    area = 2.0 * across * along
+    end = min(1.0, shape.half_length / across)
+    lines = rolling_lines(field, shape.contour_radius, across * end)
+    place = film_place(law.table, film_thickness)
+    nodes = _FINE_NODES if fine else _NODES
+    weights = _FINE_WEIGHTS if fine else _WEIGHTS
+    area = 2.0 * across * law.semi_axis_along * root_load
+    bend, drop_scale = field.curvature_rate / shape.contour_radius, 0.5 / shape.contour_radius
     force, lag, skew = 0.0, 0.0, 0.0
     force_slope, lag_slope, force_by_film, lag_by_film = 0.0, 0.0, 0.0, 0.0
     for segment in range(3):
-        if segment == 1:
-            start, length, start_moves, grows = first, second - first, first_moves, second_moves - first_moves
-            nodes = _FINE_MIDDLE if fine else _MIDDLE
-            weights = _FINE_MIDDLE_WEIGHTS if fine else _MIDDLE_WEIGHTS
-        else:
-            if segment == 0:
-                start, length, start_moves, grows = first, -(first + end), first_moves, -first_moves
-            else:
-                start, length, start_moves, grows = second, end - second, second_moves, -second_moves
-            nodes = _FINE_LINE if fine else _LINE
-            weights = _FINE_LINE_WEIGHTS if fine else _LINE_WEIGHTS
-        if abs(length) < 1e-12:
+        start = -end if segment == 0 else (lines.first if segment == 1 else lines.second) / across
+        stop = end if segment == 2 else (lines.second if segment == 1 else lines.first) / across
+        length = stop - start
+        if length < 1e-12:
             continue
-        growth = grows / length
+        start_moves = 0.0 if segment == 0 else (lines.first_by_slip if segment == 1 else lines.second_by_slip)
+        stop_moves = 0.0 if segment == 2 else (lines.second_by_slip if segment == 1 else lines.first_by_slip)
+        growth = (stop_moves - start_moves) / (across * length)
         for k in range(nodes.size):
-            angle = start + length * nodes[k]
-            sine, cosine = math.sin(angle), math.cos(angle)
-            station = across * sine
-            drop = 0.5 * station * station / shape.contour_radius
+            x = start + length * nodes[k]
+            squared = 1.0 - x * x
+            cosine = math.sqrt(squared)
+            station = across * x
+            drop = drop_scale * station * station
             slip = field.sliding + field.curvature_rate * drop - field.spin_rate * station
             speed = max(abs(slip), _NO_SLIP)
-            weight = math.copysign(area * weights[k] * abs(length) * cosine * cosine, slip)
+            weight = math.copysign(area * weights[k] * length * cosine, slip)
             arm = drop / shape.roller_radius
             if fine:
                 part = weight * chord_stress(law.table.fluid, pressure * cosine, film_thickness, speed)
@@ -163,19 +156,18 @@ def microslip_traction(law, load, film_thickness, field, shape, fine):
                 lag += part * arm
                 skew += part * station
                 continue
-            chord = interpolated_stress(law.table, pressure * cosine, film_thickness, speed)
+            chord = interpolated_stress(law.table, place, pressure * cosine, speed, False)
             part = weight * chord.stress
             force += part
             lag += part * arm
             skew += part * station
             # The node moves with the lines of pure rolling, and with it pressure, slip, chord and arm.
-            moves = start_moves + grows * nodes[k]
-            slip_change = 1.0 + field.curvature_slope * drop
-            slip_change += (field.curvature_rate * station / shape.contour_radius - field.spin_rate) * across * cosine * moves
+            moves = start_moves + (stop_moves - start_moves) * nodes[k]
+            slip_change = 1.0 + field.curvature_slope * drop + (bend * station - field.spin_rate) * moves
             change = chord.by_slip * slip_change / slip if slip != 0.0 else 0.0
-            change += growth - sine / cosine * (2.0 + chord.by_pressure) * moves
+            change += growth - x / (across * squared) * (1.0 + chord.by_pressure) * moves
             force_slope += part * change
-            lag_slope += part * (arm * change + station * across * cosine * moves / (shape.contour_radius * shape.roller_radius))
+            lag_slope += part * (arm * change + 2.0 * drop_scale * station * moves / shape.roller_radius)
             force_by_film += part * chord.by_film
             lag_by_film += part * arm * chord.by_film
     return Patch(
@@ -205,7 +197,8 @@ def rising_slip(law, load, film_thickness):
 def chord_traction(law, load, film_thickness, cosine, slip):
     """Traction per length [N/m] on the chord whose length and largest pressure are `cosine` times the middle's."""
     root_load = load ** (1.0 / 3.0)
-    stress = interpolated_stress(law.table, law.pressure * root_load * cosine, film_thickness, max(slip, _NO_SLIP)).stress
+    place = film_place(law.table, film_thickness)
+    stress = interpolated_stress(law.table, place, law.pressure * root_load * cosine, max(slip, _NO_SLIP), False).stress
     return 2.0 * law.semi_axis_along * root_load * cosine * stress
 
 

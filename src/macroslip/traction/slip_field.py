@@ -118,13 +118,12 @@ def rolling_lines(field, contour_radius, half_length):
     return RollingLines(first, second, first_by_slip, second_by_slip)
 
 
-def graded_rule(nodes: int, *, both_ends: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Quadrature on [0, 1], graded towards 0, or towards both ends: nodes m and weights.
+def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
+    """Quadrature on [0, 1], graded towards both ends: nodes m and weights.
 
-    Gauss-Legendre in t with m = t², or m = 3t² − 2t³.
+    Gauss-Legendre in t with m = 3t² − 2t³. At a line of pure rolling this resolves how fast stress turns there; at the end
+    of an ellipse it makes the root of the chord's length smooth.
     """
     t, weights = np.polynomial.legendre.leggauss(nodes)
     t, weights = 0.5 * (t + 1.0), 0.5 * weights
-    if both_ends:
-        return t * t * (3.0 - 2.0 * t), weights * 6.0 * t * (1.0 - t)
-    return t * t, weights * 2.0 * t
+    return t * t * (3.0 - 2.0 * t), weights * 6.0 * t * (1.0 - t)
