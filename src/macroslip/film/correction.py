@@ -57,7 +57,7 @@ class CorrectedFilm(NamedTuple):
     Attributes
     ----------
     base : NamedTuple
-        Any film law, prepared for the interface.
+        Any film law, prepared for the interface; not another `CorrectedFilm`, which kernels cannot nest.
     starvation : float
         Film thickness over that of a flooded contact [-], 0 to 1.
     loading : float
