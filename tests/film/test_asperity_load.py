@@ -9,7 +9,15 @@ from hypothesis import strategies as st
 
 from macroslip.errors import InputError
 from macroslip.film import law
-from macroslip.film.asperity_load import AsperityLoad, asperity_share, film_ratio_share, load_ratio, names, prepare, reference
+from macroslip.film.asperity_load import (
+    AsperityLoad,
+    asperity_share,
+    film_ratio_share,
+    load_ratio,
+    names,
+    prepare,
+    reference,
+)
 
 RATED_SURFACE_SPEED = 0.39594  # Ω r~_out at 20.463 rpm [m/s]
 KINDS = ["film-ratio", "masjedi-khonsari", "none"]
@@ -26,7 +34,13 @@ def formula(load, speed, material, roughness, hardness):
     return per_cent / 100
 
 
-@given(st.floats(-12.0, -2.0), st.floats(-18.0, -8.0), st.floats(2000.0, 9000.0), st.floats(-8.0, -3.5), st.floats(0.003, 0.05))
+@given(
+    st.floats(-12.0, -2.0),
+    st.floats(-18.0, -8.0),
+    st.floats(2000.0, 9000.0),
+    st.floats(-8.0, -3.5),
+    st.floats(0.003, 0.05),
+)
 @settings(deadline=None, max_examples=150)
 def test_load_ratio_is_the_formula(log_load, log_speed, material, log_roughness, hardness):
     groups = 10.0**log_load, 10.0**log_speed, material, 10.0**log_roughness, hardness
@@ -101,7 +115,8 @@ def test_raceways_at_rated_speed_run_on_a_nearly_full_film(base):
     """Λ of 4: a share of a thousandth by the load ratio and less by Λ."""
     height = law.film_thickness(law.prepare("masjedi-khonsari-moes", base[0]), 5e4, RATED_SURFACE_SPEED)[0]
     by_groups, by_film = (
-        asperity_share(prepare(kind, base[0]), 5e4, RATED_SURFACE_SPEED, height) for kind in ("masjedi-khonsari", "film-ratio")
+        asperity_share(prepare(kind, base[0]), 5e4, RATED_SURFACE_SPEED, height)
+        for kind in ("masjedi-khonsari", "film-ratio")
     )
     assert by_groups == pytest.approx(1.2e-3, rel=0.05) and by_film == pytest.approx(1.3e-4, rel=0.05)
 
@@ -111,5 +126,7 @@ def test_names_share_one_type_and_an_unknown_one_is_told(base):
     assert {type(prepare(kind, base[0])) for kind in KINDS} == {AsperityLoad}
     assert len({tuple(map(type, prepare(kind, base[0]))) for kind in KINDS}) == 1
     assert "10.1115/1.4005514" in reference("masjedi-khonsari")
-    with pytest.raises(InputError, match="there is no asperity_load law 'lambda'. Allowed: film-ratio, masjedi-khonsari"):
+    with pytest.raises(
+        InputError, match="there is no asperity_load law 'lambda'. Allowed: film-ratio, masjedi-khonsari"
+    ):
         prepare("lambda", base[0])

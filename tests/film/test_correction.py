@@ -68,9 +68,7 @@ def test_nothing_to_correct_gives_the_law_itself(base):
 def test_factors_and_derivatives_on_every_law(base, name, log_load, log_speed, starvation, heating):
     load, speed = 10.0**log_load, 10.0**log_speed
     plain = law.film_thickness(law.prepare(name, base[0]), load, speed)
-    found = law.film_thickness(
-        prepare_film(name, base[0], starvation=starvation, inlet_heating=heating), load, speed
-    )
+    found = law.film_thickness(prepare_film(name, base[0], starvation=starvation, inlet_heating=heating), load, speed)
     d = mpmath.mpf
     with mpmath.workdps(30):
 

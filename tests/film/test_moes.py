@@ -30,9 +30,9 @@ def formula(load, material):
 def rigid_solution():
     """Martin's exact solution: N M of the isoviscous and N L^(−2/3) of the piezoviscous limit, N the volume-flow film.
 
-    In X = √(2 H0) t, H = H0 (1 + t²), Reynolds' equation is P' = 6 √2 H0^(−3/2) (t² − t1²)/(1 + t²)³, with t1 such that
-    the pressure is 0 where its slope is. With Barus' law the same holds for (1 − e^(−L P))/L, whose largest value is 1/L
-    where the pressure becomes infinite.
+    In X = √(2 H0) t, H = H0 (1 + t²), Reynolds' equation is P' = 6 √2 H0^(−3/2) (t² − t1²)/(1 + t²)³, with t1 such
+    that the pressure is 0 where its slope is. With Barus' law the same holds for (1 − e^(−L P))/L, whose largest value
+    is 1/L where the pressure becomes infinite.
     """
 
     def slope(t, end):

@@ -98,11 +98,13 @@ def test_a_file_without_the_data_of_the_physical_model_is_read_and_they_are_aske
         old.require(*PHYSICAL, purpose="the physical model")
     message = str(caught.value)
     assert message.startswith(
-        "lubricant vg460-pao: it has no limiting_shear, no eyring_stress, no boundary_friction, no starvation, which the "
-        "physical model needs. Allowed: limiting_shear: a number above 0 and at most 0.5; eyring_stress: a number at "
+        "lubricant vg460-pao: it has no limiting_shear, no eyring_stress, no boundary_friction, no starvation, which "
+        "the physical model needs. Allowed: limiting_shear: a number above 0 and at most 0.5; eyring_stress: a number at "
     )
     assert message.endswith('starvation: {value: ..., unit: "1"}.') and "\n" not in message
-    with pytest.raises(InputError, match="it has no starvation, which grease needs. Allowed: starvation: a number above 0"):
+    with pytest.raises(
+        InputError, match="it has no starvation, which grease needs. Allowed: starvation: a number above 0"
+    ):
         base.replace(starvation=None).require("eyring_stress", "starvation", purpose="grease")
 
 
@@ -175,7 +177,9 @@ def test_roelands_lies_below_barus_and_bends(base):
 
 def test_a_viscosity_too_low_for_roelands_is_told():
     for viscosity in (6e-5, 1e-9, 0.0):
-        with pytest.raises(InputError, match="^viscosity: Roelands' law has no viscosity of .* Allowed: above 6.3e-05 Pa s"):
+        with pytest.raises(
+            InputError, match="^viscosity: Roelands' law has no viscosity of .* Allowed: above 6.3e-05 Pa s"
+        ):
             roelands_index(viscosity, 2.1e-8)
     assert np.isnan(roelands(6e-5, 2.1e-8, 1e8))
     assert roelands_index(6.4e-5, 2.1e-8) > 0.0

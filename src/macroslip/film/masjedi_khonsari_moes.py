@@ -13,9 +13,9 @@ Roughness adds to the gap what Masjedi and Khonsari's formula says, S times its 
 W^−0.364 U^−0.043. One decade below their ranges of W and U it is taken as constant: extrapolated, it would let the
 film of a stopping roller grow without bound.
 
-The equivalent line contact w = 3Q/(4a) is right where the contact is elastic. In a rigid contact pressure spreads beyond
-the Hertz ellipse, at most to the roller's length, and the film is thicker than this; for cage contacts and unloaded
-rollers the film is therefore an estimate from below, as far as the inlet is flooded and the pocket leaves room.
+The equivalent line contact w = 3Q/(4a) is right where the contact is elastic. In a rigid contact pressure spreads
+beyond the Hertz ellipse, at most to the roller's length, and the film is thicker than this; for cage contacts and
+unloaded rollers the film is therefore an estimate from below, where the inlet is flooded and the pocket leaves room.
 """
 
 from __future__ import annotations
