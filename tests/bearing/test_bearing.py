@@ -89,7 +89,8 @@ RANGES = {
 def test_every_quantity_has_a_range(base, key):
     low, high = RANGES[key]
     step = 1 if key == "rollers_per_row" else 1e-6 * (high - low)
-    told = re.compile(rf"\b{key} is [^ ]+( [^.]+)?\. Allowed: a (whole )?number (above|at least) .* and (below|at most) ")
+    bounds = "(above|at least) .* and (below|at most) "
+    told = re.compile(rf"\b{key} is [^ ]+( [^.]+)?\. Allowed: a (whole )?number {bounds}")
     for outside in (low - step, high + step):
         with pytest.raises(InputError, match=told):
             base.replace(**{key: outside})
@@ -143,3 +144,18 @@ def test_roller_and_ring_proportions_have_to_be_sane(base):
     with pytest.raises(InputError, match="^bore_diameter is 0.9 m. Allowed: less than outside_diameter, 0.87 m."):
         base.replace(bore_diameter=0.9)
     assert base.replace(bore_diameter=0.9, outside_diameter=None).bore_diameter == 0.9
+
+
+def test_thermal_data_may_be_left_out_and_are_asked_for_by_name(base):
+    old = base.replace(thermal_conductivity=None, specific_heat=None)
+    assert "specific_heat" not in old.as_dict() and Bearing.from_dict(old.as_dict()) == old
+    keys = ("thermal_conductivity", "specific_heat", "density")
+    base.require(*keys, purpose="the flash temperature")
+    with pytest.raises(InputError) as caught:
+        old.require(*keys, purpose="the flash temperature")
+    assert str(caught.value) == (
+        "bearing skf-240-600-bc: it has no thermal_conductivity, no specific_heat, which the flash temperature needs. "
+        "Allowed: thermal_conductivity: a number above 0 W/(m K) and at most 1000 W/(m K); specific_heat: a number "
+        "above 0 J/(kg K) and at most 10000 J/(kg K). Add to its file: thermal_conductivity: {value: ..., unit: W/(m K)}, "
+        "specific_heat: {value: ..., unit: J/(kg K)}."
+    )

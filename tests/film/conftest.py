@@ -1,4 +1,4 @@
-"""Full numerical solution of an isothermal, incompressible, smooth line contact: Reynolds' equation, elastic half-spaces.
+"""Full numerical solution of an isothermal, incompressible, smooth line contact: Reynolds and elastic half-spaces.
 
 In Moes' variables two numbers are left, M and L. With x = R ε^½ X, h = R ε H, p = E' ε^½ P and ε = (2U)^½:
 
@@ -128,7 +128,11 @@ def solve(load, material, rigid=False, cells=240):
             while damping > 1e-4:
                 trial = unknown + damping * change
                 new, _, height, _, flux = residual(trial, exponent, target, scale)
-                if np.all(np.isfinite(new)) and np.linalg.norm(new) < (1.0 - 1e-4 * damping) * norm and height.min() > 0:
+                if (
+                    np.all(np.isfinite(new))
+                    and np.linalg.norm(new) < (1.0 - 1e-4 * damping) * norm
+                    and height.min() > 0
+                ):
                     break
                 damping *= 0.5
             unknown = trial

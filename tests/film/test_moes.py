@@ -30,9 +30,9 @@ def formula(load, material):
 def rigid_solution():
     """Martin's exact solution: N M of the isoviscous and N L^(−2/3) of the piezoviscous limit, N the volume-flow film.
 
-    In X = √(2 H0) t, H = H0 (1 + t²), Reynolds' equation is P' = 6 √2 H0^(−3/2) (t² − t1²)/(1 + t²)³, with t1 such that
-    the pressure is 0 where its slope is. With Barus' law the same holds for (1 − e^(−L P))/L, whose largest value is 1/L
-    where the pressure becomes infinite.
+    In X = √(2 H0) t, H = H0 (1 + t²), Reynolds' equation is P' = 6 √2 H0^(−3/2) (t² − t1²)/(1 + t²)³, with t1 such
+    that the pressure is 0 where its slope is. With Barus' law the same holds for (1 − e^(−L P))/L, whose largest value
+    is 1/L where the pressure becomes infinite.
     """
 
     def slope(t, end):
@@ -103,8 +103,7 @@ def test_logarithmic_form_and_its_derivatives(log_load, log_material):
 @settings(deadline=None, max_examples=100)
 def test_film_shrinks_with_load_and_grows_with_viscosity_under_pressure(log_load, log_material):
     _, by_load, by_material = log_moes(log_load * math.log(10.0), log_material * math.log(10.0))
-    # The sum is a blend of powers; the variable exponent s lifts the slope a little above that of the flattest.
-    assert -1.001 <= by_load < 0.05 and 0.0 <= by_material <= 0.75
+    assert -1.001 <= by_load < -0.02 and 0.0 <= by_material <= 0.75
 
 
 def test_extreme_arguments_stay_finite():

@@ -2,13 +2,17 @@
 
 import json
 
+import mpmath
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from macroslip.catalogue import TAGS
+from macroslip.catalogue import TAGS, Provenance
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
-from macroslip.lubricant.viscosity import barus
+from macroslip.lubricant.density import dowson_higginson
+from macroslip.lubricant.viscosity import barus, roelands, roelands_index
 
 
 @pytest.fixture(scope="module")
@@ -79,3 +83,109 @@ def test_barus_is_exponential_in_pressure(base):
         expected = 0.54 * np.exp(21 * pressure / 1e9)
         assert barus(base.viscosity, base.pressure_viscosity, pressure) == pytest.approx(expected, rel=1e-13)
     assert barus(0.54, 2.1e-8, 1e13) == np.inf
+
+
+PHYSICAL = ("limiting_shear", "eyring_stress", "boundary_friction", "starvation")
+
+
+def test_a_file_without_the_data_of_the_physical_model_is_read_and_they_are_asked_for_by_name(base):
+    entries = {key: entry for key, entry in base.as_dict().items() if key not in PHYSICAL}
+    old = Lubricant.from_dict(entries)
+    assert old.limiting_shear is None and "limiting_shear" not in old.provenance
+    assert old.as_dict() == entries
+    base.require(*PHYSICAL, purpose="the physical model")
+    with pytest.raises(InputError) as caught:
+        old.require(*PHYSICAL, purpose="the physical model")
+    message = str(caught.value)
+    assert message.startswith(
+        "lubricant vg460-pao: it has no limiting_shear, no eyring_stress, no boundary_friction, no starvation, which "
+        "the physical model needs. Allowed: limiting_shear: a number above 0 and at most 0.5; eyring_stress: a number at "
+    )
+    assert message.endswith('starvation: {value: ..., unit: "1"}.') and "\n" not in message
+    with pytest.raises(
+        InputError, match="it has no starvation, which grease needs. Allowed: starvation: a number above 0"
+    ):
+        base.replace(starvation=None).require("eyring_stress", "starvation", purpose="grease")
+
+
+def test_another_inlet_temperature_changes_the_viscosity_alone(base):
+    warm = base.at_inlet(318.15)
+    assert warm.viscosity == pytest.approx(0.54 * np.exp(-0.56), rel=1e-14)
+    assert warm.inlet_temperature == 318.15
+    changed = {key for key in Lubricant.model_fields if getattr(warm, key) != getattr(base, key)}
+    assert changed == {"viscosity", "inlet_temperature"}
+    kept = set(base.provenance) - changed
+    assert all(warm.provenance[key] == base.provenance[key] for key in kept)
+    assert warm.provenance["viscosity"] == Provenance(
+        warm.viscosity, "Pa s", "D", "from 0.54 Pa s at 308.15 K by exp(-0.056/K * 10 K)"
+    )
+    assert warm.provenance["inlet_temperature"] == Provenance(318.15, "K", "U", "")
+    assert Lubricant.from_dict(warm.as_dict()) == warm
+    assert base.at_inlet(308.15).viscosity == 0.54
+
+
+@given(st.floats(278.5, 337.8), st.floats(278.5, 337.8))
+def test_two_changes_of_temperature_are_as_one(first, second):
+    base = Lubricant.read("vg460-pao")
+    if abs(second - first) < 30:
+        twice = base.at_inlet(first).at_inlet(second)
+        assert twice.viscosity == pytest.approx(base.at_inlet(second).viscosity, rel=1e-12)
+
+
+def test_a_temperature_too_far_away_is_refused(base):
+    with pytest.raises(InputError, match="^lubricant vg460-pao: the inlet temperature 373.15 K is 65 K from that of .*"
+                                         "Allowed: 278.15 K to 338.15 K"):  # fmt: skip
+        base.at_inlet(373.15)
+    for value in (float("nan"), "40 degC", 10.0):
+        with pytest.raises(InputError, match="^inlet_temperature is "):
+            base.at_inlet(value)
+
+
+@given(st.floats(-3.0, 1.0), st.floats(5e-9, 4e-8))
+def test_roelands_has_the_slope_of_barus_at_ambient_pressure(log_viscosity, pressure_viscosity):
+    viscosity, pressure = 10.0**log_viscosity, 1.0
+    assert roelands(viscosity, pressure_viscosity, 0.0) == viscosity
+    index = roelands_index(viscosity, pressure_viscosity)
+    with mpmath.workdps(40):
+        constant = mpmath.log(viscosity) + mpmath.mpf("9.67")
+        slope = mpmath.diff(lambda p: constant * (1 + p / mpmath.mpf("1.96e8")) ** mpmath.mpf(index), 0, h=1e-3)
+        assert float(slope) == pytest.approx(pressure_viscosity, rel=1e-9, abs=0.0)
+    # What is left of the difference is second order in p/p_r.
+    rise = roelands(viscosity, pressure_viscosity, pressure) / barus(viscosity, pressure_viscosity, pressure) - 1.0
+    assert abs(rise) < 1e-13
+
+
+@pytest.mark.parametrize("pressure", [0.0, 1e3, 1e7, 1e8, 5e8, 1e9, 2e9])
+@pytest.mark.parametrize("viscosity", [0.01, 0.54, 5.0])
+def test_roelands_law_in_high_precision(viscosity, pressure):
+    with mpmath.workdps(30):
+        constant = mpmath.log(viscosity) + mpmath.mpf("9.67")
+        index = mpmath.mpf(2.1e-8) * mpmath.mpf("1.96e8") / constant
+        exact = viscosity * mpmath.exp(constant * ((1 + mpmath.mpf(pressure) / mpmath.mpf("1.96e8")) ** index - 1))
+    assert roelands(viscosity, 2.1e-8, pressure) == pytest.approx(float(exact), rel=1e-12, abs=0.0)
+
+
+def test_roelands_lies_below_barus_and_bends(base):
+    eta, alpha = base.viscosity, base.pressure_viscosity
+    assert 0.4 < roelands_index(eta, alpha) < 0.7
+    pressures = np.linspace(1e7, 2e9, 200)
+    logs = np.log([roelands(eta, alpha, p) for p in pressures])
+    assert (logs < np.log([barus(eta, alpha, p) for p in pressures])).all()
+    slopes = np.diff(logs)
+    assert (slopes > 0).all() and (np.diff(slopes) < 0).all()
+
+
+def test_a_viscosity_too_low_for_roelands_is_told():
+    for viscosity in (6e-5, 1e-9, 0.0):
+        with pytest.raises(
+            InputError, match="^viscosity: Roelands' law has no viscosity of .* Allowed: above 6.3e-05 Pa s"
+        ):
+            roelands_index(viscosity, 2.1e-8)
+    assert np.isnan(roelands(6e-5, 2.1e-8, 1e8))
+    assert roelands_index(6.4e-5, 2.1e-8) > 0.0
+
+
+def test_density_under_pressure():
+    assert dowson_higginson(0.0) == 1.0
+    assert dowson_higginson(1e30) == pytest.approx(1.0 + 0.6 / 1.7, rel=1e-15)
+    assert (dowson_higginson(1e3) - 1.0) / 1e3 == pytest.approx(0.6e-9, rel=1e-5)

@@ -128,8 +128,9 @@ def told(tmp_path):
         (LOADS + "forces: {gravity: yes}\n", "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false."),
         (
             LOADS + "laws: {film: dowson, traction: baruss-crook}\n",
-            "2 problems: (1) case.yaml, line 2, laws.film: 'dowson' does not exist. Allowed: masjedi-khonsari. "
-            "Choose one of these. (2) case.yaml, line 2, laws.traction: 'baruss-crook' does not exist. Allowed: "
+            "2 problems: (1) case.yaml, line 2, laws.film: 'dowson' does not exist. Allowed: masjedi-khonsari, "
+            "masjedi-khonsari-moes, moes. Choose one of these. (2) case.yaml, line 2, laws.traction: 'baruss-crook' "
+            "does not exist. Allowed: "
             "barus-crook. Did you mean barus-crook?",
         ),
         (

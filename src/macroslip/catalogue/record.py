@@ -236,7 +236,8 @@ class Record(BaseModel):
             f"it has no {', no '.join(missing)}, which {purpose} needs",
             where=f"{self.noun} {self.name}",
             allowed="; ".join(f"{key}: {allowed_text(fields[key], kinds[key])}" for key in missing),
-            remedy="Add to its file: " + ", ".join(f"{key}: {{value: ..., unit: {kinds[key].choices}}}" for key in missing),
+            remedy="Add to its file: "
+            + ", ".join(f"{key}: {{value: ..., unit: {kinds[key].choices}}}" for key in missing),
         )
 
     def as_dict(self) -> dict[str, Any]:

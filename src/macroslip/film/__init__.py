@@ -2,7 +2,10 @@
 
 from macroslip.compiled import elementwise
 from macroslip.film import masjedi_khonsari as _masjedi_khonsari
+from macroslip.film import masjedi_khonsari_moes as _masjedi_khonsari_moes  # noqa: F401  registers the law
+from macroslip.film import moes as _moes
 
 masjedi_khonsari_thickness = elementwise(_masjedi_khonsari.masjedi_khonsari)
+moes_thickness = elementwise(_moes.moes)
 
-__all__ = ["masjedi_khonsari_thickness"]
+__all__ = ["masjedi_khonsari_thickness", "moes_thickness"]

@@ -121,8 +121,9 @@ def asperity_share(law, load, entrainment_speed, film_thickness):
 
     Notes
     -----
-    The load ratio is used outside its range too: it vanishes fast with speed, so a cage contact has none, and it is
-    clamped to 1 where it exceeds that, on the raceways of the base bearing below a third of the lowest speed of its range.
+    The load ratio is used outside its range too: it is small where the film is thick, so a cage contact has none
+    (1e-6), and it is clamped to 1 where it exceeds that, at 20 kN on the base bearing's raceways below a third of the
+    lowest U of its range.
     """
     if law.kind == LOAD_RATIO:
         log_load = math.log(load) * (2.0 / 3.0)

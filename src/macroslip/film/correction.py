@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 from macroslip.compiled import jit, jit_inline
@@ -57,7 +56,7 @@ class CorrectedFilm(NamedTuple):
     Attributes
     ----------
     base : NamedTuple
-        Any film law, prepared for the interface.
+        Any film law, prepared for the interface; not another `CorrectedFilm`, which kernels cannot nest.
     starvation : float
         Film thickness over that of a flooded contact [-], 0 to 1.
     loading : float

@@ -1,8 +1,8 @@
 """A film for every load: Masjedi and Khonsari's where it was fitted, Moes' where the contact is lightly loaded.
 
-Both describe the same film. In the range of Masjedi and Khonsari's formula Moes' film is thicker by 12 to 31 %
-(raceways of a main bearing), because it leaves compressibility out: divided by the density ratio at the highest
-pressure it agrees within a few per cent. So the film without roughness is, with S Masjedi and Khonsari's smooth film and
+Both describe the same film. Where Masjedi and Khonsari's formula holds, Moes' film is thicker by 8 to 32 % (raceways of
+the base bearing, 0.1 to 1.3 m/s), because it leaves compressibility out: divided by the density ratio at the highest
+pressure it agrees within 4 %. So the film without roughness is, with S Masjedi and Khonsari's smooth film and
 N Moes' film over the density ratio,
 
     ln h_s = w ln S + (1 − w) ln N,
@@ -12,6 +12,10 @@ where w rises from 0 to 1 over the decade of W below the lower end of Masjedi an
 Roughness adds to the gap what Masjedi and Khonsari's formula says, S times its roughness term, which goes with
 W^−0.364 U^−0.043. One decade below their ranges of W and U it is taken as constant: extrapolated, it would let the
 film of a stopping roller grow without bound.
+
+The equivalent line contact w = 3Q/(4a) is right where the contact is elastic. In a rigid contact pressure spreads
+beyond the Hertz ellipse, at most to the roller's length, and the film is thicker than this; for cage contacts and
+unloaded rollers the film is therefore an estimate from below, where the inlet is flooded and the pocket leaves room.
 """
 
 from __future__ import annotations

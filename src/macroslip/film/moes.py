@@ -160,7 +160,7 @@ def thickness(law, load, entrainment_speed):
 
 @jit
 def in_range(law, load, entrainment_speed):
-    """Whether M and L are where the formula was compared with numerical solutions; lighter loads are its exact limit."""
+    """Whether M and L are at most those at which the formula was compared; lighter loads approach its exact limit."""
     log_speed = math.log(entrainment_speed)
     m = math.exp(law.log_load + (2.0 / 3.0) * math.log(load) - 0.5 * log_speed)
     return m <= HIGHEST_COMPARED_LOAD and math.exp(law.log_material + 0.25 * log_speed) <= HIGHEST_COMPARED_MATERIAL
