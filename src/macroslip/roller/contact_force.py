@@ -309,3 +309,38 @@ def _slip_variation(contact, load, ring_speed):
     if _is_curved(contact):
         return lambda contact, load, ring_speed: _curved_variation(contact, load, ring_speed)
     return lambda contact, load, ring_speed: 0.0
+
+
+def slips_everywhere(contact):
+    """Whether a gripped contact slips in most places all the same, by microslip."""
+    return isinstance(contact, CurvedContact) and contact.shape.microslip
+
+
+@overload(slips_everywhere)
+def _slips_everywhere(contact):
+    if _is_curved(contact):
+        return lambda contact: contact.shape.microslip
+    return lambda contact: False
+
+
+def held_slip(contact, slip, at, later):
+    """Guess of the slip of a firmly held roller at a later station from its slip now.
+
+    With microslip the middle slips so that the two sides of the lines of pure rolling balance, in proportion to the
+    drop of the contour at the end of the ellipse and to speed: v ∝ u2 Q^(2/3) where stress is at its limit.
+    """
+    return _scaled_slip(slip, at, later) if slips_everywhere(contact) else slip
+
+
+@jit
+def _scaled_slip(slip, at, later):
+    if at.elastic_load <= 0.0 or at.ring_speed == 0.0:
+        return slip
+    return slip * (later.elastic_load / at.elastic_load) ** (2.0 / 3.0) * (later.ring_speed / at.ring_speed)
+
+
+@overload(held_slip)
+def _held_slip(contact, slip, at, later):
+    if _is_curved(contact):
+        return lambda contact, slip, at, later: _scaled_slip(slip, at, later) if contact.shape.microslip else slip
+    return lambda contact, slip, at, later: slip

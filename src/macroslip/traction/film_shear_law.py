@@ -15,7 +15,7 @@ from macroslip.traction.patch import Patch
 from macroslip.traction.rheology import limited_stress
 from macroslip.traction.slip_field import graded_rule, rolling_lines
 
-_NODES, _WEIGHTS = graded_rule(12)
+_NODES, _WEIGHTS = graded_rule(10)
 _FINE_NODES, _FINE_WEIGHTS = graded_rule(40)
 
 
@@ -25,7 +25,7 @@ def _chords(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     return np.cos(angle), np.pi / (nodes + 1) * np.sin(angle) ** 2
 
 
-_STATIONS, _STATION_WEIGHTS = _chords(12)
+_STATIONS, _STATION_WEIGHTS = _chords(10)
 #: Slip below which a chord is not looked up: its stress is proportional to slip and far below round-off of the rest.
 _NO_SLIP = 1e-30
 #: √B at which Crook's shear stress peaks (B = 2.2767), and a slip no contact exceeds [m/s].
