@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.bearing import kinematics
-from macroslip.roller.forces import LOWEST_ENTRAINMENT_SPEED, Station, contact_force, interference, slip_forces, station
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, contact_force
+from macroslip.roller.forces import Station, interference, slip_forces, station
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.roller.orbit import Instant
 
