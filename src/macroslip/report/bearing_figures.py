@@ -35,12 +35,13 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
     axes.set_theta_zero_location("S")
     axes.set_theta_direction(-1)
     axes.set_xticks(np.radians([0.0, 90.0, 180.0, 270.0]), ["bottom", "left", "top", "right"])
+    axes.tick_params(axis="x", pad=1)
     axes.set_ylim(bottom=0.0)
     axes.tick_params(labelsize=9)
     axes.set_rlabel_position(45.0)
     largest = float(axes.get_ylim()[1])
     axes.set_yticks([largest * part for part in (0.25, 0.5, 0.75)], [f"{largest * part:.2g}" for part in (0.25, 0.5, 0.75)])
-    axes.set_title(f"{row} row [mJ/°]", fontsize=10, loc="left")
+    axes.set_title(f"{row} row [mJ/°]", fontsize=10, loc="left", pad=12)
     return axes
 
 

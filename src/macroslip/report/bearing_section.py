@@ -64,7 +64,7 @@ def orbit_blocks(profile: Mapping[str, xr.Dataset], of: str = "") -> tuple[Block
         picture(
             lambda axes, row=row: draw.plot_load_zone(axes, load, row),
             f"Heat map of the roller load of the {row} row over angle and time",
-            width=5.4, height=3.0,
+            width=4.4, height=2.9,
         )
         for row in rows
     )

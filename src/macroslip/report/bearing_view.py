@@ -84,6 +84,7 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         "start": float(time[0]),
         "step": float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 0.0,
         "count": int(time.size),
+        "first": _opening(scene),
         "angle": np.round(scene.angle.values, 3).tolist(),
         "travelled": base64.b64encode(scene.travelled.values.astype("<f4").tobytes()).decode("ascii"),
         "radii": {
@@ -95,3 +96,9 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         "colours": [[round(255 * part) for part in colour] for colour in ramp.tolist()],
         "quantities": quantities,
     }
+
+
+def _opening(scene: xr.Dataset) -> int:
+    """Sample at which the view opens: a little before the largest power."""
+    power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(axis=(0, 1))
+    return max(0, int(np.argmax(power)) - power.size // 60)

@@ -156,10 +156,9 @@ def _numerical(tolerances: xr.Dataset, steps: xr.Dataset) -> Section:
             Pictures(
                 (
                     picture(lambda axes: solver_figures.plot_cage_energy(axes, tolerances),
-                            "Cage energy per orbit against the tolerance at which the iteration stops", width=5.2,
-                            height=3.8, legend="upper left"),
+                            "Cage energy per orbit against the tolerance at which the iteration stops", height=3.6, legend="upper left"),
                     picture(lambda axes: solver_figures.plot_step_size(axes, steps),
-                            "Mean largest power per orbit against the fixed step", width=5.2, height=3.8,
+                            "Mean largest power per orbit against the fixed step", height=3.6,
                             legend="center left"),
                 ),
                 "Left: energy at the cage per orbit, time-varying load of case 14B, one roller of each row. Right: mean "

@@ -74,7 +74,8 @@ def picture(
     draw(axes[0])
     if legend == "above":
         labels = axes[0].get_legend_handles_labels()[1]
-        legend_above(figure, axes[0], ncols=min(len(labels), 3))
+        # Long names do not fit beside each other.
+        legend_above(figure, axes[0], ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 else 2))
     elif legend == "below":
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=9)

@@ -30,19 +30,8 @@ def provenance_section(datasets: Mapping[str, xr.Dataset], *, seconds: Mapping[s
         Parts that an earlier run had computed.
     """
     blocks: list[Any] = [_program(datasets, seconds, reused), _statuses(datasets)]
-    inputs: dict[str, list[str]] = {}
-    for name, dataset in datasets.items():
-        inputs.setdefault(_without_loads(dataset), []).append(name)
-    for text, names in inputs.items():
-        given = json.loads(text)
-        of = f" ({', '.join(names)})" if len(inputs) > 1 else ""
-        for record in ("bearing", "lubricant"):
-            if isinstance(given.get(record), dict):
-                blocks.append(_record(given[record], f"{record}{of}"))
-        rest = {key: value for key, value in given.items() if key not in ("bearing", "lubricant")}
-        if rest:
-            rows = tuple((key, _told(value)) for key, value in rest.items())
-            blocks.append(Table(("input", "value (SI units)"), rows, f"Further input{of}"))
+    for part in ("bearing", "lubricant", ""):
+        blocks += _input_tables(datasets, part)
     loads = _loads(datasets)
     if loads.rows:
         blocks.append(loads)
@@ -75,12 +64,31 @@ def _statuses(datasets: Mapping[str, xr.Dataset]) -> Table:
     return Table(("", "integrations of rollers", "how they ended"), tuple(rows), "Status of the integrations")
 
 
-def _without_loads(dataset: xr.Dataset) -> str:
+def _input_tables(datasets: Mapping[str, xr.Dataset], part: str) -> list[Table]:
+    """A table of each different bearing or lubricant, or of each different rest of the input, and whose it is."""
+    found: dict[str, list[str]] = {}
+    for name, dataset in datasets.items():
+        given = _input(dataset)
+        rest = {key: one for key, one in given.items() if key not in ("bearing", "lubricant", "loads")}
+        value = given.get(part) if part else rest
+        if isinstance(value, dict) and value:
+            found.setdefault(json.dumps(value, ensure_ascii=False), []).append(name)
+    tables = []
+    for text, names in found.items():
+        of = f" ({', '.join(names)})" if len(found) > 1 else ""
+        value = json.loads(text)
+        rows = tuple((key, _told(one)) for key, one in value.items())
+        further = Table(("input", "value (SI units)"), rows, f"Further input{of}")
+        tables.append(_record(value, f"{part}{of}") if part else further)
+    return tables
+
+
+def _input(dataset: xr.Dataset) -> dict[str, Any]:
     try:
         given = json.loads(dataset.attrs["input"])
     except (KeyError, TypeError, ValueError):
-        return "{}"
-    return json.dumps({key: value for key, value in given.items() if key != "loads"}, ensure_ascii=False)
+        return {}
+    return given if isinstance(given, dict) else {}
 
 
 def _record(entries: Mapping[str, Any], title: str) -> Table:
@@ -99,14 +107,11 @@ def _record(entries: Mapping[str, Any], title: str) -> Table:
 def _loads(datasets: Mapping[str, xr.Dataset]) -> Table:
     rows = []
     for name, dataset in datasets.items():
-        try:
-            given = json.loads(dataset.attrs["input"])["loads"]
-        except (KeyError, TypeError, ValueError):
-            continue
+        given = _input(dataset).get("loads", [])
         for one in given if isinstance(given, list) else [given]:
-            span = f"{one['start']:g} to {one['end']:g} s"
-            rows.append((name, str(one["source"]), str(one["samples"]), span, str(one["sha256"])[:16]))
-    return Table(("", "loads", "samples", "time", "SHA-256 begins"), tuple(dict.fromkeys(rows)), "Loads")
+            values = [str(one.get(key, "")) for key in ("source", "samples", "start", "end", "sha256")]
+            rows.append((name, *values[:4], values[4][:16]))
+    return Table(("", "loads", "samples", "from [s]", "to [s]", "SHA-256 begins"), tuple(dict.fromkeys(rows)), "Loads")
 
 
 def _told(value: Any) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from macroslip.report import paper_comparison
 from macroslip.report.bearing_section import further_blocks, orbit_blocks, result_blocks, view_section
-from macroslip.report.page import Block, Paragraph, Pictures, Section, Statements, Table, render
+from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Statements, Table, render
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
 from macroslip.report.sensitivity_figures import plot_tornado
@@ -53,7 +53,7 @@ def reproduction_page(
         view_section({_titled("case 14B", name, runs): run.profile for name, run in runs.items()}),
         *(_beyond(name, run, runs) for name, run in runs.items()),
         _sensitivity(runs),
-        Section("conventions", "How the numbers were taken", tuple(Paragraph(one) for one in summary["conventions"])),
+        Section("conventions", "How the numbers were taken", (Points(tuple(summary["conventions"])),)),
         provenance_section(
             {name: run.study for name, run in runs.items()}, seconds=summary["seconds"], reused=tuple(summary["reused"])
         ),
@@ -137,7 +137,7 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
         pictures = tuple(
             picture(
                 lambda axes, quantity=quantity, row=row, table=table: plot_tornado(axes, table, quantity, row),
-                f"Tornado chart: {words[quantity]} of the {row} row", width=5.2, height=2.9,
+                f"Tornado chart: {words[quantity]} of the {row} row", width=4.4, height=2.7,
             )
             for quantity in words for row in table.row.values.tolist()
         )
@@ -145,8 +145,8 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
         blocks.append(_sensitivity_table(table))
         notes = [f"{one}: {note}" for one, note in zip(table.variation.values, table.note.values, strict=True) if note]
         refused = [f"{one}: {text}" for one, text in zip(table.variation.values, table.refused.values, strict=True) if text]
-        blocks.append(Paragraph(" ".join(f"{note[0].upper()}{note[1:]}." for note in notes)))
-        blocks += [Paragraph(f"{one[0].upper()}{one[1:]} The nearest value that can be computed was taken.") for one in refused]
+        refused = [f"{one} Half the way to it was taken" for one in refused]
+        blocks.append(Points(tuple(f"{note[0].upper()}{note[1:]}." for note in (*notes, *refused))))
     return Section("sensitivity", "What the result depends on", tuple(blocks))
 
 

@@ -97,7 +97,7 @@ def plot_cage_energy(axes: Axes, experiment: xr.Dataset) -> Axes:
                 )
     axes.set_xscale("log")
     axes.set_yscale("log")
-    return finish(axes, "relative change of spin at which the iteration stops [–]", "cage energy per orbit [J]")
+    return finish(axes, "relative change of spin at the stop [–]", "cage energy per orbit [J]")
 
 
 def plot_step_size(axes: Axes, experiment: xr.Dataset) -> Axes:

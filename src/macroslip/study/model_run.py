@@ -34,6 +34,9 @@ STATIC_LOADS = {"downward": False, "downward and thrust": True}
 #: Time between the samples of the traces [s]; that of the loads.
 TRACE_STEP = 0.05
 
+#: What is computed under each model, in its order, and what that takes of the time, in proportion.
+MODEL_STAGES = {"study": 28.0, "single rollers": 2.0, "one case in detail": 5.0, "sensitivity": 7.0}
+
 Progress = Callable[[str, int, int], None]
 
 
@@ -62,6 +65,11 @@ class ModelRun:
     sensitivity: xr.Dataset
 
 
+def stage_label(stage: str, model: str) -> str:
+    """Label of one of `MODEL_STAGES` under a model; that of the paper goes without saying."""
+    return stage if model == PAPER else f"{stage} ({model})"
+
+
 def compute_model(name: str, reuse: Reuse, threads: int | None, report: Progress) -> ModelRun:
     """Compute one model, or read what is known of it.
 
@@ -72,16 +80,12 @@ def compute_model(name: str, reuse: Reuse, threads: int | None, report: Progress
     reuse : Reuse
     threads : int or None
     report : callable
-        Called as report(stage, done, total) with the stages "study", "single rollers", "one case in detail" and
-        "sensitivity", each followed by the model's name in parentheses if it is not the paper's.
+        Called as report(label, done, total) with the labels of `MODEL_STAGES`.
     """
     choices = MODELS[name]
 
-    def stage(title: str) -> str:
-        return title if name == PAPER else f"{title} ({name})"
-
-    def told(title: str) -> Callable[[int, int], None]:
-        return lambda done, total: report(stage(title), done, total)
+    def told(stage: str) -> Callable[[int, int], None]:
+        return lambda done, total: report(stage_label(stage, name), done, total)
 
     detailed = Case(loads=HubLoads.bundled(DETAILED_CASE), **choices)
     whole = [Case(loads=HubLoads.bundled(one), **choices).as_dict() for one in bundled_cases()]

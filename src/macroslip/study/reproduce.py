@@ -14,12 +14,14 @@ from macroslip.study import verdicts
 from macroslip.study.case import Case
 from macroslip.study.headline import failure_line, numerical_line, statement_lines
 from macroslip.study.model_run import (
+    MODEL_STAGES,
     MODELS,
     PAPER,
     ModelRun,
     Progress,
     compute_model,
     failures,
+    stage_label,
     statements,
     varying_load,
 )
@@ -35,6 +37,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SUMMARY, STUDY, REPORT = "summary.json", "study.nc", "report.html"
+
+
+def stages() -> dict[str, float]:
+    """Labels of the stages in their order, and what each takes of the time, in proportion, as measured once."""
+    shares: dict[str, float] = {}
+    for name in MODELS:
+        shares |= {stage_label(stage, name): share for stage, share in MODEL_STAGES.items()}
+    return shares | {"experiments": 7.0, "figures": 8.0, "report": 7.0}
 
 
 def reproduce(directory: Path, *, threads: int | None = None, progress: Progress | None = None) -> dict[str, Any]:

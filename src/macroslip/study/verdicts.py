@@ -158,13 +158,13 @@ def peak_power_over_wind_speed(numbers: xr.Dataset) -> Statement:
         )
         parts += [not trend, variation >= HIGH_VARIATION]
         speeds = _by_wind_speed(mean)
-        trends.append(f"{float(speeds[-1] / speeds[0]):.2g} times {row}")
+        trends.append(f"{float(f'{float(speeds[-1] / speeds[0]):.2g}'):g} times {row}")
     return Statement(
         paper="peak power has no trend over wind speed but high variance",
         verdict=verdict(parts, found),
         found="; ".join(words),
-        because="" if all(parts) else f"from the lowest to the highest wind speed the mean grows {', '.join(trends)}; its "
-        "scatter, of which the statement speaks too, is as large as it says" if parts.count(True) else "",
+        because="" if all(parts) else "from the lowest to the highest wind speed the mean becomes "
+        f"{' and '.join(trends)}",
         numbers=found,
     )
 

@@ -41,7 +41,7 @@
   function start(host) {
     const scenes = Object.entries(JSON.parse(host.querySelector("script.scenes").textContent));
     let scene = decode(scenes[0][1]);
-    let at = 0, quantity = 0, chosen = { row: 0, roller: 0 }, playing = false, before = 0;
+    let at = scene.first, quantity = 0, chosen = { row: 0, roller: 0 }, playing = false, before = 0;
 
     // What the controls are.
     const controls = element("div", { class: "controls" }, host);
@@ -124,7 +124,7 @@
       const reach = outer + 2.6 * roller;
       views = scene.rows.map((title, row) => {
         const holder = element("div", {}, rings);
-        element("h4", { text: `${title} row, looking downwind` }, holder);
+        element("h4", { text: `${title} row, looking downwind; spokes: load` }, holder);
         const svg = drawn("svg", {
           viewBox: `${-reach} ${-reach} ${2 * reach} ${2 * reach}`, tabindex: 0, role: "application",
           "aria-label": `${title} row; left and right arrow keys choose a roller, space plays`,
@@ -132,8 +132,8 @@
         drawn("circle", { class: "ring", r: inner }, svg);
         drawn("circle", { class: "ring", r: outer }, svg);
         [["top", 0, -inner * 0.86], ["bottom", 0, inner * 0.93], ["left", -inner * 0.83, 0], ["right", inner * 0.8, 0]]
-          .forEach(([text, x, y]) => drawn("text", { x, y, text, "text-anchor": "middle", "font-size": 0.05 * reach }, svg));
-        const note = drawn("text", { x: 0, y: 0, "text-anchor": "middle", "font-size": 0.05 * reach }, svg);
+          .forEach(([text, x, y]) => drawn("text", { x, y, text, "text-anchor": "middle", style: `font-size:${0.055 * reach}px` }, svg));
+        const note = drawn("text", { x: 0, y: 0, "text-anchor": "middle", style: `font-size:${0.055 * reach}px` }, svg);
         const loads = scene.rollers.map(() => drawn("line", { class: "load" }, svg));
         const rollers = scene.rollers.map((number, k) => drawn("circle", {
           class: "roller", r: roller, "data-row": title, "data-roller": number, "data-index": k,
@@ -244,7 +244,7 @@
       }
       least.textContent = `${q.logarithmic ? `${shown(10 ** q.low)} ` : "0 "}${q.unit}`;
       most.textContent = `${shown(q.logarithmic ? 10 ** q.high : q.high)} ${q.unit}${q.logarithmic ? ", logarithmic" : ""}`
-        + `${q.low < 0 && !q.logarithmic ? ", without sign" : ""}; spokes: load`;
+        + `${q.low < 0 && !q.logarithmic ? ", without sign" : ""}`;
       update();
     }
 
@@ -300,10 +300,8 @@
     play.addEventListener("click", toggle);
     slider.addEventListener("input", () => go(Number(slider.value)));
     colour.addEventListener("change", () => { quantity = Number(colour.value); recolour(); });
-    pick.addEventListener("change", () => { scene = decode(scenes[Number(pick.value)][1]); at = 0; build(); });
+    pick.addEventListener("change", () => { scene = decode(scenes[Number(pick.value)][1]); at = scene.first; build(); });
     window.addEventListener("scroll", hide, { passive: true });
-    quantity = 1;
-    colour.value = "1";
     build();
   }
 

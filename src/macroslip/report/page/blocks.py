@@ -19,6 +19,14 @@ class Paragraph:
 
 
 @dataclass(frozen=True, slots=True)
+class Points:
+    """Texts, one below the other."""
+
+    kind: ClassVar[str] = "points"
+    texts: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Table:
     """Rows of text under headings; a column whose cells are numbers is set to the right."""
 
@@ -81,7 +89,7 @@ class Verbatim:
     caption: str = ""
 
 
-Block = Paragraph | Table | Pictures | Beside | Statements | View | Verbatim
+Block = Paragraph | Points | Table | Pictures | Beside | Statements | View | Verbatim
 
 
 @dataclass(frozen=True, slots=True)

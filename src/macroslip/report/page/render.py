@@ -11,10 +11,9 @@ from importlib import resources
 from typing import Any
 
 import macroslip
-from macroslip.report.page.blocks import Section
-from macroslip.report.style import GREY
+from macroslip.report.page.blocks import Section, Table
 
-_NUMBER = re.compile(r"^[<>≤≥±~]?\s?[−-]?[\d.,]+(e[+-]?\d+)?(\s?(%|×|–|to|±)\s?[−-]?[\d.,]*(e[+-]?\d+)?)?$")
+_NUMBER = re.compile(r"[−-]?[\d,]*\.?\d+(e[+-]?\d+)?$")
 _SYMBOLS = {"agrees": "✓", "agrees in part": "◐", "differs": "✗", "cannot be judged": "?", "not computed": "–"}
 
 
@@ -40,12 +39,18 @@ def render(title: str, subtitle: str, sections: Sequence[Section]) -> str:
         loader=PackageLoader("macroslip.report", "page"), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )
-    environment.filters |= {"is_number": lambda text: bool(_NUMBER.match(text)), "as_json": _as_json}
+    environment.filters |= {"numeric_columns": _numeric_columns, "as_json": _as_json}
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode("ascii")
     return environment.get_template("report.html").render(
         title=title, subtitle=subtitle, sections=sections, style=style, script=script, script_hash=digest,
-        symbols=_SYMBOLS, program=f"macroslip {macroslip.__version__}", grey=GREY,
+        symbols=_SYMBOLS, program=f"macroslip {macroslip.__version__}",
     )
+
+
+def _numeric_columns(table: Table) -> list[bool]:
+    """Whether every cell of a column is a number, or a dash for one."""
+    columns = list(zip(*table.rows, strict=True)) or [()] * len(table.headings)
+    return [any(cells) and all(_NUMBER.match(cell) or cell == "–" for cell in cells) for cells in columns]
 
 
 def _as_json(value: Any) -> Any:
