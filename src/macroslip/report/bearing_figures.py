@@ -193,7 +193,7 @@ def plot_case_energies(axes: Axes, study: xr.Dataset) -> Axes:
         axes.errorbar(places + 0.16 * (k - 0.5), mean, yerr=bars, linewidth=0.0, elinewidth=1.0, capsize=2.5,
                       markersize=5, label=f"{row} row", color=ROW[row]["color"], marker=ROW[row]["marker"])
     axes.set_xticks(places, [str(name) for name in study.case.values], rotation=90 if study.sizes["case"] > 8 else 0)
-    axes.set_ylim(bottom=0.0)
+    axes.set_ylim(0.0, 1.08 * max(axes.get_ylim()[1], 1e-12))
     return finish(axes, "case", "energy of a roller [J]")
 
 

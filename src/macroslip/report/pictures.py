@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -30,7 +31,7 @@ class Picture:
     width, height : int
         Size in the page [px].
     wide : bool
-        Whether it may take the width of the page.
+        Whether it keeps its width where the page is narrower, and is moved sideways in a frame.
     """
 
     source: str
@@ -65,7 +66,7 @@ def picture(
     legend : str
         "" for none, "above", "below" (one entry a line), or a place inside the axes such as "upper left".
     wide : bool
-        Whether the picture may take the width of the page.
+        Whether the picture keeps its width where the page is narrower.
     """
     import matplotlib
 
@@ -94,7 +95,5 @@ def picture(
 
 def _shorter(svg: bytes) -> bytes:
     """Without comments and metadata, which a page does not show."""
-    import re
-
     svg = re.sub(rb"<!--.*?-->|<metadata>.*?</metadata>", b"", svg, flags=re.DOTALL)
     return re.sub(rb"\n\s*", b"\n", svg)
