@@ -9,7 +9,8 @@ def study(monkeypatch):
     calls = []
     summary = {
         "headline": [f"line {n}" for n in range(14)],
-        "failed_rollers": {"study": 0, "single_rollers": 0, "experiments": 0},
+        "failed_rollers": {"study": 0, "single_rollers": 0, "detailed_case": 0, "sensitivity": 0, "experiments": 0},
+        "reused": [],
     }
 
     def reproduce(directory, *, threads=None, progress=None):
@@ -24,8 +25,14 @@ def test_it_ends_with_at_most_ten_lines_and_the_place(study, folder, macroslip):
     calls, _ = study
     done = macroslip("reproduce", "-o", "results", "--threads", 2)
     assert (done.code, done.err) == (0, "")
-    assert done.out.splitlines() == [*(f"line {n}" for n in range(10)), "written: results"]
+    assert done.out.splitlines() == [*(f"line {n}" for n in range(10)), "written: results; the report: results/report.html"]
     assert calls == [("results", 2, None)]
+
+
+def test_it_says_what_it_used_again(study, folder, macroslip):
+    study[1]["reused"] = ["study-paper", "turns"]
+    done = macroslip("reproduce", "-o", "results")
+    assert "used again from the last run, whose inputs are the same: study-paper, turns" in done.out
 
 
 def test_quiet_says_nothing(study, folder, macroslip):

@@ -1,5 +1,6 @@
 """The reproduction: numbers of the study, turns, experiments, verdicts and what is written."""
 
+import dataclasses
 import importlib.util
 import json
 from functools import partial
@@ -11,11 +12,12 @@ import xarray as xr
 
 from macroslip import Case, Drivetrain, HubLoads, MacroslipError, Window, main_bearing_load, simulate
 from macroslip.errors import InputError
+from macroslip.study import headline, model_run, verdicts
 from macroslip.study import reproduce as module
-from macroslip.study import verdicts
 from macroslip.study.paper_numbers import paper_numbers
 from macroslip.study.paper_study import run_study
 from macroslip.study.published import published_together
+from macroslip.study.sensitivity import VARIATIONS, sensitivity
 from macroslip.study.single_roller import inflexion_angle, static_load, static_turn, trace_turn
 from macroslip.study.solver_experiments import nonlinear_tolerance, step_size
 from macroslip.study.stability import compare_stability
@@ -95,9 +97,9 @@ def test_a_failed_roller_is_seen_and_never_averaged_over(study):
     assert np.isnan(numbers.energy.sel(case="14B", row="upwind"))
     assert np.isfinite(numbers.energy.sel(case="14B", row="downwind"))
     assert verdicts.energy_between_rows(numbers).verdict == verdicts.UNKNOWN
-    assert verdicts.energy_over_wind_speed(numbers).verdict == verdicts.UNKNOWN
+    assert verdicts.energy_over_wind_speed(numbers, failed).verdict == verdicts.UNKNOWN
     assert verdicts.peak_power_between_rows(numbers).verdict == verdicts.UNKNOWN
-    assert "FAILED INTEGRATIONS: 1 in study" in verdicts.failure_line({"study": 1, "experiments": 0}, 12)
+    assert "FAILED INTEGRATIONS: 1 in study" in headline.failure_line({"study": 1, "experiments": 0}, 12)
 
 
 def test_energy_verdicts_follow_the_numbers(study):
@@ -107,12 +109,33 @@ def test_energy_verdicts_follow_the_numbers(study):
     assert verdicts.energy_between_rows(numbers).verdict == verdicts.DIFFERS
 
     speeds = np.arange(12.0, 25.0, 2.0)
-    case = {"wind_speed": ("case", speeds)}
+    case = {"wind_speed": ("case", speeds), "row": ["downwind", "upwind"]}
     falling = xr.Dataset({"both_rows_normalised": ("case", 1.0 / speeds)}, case)
     rising = xr.Dataset({"both_rows_normalised": ("case", speeds)}, case)
-    assert verdicts.energy_over_wind_speed(falling).verdict == verdicts.AGREES
-    assert verdicts.energy_over_wind_speed(rising).verdict == verdicts.DIFFERS
-    assert "24 and 22 m/s" in verdicts.energy_over_wind_speed(rising).found
+    orbits = xr.Dataset({"orbits": ("case", speeds), "orbit_energy": (("case", "row"), np.ones((7, 2)))}, case)
+    assert verdicts.energy_over_wind_speed(falling, orbits).verdict == verdicts.AGREES
+    found = verdicts.energy_over_wind_speed(rising, orbits)
+    assert found.verdict == verdicts.DIFFERS
+    assert "24 and 22 m/s" in found.found
+    assert "0.0 % downwind and 0.0 % upwind, the number of orbits by 100.0 %" in found.because
+
+
+def test_reasons_are_given_only_where_the_numbers_bear_them_out(study):
+    numbers = paper_numbers(study)
+    per_orbit = float(numbers.orbit_energy.sel(row="downwind").mean())
+    assert "gripped all round" in verdicts.energy_between_rows(numbers, per_orbit).because
+    assert verdicts.energy_between_rows(numbers, 2.0 * per_orbit).because == ""
+    assert verdicts.energy_between_rows(numbers).because == ""
+    assert verdicts.peak_power_between_rows(numbers).because == ""
+
+
+def test_dominance_verdict_follows_the_numbers(study):
+    assert verdicts.cage_dominates(study).verdict == verdicts.AGREES
+    swapped = study.assign(energy=study.energy.isel(interface=[2, 1, 0]).assign_coords(interface=study.interface))
+    found = verdicts.cage_dominates(swapped)
+    assert found.verdict == verdicts.DIFFERS
+    assert "downwind the inner interface takes most" in found.because
+    assert verdicts.cage_dominates(with_failed_roller(study)).verdict == verdicts.UNKNOWN
 
 
 def test_peak_power_verdicts_follow_the_numbers():
@@ -206,30 +229,36 @@ def test_a_loose_iteration_adds_energy_only_to_a_gripped_roller_under_varying_lo
     assert loose.ratio.sel(row="downwind") > 100.0
     assert loose.ratio.sel(row="upwind") < 1.5
     np.testing.assert_allclose(loose.static_energy, tight.static_energy, rtol=1e-3)
-    assert "passes 100 times between a relative change of 1e-12" in verdicts.tolerance_line(found)
+    assert "passes 100 times between a relative change of 1e-12" in headline.tolerance_line(found)
     tame = found.assign(ratio=found.ratio.clip(max=2.0))
-    assert "is 2 times at a relative change of 1e-06" in verdicts.tolerance_line(tame)
+    assert "is 2 times at a relative change of 1e-06" in headline.tolerance_line(tame)
     failed = found.assign(ratio=found.ratio * np.nan)
-    assert verdicts.UNKNOWN in verdicts.tolerance_line(failed)
+    assert verdicts.UNKNOWN in headline.tolerance_line(failed)
 
 
 def test_a_coarse_step_misses_the_peak(experiments):
     found = experiments["step_size"]
     assert found.mean_peak_power.sel(row="upwind").max() < found.mean_peak_power_converged.sel(row="upwind")
     np.testing.assert_allclose(found.mean_peak_power_production, found.mean_peak_power_converged, rtol=3e-2)
-    assert "10 ms" in verdicts.step_line(found)
+    assert "10 ms" in headline.step_line(found)
+
+
+@pytest.fixture(scope="module")
+def table():
+    return sensitivity(Case(loads=HubLoads.bundled("14B"), **SMALL), VARIATIONS[:2])
 
 
 @pytest.fixture
-def quick(monkeypatch, study, varying, experiments):
+def quick(monkeypatch, study, table, experiments):
     """The reproduction with a small study, one simulated part of its case, and short experiments."""
-    monkeypatch.setattr(module, "run_study", lambda **options: study)
-    monkeypatch.setattr(module, "simulate", lambda case, threads: simulate(Case(loads=case.loads, **SMALL)))
+    monkeypatch.setattr(model_run, "run_study", lambda **options: study)
+    monkeypatch.setattr(model_run, "simulate", lambda case, threads: simulate(dataclasses.replace(case, **SMALL)))
+    monkeypatch.setattr(model_run, "sensitivity", lambda case, **options: table)
     monkeypatch.setattr(module, "_experiments", lambda *arguments: experiments)
     return partial(module.reproduce, threads=1)
 
 
-def test_everything_is_written_and_says_the_same(quick, study, tmp_path):
+def test_everything_is_written_says_the_same_and_is_used_again(quick, study, monkeypatch, tmp_path):
     target = tmp_path / "results"
     target.mkdir()
     (target / "notes.txt").write_text("mine")
@@ -249,17 +278,55 @@ def test_everything_is_written_and_says_the_same(quick, study, tmp_path):
     plotted = summary["figures"]["4b"]["data_vars"]["energy_ratio"]
     assert plotted["data"] == paper_numbers(study).energy_ratio.values.tolist()
     assert plotted["attrs"]["units"] == "1"
-    assert len(summary["headline"]) <= 10
+    assert len(summary["headline"]) == 10
+    assert [one["models"]["paper"]["found"] in line for one, line in
+            zip(summary["statements"], summary["headline"][1:9], strict=True)] == [True] * 8
     assert summary["failed_rollers"]["study"] == 0
-    assert calls[-1] == ("figures", 10, 10)
+    assert calls[-1] == ("report", 1, 1)
+    assert {label for label, _, _ in calls} <= set(module.stages())
+    assert summary["reused"] == []
+    page = (target / "report.html").read_text(encoding="utf-8")
+    assert all(one["models"]["paper"]["verdict"] in page for one in summary["statements"])
+
+    def recomputed(*arguments, **options):
+        pytest.fail("computed again")
+
+    for name in ("run_study", "simulate", "sensitivity"):
+        monkeypatch.setattr(model_run, name, recomputed)
+    again = quick(target)
+    assert again["reused"] == ["study-paper", "turns", "detail-paper", "sensitivity-paper"]
+    changing = ("seconds", "reused")
+    assert {key: one for key, one in again.items() if key not in changing} == {
+        key: one for key, one in summary.items() if key not in changing
+    }
+
+
+def test_a_second_model_gets_its_own_column_section_and_files(quick, monkeypatch, tmp_path):
+    monkeypatch.setattr(model_run, "MODELS", {"paper": {}, "other": {"drag": False}})
+    monkeypatch.setattr(module, "MODELS", {"paper": {}, "other": {"drag": False}})
+    summary = quick(tmp_path / "results")
+    assert len(summary["headline"]) == 10
+    unloaded = summary["statements"][4]["models"]
+    assert unloaded["paper"]["verdict"] == verdicts.AGREES
+    assert unloaded["other"]["verdict"] == verdicts.NOT_COMPUTED
+    assert "paper: " in summary["headline"][1] and "; other: " in summary["headline"][1]
+    for name in ("study_other.nc", "figure_4a_other.svg", "sensitivity_other.png"):
+        assert (tmp_path / "results" / name).is_file()
+    page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
+    for words in ("Under <em>other</em>", 'id="rollers-other"', "Figure 4a: energy over mean wind speed (model other)",
+                  "case 14B, model other"):
+        assert words in page
+    assert "Figure 3a: constant load and speed (model other)" not in page
 
 
 def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
-    monkeypatch.setattr(module, "run_study", lambda **options: with_failed_roller(study))
+    monkeypatch.setattr(model_run, "run_study", lambda **options: with_failed_roller(study))
     summary = quick(tmp_path / "results")
     assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
     assert summary["failed_rollers"]["study_by_case"] == {"14B": 1}
     assert summary["figures"]["4b"]["data_vars"]["energy_ratio"]["data"][2] is None
+    page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
+    assert "FAILED INTEGRATIONS: 1 in study" in page
 
 
 @pytest.mark.parametrize("exists", [False, True])
@@ -301,7 +368,7 @@ def test_files_of_a_broken_move_lack_their_last(monkeypatch, tmp_path):
 
 
 def test_a_file_in_the_way_is_refused_before_computing(monkeypatch, tmp_path):
-    monkeypatch.setattr(module, "run_study", lambda **options: pytest.fail("computed"))
+    monkeypatch.setattr(model_run, "run_study", lambda **options: pytest.fail("computed"))
     (tmp_path / "results").write_text("")
     with pytest.raises(InputError, match="not a folder"):
         module.reproduce(tmp_path / "results")
@@ -310,7 +377,7 @@ def test_a_file_in_the_way_is_refused_before_computing(monkeypatch, tmp_path):
 def test_missing_matplotlib_is_told_before_computing(monkeypatch, tmp_path):
     find = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "matplotlib" else find(name))
-    monkeypatch.setattr(module, "run_study", lambda **options: pytest.fail("computed"))
+    monkeypatch.setattr(model_run, "run_study", lambda **options: pytest.fail("computed"))
     with pytest.raises(MacroslipError, match=r"pip install 'macroslip\[figures\]'"):
         module.reproduce(tmp_path / "results")
     assert not (tmp_path / "results").exists()

@@ -12,6 +12,7 @@ from macroslip.cli.catalogue import bearing, lubricant
 from macroslip.cli.failure import command
 from macroslip.cli.init import init
 from macroslip.cli.loads import loads
+from macroslip.cli.report import report
 from macroslip.cli.reproduce import reproduce
 from macroslip.cli.run import run
 
@@ -25,6 +26,7 @@ app = typer.Typer(
 )
 command(app, init)
 command(app, run)
+command(app, report)
 command(app, reproduce)
 command(app, bench)
 app.add_typer(loads)

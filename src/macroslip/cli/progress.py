@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
 DELAY = 1.0
@@ -11,13 +11,18 @@ DELAY = 1.0
 
 
 @contextmanager
-def progress_bar(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | None]:
+def progress_bar(
+    *, quiet: bool, stages: Mapping[str, float] | None = None
+) -> Iterator[Callable[[str, int, int], None] | None]:
     """Show a bar on standard error while the block runs, if that is a terminal and it takes more than a moment.
 
     Parameters
     ----------
     quiet : bool
         Whether to show nothing.
+    stages : mapping, optional
+        Labels of the work in their order, and what each takes of the time, in proportion. The bar and the time left
+        are then those of all of it; without, each label has a bar of its own.
 
     Yields
     ------
@@ -42,6 +47,10 @@ def progress_bar(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | N
     task = bar.add_task("preparing (the first run of all compiles)", total=None)
 
     def report(label: str, done: int, total: int) -> None:
+        if stages is not None:
+            part, whole = share_done(stages, label, done / total), sum(stages.values())
+            bar.update(task, description=label, completed=round(100 * part / whole), total=100)
+            return
         if label != bar.tasks[0].description:  # another piece of work: its speed is its own
             bar.reset(task, description=label, total=total)
         bar.update(task, completed=done)
@@ -55,3 +64,16 @@ def progress_bar(*, quiet: bool) -> Iterator[Callable[[str, int, int], None] | N
         start.cancel()
         start.join()
         bar.stop()
+
+
+def share_done(stages: Mapping[str, float], label: str, part: float) -> float:
+    """What is done of all stages when `part` of the stage `label` is; a label that is not known counts nothing itself.
+
+    Examples
+    --------
+    >>> share_done({"first": 3.0, "second": 1.0}, "second", 0.5)
+    3.5
+    """
+    known = list(stages)
+    before = known.index(label) if label in known else 0
+    return sum(stages[name] for name in known[:before]) + stages.get(label, 0.0) * part

@@ -22,15 +22,18 @@ def reproduce(
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; all processors if not given.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
 ) -> None:
-    """Reproduce the paper: its figures and numbers."""
+    """Reproduce the paper: its figures, numbers and a report."""
+    from macroslip.study.reproduce import REPORT, stages
     from macroslip.study.reproduce import reproduce as study
 
-    with progress_bar(quiet=quiet) as report:
+    with progress_bar(quiet=quiet, stages=stages()) as report:
         summary = study(output, threads=threads, progress=report)
     if not quiet:
         for line in summary["headline"][:HEADLINES]:
             typer.echo(line)
-        typer.echo(f"written: {output}")
-    if any(summary["failed_rollers"][part] for part in ("study", "single_rollers")):
+        if summary["reused"]:
+            typer.echo(f"used again from the last run, whose inputs are the same: {', '.join(summary['reused'])}")
+        typer.echo(f"written: {output}; the report: {output / REPORT}")
+    if any(summary["failed_rollers"][part] for part in ("study", "single_rollers", "detailed_case", "sensitivity")):
         tell(f"failed: some rollers did not reach the end; {output}/summary.json says how many in which case.")
         raise typer.Exit(ROLLERS_FAILED)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from macroslip.report.orbit_figures import plot_cumulative_energy, plot_spin
 from macroslip.report.solver_figures import plot_deviation, plot_nonlinear_tolerance, plot_stability, plot_step_size
-from macroslip.report.style import GREY, new_figure
+from macroslip.report.style import GREY, legend_above, new_figure
 from macroslip.report.wind_speed_figures import plot_energy, plot_energy_ratio, plot_peak_power, plot_peak_power_ratio
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def turns_figure(turns: Mapping[str, xr.Dataset]) -> Figure:
         if column:
             axes[column].set_ylabel("")
             axes[column + len(turns)].set_ylabel("")
-    _legend_above(figure, axes[0])
+    legend_above(figure, axes[0])
     return figure
 
 
@@ -40,7 +40,7 @@ def energy_ratio_figure(numbers: xr.Dataset) -> Figure:
     """Figure 4b: energy of the downwind over the upwind row."""
     figure, axes = new_figure(4.8, 3.4)
     plot_energy_ratio(axes[0], numbers)
-    _legend_above(figure, axes[0], title="turbulence class")
+    legend_above(figure, axes[0], title="turbulence class")
     return figure
 
 
@@ -56,7 +56,7 @@ def peak_power_ratio_figure(numbers: xr.Dataset) -> Figure:
     """Figure 5b: mean P_max of the downwind over the upwind row."""
     figure, axes = new_figure(4.8, 3.4)
     plot_peak_power_ratio(axes[0], numbers)
-    _legend_above(figure, axes[0], title="turbulence class")
+    legend_above(figure, axes[0], title="turbulence class")
     return figure
 
 
@@ -71,7 +71,7 @@ def stability_figure(stability: xr.Dataset) -> Figure:
         note, (limit, 0.02), xycoords=axes[1].get_xaxis_transform(), xytext=(4, 0), textcoords="offset points",
         ha="left", va="bottom", fontsize=9, color=GREY,
     )
-    _legend_above(figure, axes[0])
+    legend_above(figure, axes[0])
     return figure
 
 
@@ -92,11 +92,5 @@ def step_size_figure(experiment: xr.Dataset) -> Figure:
 def _finish_columns(figure: Figure, axes: list, legend_title: str) -> Figure:
     for one in axes[1:]:
         one.set_ylabel("")
-    _legend_above(figure, axes[0], title=legend_title)
+    legend_above(figure, axes[0], title=legend_title)
     return figure
-
-
-def _legend_above(figure: Figure, axes: object, **options: object) -> None:
-    handles, labels = axes.get_legend_handles_labels()
-    options |= {"frameon": False, "fontsize": 9, "title_fontsize": 9}
-    figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), **options)

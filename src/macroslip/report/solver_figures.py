@@ -78,6 +78,28 @@ def plot_nonlinear_tolerance(axes: Axes, experiment: xr.Dataset) -> Axes:
     return finish(axes, "relative change of spin at which the iteration stops [–]", "energy per orbit [J]")
 
 
+def plot_cage_energy(axes: Axes, experiment: xr.Dataset) -> Axes:
+    """Cage energy per orbit against the tolerance at which backward Euler's iteration stops, with the converged levels.
+
+    Takes the dataset of `macroslip.study.solver_experiments.nonlinear_tolerance`.
+    """
+    tolerance = experiment.stopping_tolerance.values
+    for row in experiment.row.values:
+        one = experiment.sel(row=row)
+        axes.plot(tolerance, one.cage_energy.values, markersize=5, label=f"{row} row", **ROW[row])
+        level = float(one.cage_energy_converged)
+        axes.axhline(level, color=ROW[row]["color"], linewidth=0.8, zorder=0)
+        for x, y in zip(tolerance, one.cage_energy.values, strict=True):
+            if y > RAISED * level:
+                axes.annotate(
+                    f"{float(f'{y / level:.3g}'):,g} × converged", (x, y), xytext=(-7, 0), textcoords="offset points",
+                    ha="right", va="center", fontsize=9, color=ROW[row]["color"],
+                )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    return finish(axes, "relative change of spin at the stop [–]", "cage energy per orbit [J]")
+
+
 def plot_step_size(axes: Axes, experiment: xr.Dataset) -> Axes:
     """Mean P_max per orbit against the fixed step of backward Euler, with the converged levels.
 

@@ -29,6 +29,14 @@ ROW: Mapping[str, Mapping[str, object]] = MappingProxyType(
         "upwind": {"color": ORANGE, "marker": "s", "linestyle": "--"},
     }
 )
+#: Line of each interface.
+INTERFACE: Mapping[str, Mapping[str, object]] = MappingProxyType(
+    {
+        "inner": {"color": BLUE, "linestyle": "-"},
+        "outer": {"color": ORANGE, "linestyle": "--"},
+        "cage": {"color": GREEN, "linestyle": "-."},
+    }
+)
 #: Steps from one turbulence class to the next along the wind-speed axis [m/s], so that bars do not hide each other.
 CLASS_OFFSET: Mapping[str, float] = MappingProxyType({"A": -0.35, "B": 0.0, "C": 0.35})
 
@@ -52,6 +60,13 @@ def finish(axes: Axes, x_label: str, y_label: str, title: str = "") -> Axes:
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=9)
     return axes
+
+
+def legend_above(figure: Figure, axes: Axes, **options: object) -> None:
+    """The legend of one of the figure's axes, above all of them."""
+    handles, labels = axes.get_legend_handles_labels()
+    options = {"frameon": False, "fontsize": 9, "title_fontsize": 9, "ncols": len(labels)} | options
+    figure.legend(handles, labels, loc="outside upper center", **options)
 
 
 def log_ticks(axes: Axes) -> Axes:

@@ -85,7 +85,7 @@ def _case_values(result: xr.Dataset) -> xr.Dataset:
     """What the study keeps of one case: energies per roller, and statistics of P_max over (roller, orbit) samples."""
     import xarray as xr
 
-    kept = result[["energy", "min_spin_ratio", "status"]]
+    kept = result[["energy", "min_spin_ratio", "outside_film_range", "status"]]
     peak = result.peak_power.max("interface", skipna=False)
     samples = ("roller", "orbit")
     duration = result.attrs["window_end"] - result.attrs["window_start"]

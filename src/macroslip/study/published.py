@@ -44,7 +44,9 @@ def published_together(directory: Path, last: str) -> Iterator[Path]:
             aside.rename(directory)
             return
         (directory / last).unlink(missing_ok=True)
-        for path in sorted(aside.iterdir(), key=lambda path: (path.name == last, path.name)):
-            path.replace(directory / path.name)
+        files = sorted(path.relative_to(aside) for path in aside.rglob("*") if path.is_file())
+        for path in sorted(files, key=lambda path: path == Path(last)):
+            (directory / path).parent.mkdir(exist_ok=True)
+            (aside / path).replace(directory / path)
     finally:
         shutil.rmtree(aside, ignore_errors=True)

@@ -1,0 +1,104 @@
+"""A scene as compact data for the page's moving bearing: numbers of 16 bits in base64."""
+
+from __future__ import annotations
+
+import base64
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.bearing import Bearing, geometry
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+#: Code of a value that is not known.
+MISSING = 65535
+_TOP = 65534
+#: Power below which the scale does not tell values apart [W].
+LEAST_POWER = 1e-5
+#: Name in a scene, heading, unit shown, factor from SI, whether the scale is logarithmic.
+QUANTITIES = (
+    ("slip", "Slip", "mm/s", 1e3, False),
+    ("roller_load", "Load", "kN", 1e-3, False),
+    ("power", "Frictional power", "W", 1.0, True),
+)
+#: Colours of a scale from least to most, whose lightness rises evenly.
+_COLOURS = 16
+
+
+def quantise(values: NDArray, low: float, high: float) -> bytes:
+    """Values between `low` and `high` as little-endian numbers of 16 bits, 0 to 65534; 65535 for NaN.
+
+    Examples
+    --------
+    >>> list(np.frombuffer(quantise(np.array([0.0, 0.5, 1.0, np.nan]), 0.0, 1.0), "<u2"))
+    [np.uint16(0), np.uint16(32767), np.uint16(65534), np.uint16(65535)]
+    """
+    span = high - low or 1.0
+    codes = np.round((np.clip(np.nan_to_num(values, nan=low), low, high) - low) / span * _TOP)
+    return np.where(np.isnan(values), MISSING, codes).astype("<u2").tobytes()
+
+
+def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
+    """What the page's script needs of one scene.
+
+    Parameters
+    ----------
+    scene : xarray.Dataset
+        From `macroslip.study.orbit_profile.scene`.
+    bearing : Bearing
+        Of which the drawing is made, to scale.
+
+    Returns
+    -------
+    dict
+        Plain data: geometry [mm], times [s], angles [degrees], and for each quantity its unit, range and codes.
+    """
+    from matplotlib import colormaps
+
+    time = scene.time.values
+    quantities = []
+    for name, heading, unit, factor, logarithmic in QUANTITIES:
+        values = factor * scene[name].transpose("row", "roller", "time").values.astype(float)
+        finite = values[np.isfinite(values)]
+        if logarithmic:
+            low, high = np.log10(LEAST_POWER), np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0)))
+            with np.errstate(divide="ignore"):
+                values = np.log10(np.where(values <= 0.0, LEAST_POWER, values))
+        elif name == "slip":
+            high = max(1e-6, np.abs(finite).max(initial=0.0))
+            low = -high
+        else:
+            low, high = 0.0, max(1e-6, finite.max(initial=0.0))
+        codes = base64.b64encode(quantise(values, low, high)).decode("ascii")
+        quantities.append(
+            {"heading": heading, "unit": unit, "logarithmic": logarithmic, "low": float(low), "high": float(high),
+             "codes": codes}
+        )
+    ramp = colormaps["cividis"](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
+    return {
+        "rows": scene.row.values.tolist(),
+        "rollers": scene.roller.values.tolist(),
+        "start": float(time[0]),
+        "step": float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 0.0,
+        "count": int(time.size),
+        "first": _opening(scene),
+        "angle": np.round(scene.angle.values, 3).tolist(),
+        "travelled": base64.b64encode(scene.travelled.values.astype("<f4").tobytes()).decode("ascii"),
+        "radii": {
+            "roller": 1e3 * geometry.roller_radius(bearing),
+            "pitch": 1e3 * bearing.pitch_radius,
+            "inner": 1e3 * geometry.inner_contact_radius(bearing),
+            "outer": 1e3 * geometry.outer_contact_radius(bearing),
+        },
+        "colours": [[round(255 * part) for part in colour] for colour in ramp.tolist()],
+        "quantities": quantities,
+    }
+
+
+def _opening(scene: xr.Dataset) -> int:
+    """Sample at which the view opens: a little before the largest power."""
+    power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(axis=(0, 1))
+    return max(0, int(np.argmax(power)) - power.size // 60)

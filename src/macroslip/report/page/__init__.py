@@ -1,0 +1,19 @@
+"""A page: its blocks, and the one self-contained HTML file they become."""
+
+from macroslip.report.page.blocks import (
+    Beside,
+    Block,
+    Paragraph,
+    Pictures,
+    Points,
+    Section,
+    Statements,
+    Table,
+    Verbatim,
+    View,
+)
+from macroslip.report.page.render import render
+
+__all__ = [
+    "Beside", "Block", "Paragraph", "Pictures", "Points", "Section", "Statements", "Table", "Verbatim", "View", "render",
+]
