@@ -37,7 +37,9 @@ def _package_hash() -> str:
 def depend_on(*functions: Callable) -> None:
     """Make kernels depend on the files that hold these compiled functions: a law of the user's own, say.
 
-    A function typed at a prompt has no file; then its bytecode and constants stand for it.
+    A function typed at a prompt has no file; then its bytecode and constants stand for it. The module's name counts
+    too: kernels are stored with the names of their types, and a process that gave the module another name would not
+    find them.
     """
     for function in functions:
         plain = getattr(function, "py_func", function)
@@ -45,8 +47,9 @@ def depend_on(*functions: Callable) -> None:
         if path.is_relative_to(Path(__file__).parent):
             continue
         text = path.read_text(encoding="utf-8") if path.is_file() else repr((plain.__code__.co_code, plain.__code__.co_consts))
-        if text not in _extra_sources:
-            _extra_sources.append(text)
+        source = f"{plain.__module__}\n{text}"
+        if source not in _extra_sources:
+            _extra_sources.append(source)
 
 
 class _IndexFile(IndexDataCacheFile):
