@@ -9,7 +9,7 @@ import pytest
 
 from macroslip.bearing import Bearing
 from macroslip.report.results_page import results_page
-from macroslip.study.orbit_profile import scene
+from macroslip.study.orbit_scene import scene
 
 
 @pytest.fixture(scope="module")

@@ -119,7 +119,7 @@ VARIATIONS = (
         name="inlet temperature", unit="°C", low=20.0, high=60.0,
         base=lambda case: case.lubricant.inlet_temperature - 273.15,
         apply=lambda case, value: with_inlet_temperature(case, value + 273.15),
-        note="viscosity η0 exp(−β (T − 35 °C)): 2.3 times at 20 °C, 0.25 times at 60 °C; nothing else changes",
+        note="viscosity η0 exp(−β (T − T0)) from the base temperature T0; nothing else changes",
     ),
     Variation(
         name="bearing to gearbox", unit="m", low=1.8, high=2.6,
