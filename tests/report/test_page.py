@@ -108,7 +108,8 @@ def test_what_is_no_result_is_refused(results, message):
 
 
 def test_names_are_escaped_wherever_they_stand(hostile):
-    section = Section("a", hostile, (Paragraph(hostile), Table((hostile,), ((hostile,),), hostile), View({hostile: {}})))
+    table = Table((hostile,), ((hostile,),), hostile)
+    section = Section("a", hostile, (Paragraph(hostile), table, View({hostile: {}})))
     page = render(hostile, hostile, (section,))
     assert "<img" not in page and "7*7" in page
     assert page.count("<script") == page.count("</script>") == 2

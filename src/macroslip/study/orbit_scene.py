@@ -48,7 +48,8 @@ def scene(result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCE
     part = slice(first, first + samples)
     thin = result.isel(time=slice(None, None, every)).isel(time=part)
     values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}
-    found = xr.Dataset({name: one.transpose("row", "roller", "time").astype(np.float32) for name, one in values.items()})
+    order = ("row", "roller", "time")
+    found = xr.Dataset({name: one.transpose(*order).astype(np.float32) for name, one in values.items()})
     found.power.attrs = {"units": "W", "long_name": "frictional power, all interfaces, at the instant"}
     found["angle"] = angle.isel(time=slice(None, None, every)).isel(time=part).isel(time=0, drop=True)
     moved = turned[::every][part]

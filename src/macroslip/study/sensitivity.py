@@ -161,8 +161,8 @@ def sensitivity(
     xarray.Dataset
         Over (variation, level): value, in the unit that the coordinate `unit` says; over (variation, level, row):
         energy [J] in the window, mean over the rollers; peak_power [W], mean over rollers and orbits of the largest
-        power at any interface per orbit; failed, the number of failed rollers. A mean that a failed roller enters is NaN.
-        A value that the model refuses, because a contact ellipse would reach past the roller's ends, say, is halved
+        power at any interface per orbit; failed, the number of failed rollers. A mean that a failed roller enters is
+        NaN. A value that the model refuses, because a contact ellipse would reach past the roller's ends, say, is halved
         towards that of the case until it does not; the coordinate `refused` over variation says so.
 
     Raises
@@ -224,7 +224,8 @@ def _nearest_run(
         except InputError as error:
             if part == _PARTS[-1]:
                 raise
-            refusals.append(f"{value:g} {variation.unit if variation.unit != '1' else ''}".strip() + f" is refused: {error}")
+            unit = "" if variation.unit == "1" else f" {variation.unit}"
+            refusals.append(f"{value:g}{unit} is refused: {error}")
 
 
 def _differs(variation: Variation, case: Case, level: str) -> bool:
