@@ -46,7 +46,7 @@ def plot_varying_over_static(axes: Axes, ratios: Mapping[str, Mapping[str, float
     """
     for place, (name, rows) in enumerate(ratios.items()):
         for k, (row, ratio) in enumerate(rows.items()):
-            x = place + 0.16 * (k - 0.5)
+            x = place + 0.34 * (k - 0.5)
             style = {"color": ROW[row]["color"], "marker": ROW[row]["marker"], "linestyle": "none"}
             axes.plot([x], [ratio], markersize=7, label="" if place else f"{row} row", **style)
             axes.annotate(f"{ratio:.2f}", (x, ratio), xytext=(0, 8), textcoords="offset points", ha="center", fontsize=9)
