@@ -119,7 +119,7 @@ VARIATIONS = (
         name="inlet temperature", unit="°C", low=20.0, high=60.0,
         base=lambda case: case.lubricant.inlet_temperature - 273.15,
         apply=lambda case, value: with_inlet_temperature(case, value + 273.15),
-        note="viscosity η0 exp(−β (T − 35 °C)): 2.3 times at 20 °C, 0.25 times at 60 °C; nothing else changes",
+        note="viscosity η0 exp(−β (T − T0)) from the base temperature T0; nothing else changes",
     ),
     Variation(
         name="bearing to gearbox", unit="m", low=1.8, high=2.6,
@@ -161,8 +161,8 @@ def sensitivity(
     xarray.Dataset
         Over (variation, level): value, in the unit that the coordinate `unit` says; over (variation, level, row):
         energy [J] in the window, mean over the rollers; peak_power [W], mean over rollers and orbits of the largest
-        power at any interface per orbit; failed, the number of failed rollers. A mean that a failed roller enters is NaN.
-        A value that the model refuses, because a contact ellipse would reach past the roller's ends, say, is halved
+        power at any interface per orbit; failed, the number of failed rollers. A mean that a failed roller enters is
+        NaN. A value that the model refuses, because a contact ellipse would reach past the roller's ends, say, is halved
         towards that of the case until it does not; the coordinate `refused` over variation says so.
 
     Raises
@@ -224,7 +224,8 @@ def _nearest_run(
         except InputError as error:
             if part == _PARTS[-1]:
                 raise
-            refusals.append(f"{value:g} {variation.unit if variation.unit != '1' else ''}".strip() + f" is refused: {error}")
+            unit = "" if variation.unit == "1" else f" {variation.unit}"
+            refusals.append(f"{value:g}{unit} is refused: {error}")
 
 
 def _differs(variation: Variation, case: Case, level: str) -> bool:
