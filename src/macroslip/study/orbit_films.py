@@ -9,7 +9,7 @@ import numpy as np
 
 from macroslip.bearing import geometry
 from macroslip.film.law import film_in_range, film_thickness
-from macroslip.roller.forces import LOWEST_ENTRAINMENT_SPEED
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED
 from macroslip.roller.model import RollerModel
 from macroslip.study.orbit_position import in_window, position
 from macroslip.study.run_input import run_input

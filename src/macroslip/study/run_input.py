@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from macroslip.bearing import Bearing
 from macroslip.bearing.frames import AXIAL_SIGNS
 from macroslip.errors import InputError
+from macroslip.laws import Laws
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import RollerModel, roller_model
 
@@ -40,11 +41,12 @@ def run_input(result: xr.Dataset) -> RunInput:
         settings = json.loads(result.attrs["input"])
         bearing = Bearing.from_dict(settings["bearing"])
         lubricant = Lubricant.from_dict(settings["lubricant"])
-        forces, laws = settings["forces"], settings["laws"]
+        forces = settings["forces"]
+        laws = Laws(**{name: choice for name, choice in settings["laws"].items() if name != "model"})
         models = {
             row: roller_model(
                 bearing, lubricant, AXIAL_SIGNS[row], tilt=settings["drivetrain"]["tilt"],
-                gravity=forces["gravity"], drag=forces["drag"], film=laws["film"], traction=laws["traction"],
+                gravity=forces["gravity"], drag=forces["drag"], laws=laws,
             )
             for row in result.row.values.tolist()
         }
