@@ -290,6 +290,8 @@ class _Campaign:
         before = self._latest.keys.get(bytes.fromhex(run.name))
         if before is not None and before.hex() != result.get("key"):
             self.note(f"{name}: its input or the program has changed since it was computed")
+        elif "detail" in result and bytes.fromhex(result["key"]) in self._latest.stored:
+            self.note(f"{name}: its stored result was damaged or gone")
         if outcome == Outcome.COMPLETED:
             values = result["values"]
             seconds = values["simulate_seconds"] + values["other_seconds"]

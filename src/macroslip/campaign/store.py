@@ -23,7 +23,7 @@ MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES = (
     "manifest.json", "runs.parquet", "journal.jsonl", "summary.parquet", "log.txt", "cases",
 )  # fmt: skip
 #: Everything a study's folder may hold; in a folder with other things no study begins.
-OURS = {MANIFEST, RUNS, JOURNAL, SUMMARY, "summary.csv", "failures.csv", LOG, CASES, "lock"}
+OURS = {MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES, "lock"}
 
 
 def case_path(directory: Path, key: str) -> Path:
@@ -60,6 +60,24 @@ def from_bytes(content: bytes) -> xr.Dataset:
 def checksum(content: bytes) -> str:
     """SHA-256 in hexadecimal digits."""
     return hashlib.sha256(content).hexdigest()
+
+
+def layout(result: xr.Dataset) -> dict[str, Any]:
+    """What a reader has to know of a result before it opens it.
+
+    Returns
+    -------
+    dict
+        `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and `variables`, a hash of names,
+        dimensions and types.
+    """
+    variables = sorted((str(name), *map(str, one.dims), one.dtype.str) for name, one in result.variables.items())
+    numbers = [int(number) for number in result.roller.values]
+    found = {
+        "sizes": {str(name): size for name, size in result.sizes.items()},
+        "variables": checksum(json.dumps(variables).encode())[:16],
+    }
+    return found if numbers == list(range(len(numbers))) else found | {"rollers": numbers}
 
 
 def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:

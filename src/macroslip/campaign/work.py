@@ -14,7 +14,7 @@ from macroslip.campaign.durable import write_durably
 from macroslip.campaign.key import case_key, program
 from macroslip.campaign.outcome import Outcome
 from macroslip.campaign.settings import RECORDS, Setting
-from macroslip.campaign.store import case_path, checksum, read_manifest, to_bytes
+from macroslip.campaign.store import case_path, checksum, layout, read_manifest, to_bytes
 from macroslip.campaign.summary import case_values, row_values
 from macroslip.errors import InputError, MacroslipError
 from macroslip.loads import BearingLoads, HubLoads, main_bearing_load
@@ -38,7 +38,7 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     -------
     dict
         The record for the journal: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `size`,
-        `values`; and `program`, by which the campaign tells that a worker runs the same version. With `found` true
+        `layout`, `values`; and `program`, by which the campaign tells that a worker runs the same version. With `found` true
         nothing was computed: a result of that key is there, and the journal has to tell whether it is sound.
 
     Raises
@@ -80,6 +80,7 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
         "reason": _failed_rollers(result) if failed else "",
         "detail": checksum(content),
         "size": len(content),
+        "layout": layout(result),
         "values": values,
     }
 

@@ -14,6 +14,7 @@ from macroslip.cli.init import init
 from macroslip.cli.loads import loads
 from macroslip.cli.reproduce import reproduce
 from macroslip.cli.run import run
+from macroslip.cli.study import study
 
 app = typer.Typer(
     name="macroslip",
@@ -21,10 +22,11 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
-    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, 130 interrupted.",
+    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, or some cases of a study, 130 interrupted.",
 )
 command(app, init)
 command(app, run)
+command(app, study)
 command(app, reproduce)
 command(app, bench)
 app.add_typer(loads)
