@@ -11,6 +11,8 @@ from macroslip.integrate.status import Status
 if TYPE_CHECKING:
     import xarray as xr
 
+    from macroslip.loads import BearingLoads, HubLoads
+
 _OVER = "over all rollers and complete orbits"
 #: Units and meaning of the numbers of each row of rollers.
 ROW_VARIABLES = {
@@ -25,13 +27,14 @@ ROW_VARIABLES = {
     "peak_power_mean": ("W", f"largest power at any interface per orbit: mean {_OVER}"),
     "peak_power_std": ("W", f"largest power at any interface per orbit: standard deviation {_OVER}"),
     "peak_power_max": ("W", f"largest power at any interface per orbit: largest {_OVER}"),
-    "min_spin_ratio": ("1", "smallest ratio of spin to spin in pure rolling in the window, of all rollers"),
+    "lowest_spin_ratio": ("1", "smallest ratio of spin to spin in pure rolling in the window, of all rollers"),
     "failed_rollers": ("1", "number of rollers whose integration failed"),
 }
 #: The same of the case as a whole.
 CASE_VARIABLES = {
     "window_length": ("s", "length of the window"),
     "orbits": ("1", "complete orbits in the window"),
+    "loads_length": ("s", "length of the loads"),
     "shaft_speed_mean": ("rad/s", "mean shaft speed of the loads"),
     "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
     "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
@@ -68,18 +71,19 @@ def row_values(result: xr.Dataset) -> dict[str, list[float]]:
         "peak_power_mean": _over_samples(np.mean, peaks),
         "peak_power_std": _over_samples(np.std, peaks),
         "peak_power_max": _over_samples(np.max, peaks),
-        "min_spin_ratio": result.min_spin_ratio.transpose("row", "roller").values.min(axis=1),
+        "lowest_spin_ratio": result.min_spin_ratio.transpose("row", "roller").values.min(axis=1),
         "failed_rollers": (result.status.transpose("row", "roller").values != Status.COMPLETED).sum(axis=1),
     }
     return {name: [float(value) for value in values] for name, values in found.items()}
 
 
-def case_values(result: xr.Dataset, shaft_speed: np.ndarray) -> dict[str, float]:
+def case_values(result: xr.Dataset, loads: HubLoads | BearingLoads) -> dict[str, float]:
     """The numbers of the case as a whole, without times of computation."""
     return {
         "window_length": float(result.attrs["window_end"] - result.attrs["window_start"]),
         "orbits": float(result.sizes["orbit"]),
-        "shaft_speed_mean": float(np.mean(shaft_speed)),
+        "loads_length": loads.duration,
+        "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
     }
 
 

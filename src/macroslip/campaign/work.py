@@ -147,7 +147,7 @@ def _computed(case: Case, loads: HubLoads | BearingLoads, cycles: bool, threads:
     started = time.perf_counter()
     result = simulate(case, threads=threads)
     seconds = time.perf_counter() - started
-    values: dict[str, Any] = row_values(result) | case_values(result, loads.shaft_speed)
+    values: dict[str, Any] = row_values(result) | case_values(result, loads)
     values["simulate_seconds"] = seconds
     if cycles:
         from macroslip.campaign.cycles import counted

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 import macroslip
+from macroslip.cli.aggregate import aggregate
 from macroslip.cli.bench import bench
 from macroslip.cli.catalogue import bearing, lubricant
 from macroslip.cli.failure import command
@@ -27,6 +28,7 @@ app = typer.Typer(
 command(app, init)
 command(app, run)
 command(app, study)
+command(app, aggregate)
 command(app, reproduce)
 command(app, bench)
 app.add_typer(loads)
