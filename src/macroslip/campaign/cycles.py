@@ -89,6 +89,6 @@ def _histogram(series: np.ndarray) -> np.ndarray:
         return np.zeros(RANGE_EDGES.size - 1)
     try:
         ranges = fatpack.find_rainflow_ranges(series, k=_LEVELS)
-    except ValueError:  # a load that rises or falls all the time has no cycle
-        ranges = np.empty(0)
+    except (ValueError, IndexError):  # fewer reversals than it can count: repeated, the history is one cycle
+        ranges = np.array([np.ptp(series)])
     return np.histogram(ranges, RANGE_EDGES)[0].astype(float)

@@ -48,7 +48,7 @@ def exceedance(
         Over (group, row, threshold): `energy_orbits` and `power_orbits` [1/year], orbits a year of one roller whose energy
         (all interfaces) or peak power (largest at any interface) exceeds the threshold [J or W]. Over (group, row): `orbits`
         [1/year], all of them. NaN where a bin of some weight has no result. `runs` and `left_out` over (group, bin).
-        Thresholds beyond all values are left out.
+        Thresholds that all orbits exceed, and those that none does, are left out but for the nearest.
 
     Raises
     ------
@@ -86,20 +86,20 @@ def exceedance(
         all_per_second = orbits / seconds
     weight = bins.probabilities(weights)
     found = {name: YEAR * _weighted(values, weight) for name, values in per_second.items()}
-    reached = np.nan_to_num(np.stack(list(found.values()))).any(axis=(0, 1, 2))
-    last = min(int(np.flatnonzero(reached)[-1]) + 2, THRESHOLDS.size) if reached.any() else 1
+    every = YEAR * _weighted(all_per_second, weight)
+    kept = _where_something_happens(np.stack(list(found.values())), every)
     dims = ("group", "row", "threshold")
     return xr.Dataset(
         {
-            "energy_orbits": (dims, found["energy"][..., :last], _about("1/year", "orbits whose energy exceeds the threshold")),
-            "power_orbits": (dims, found["power"][..., :last], _about("1/year", "orbits whose peak power exceeds it")),
-            "orbits": (dims[:2], YEAR * _weighted(all_per_second, weight), _about("1/year", "orbits of a roller")),
+            "energy_orbits": (dims, found["energy"][..., kept], _about("1/year", "orbits whose energy exceeds the threshold")),
+            "power_orbits": (dims, found["power"][..., kept], _about("1/year", "orbits whose peak power exceeds it")),
+            "orbits": (dims[:2], every, _about("1/year", "orbits of a roller")),
             "runs": (("group", "bin"), used, _about("1", "runs that the counts rest on")),
             "left_out": (("group", "bin"), left_out, _about("1", "runs without a result for all rollers, or without an orbit")),
         },
         bins.coordinates(study) | {
             "row": study.row,
-            "threshold": ("threshold", THRESHOLDS[:last], _about("J or W", "energy [J] or power [W]")),
+            "threshold": ("threshold", THRESHOLDS[kept], _about("J or W", "energy [J] or power [W]")),
         },
         {"title": f"Exceedance per orbit: {study.attrs.get('title', '')}"},
     )  # fmt: skip
@@ -133,7 +133,8 @@ def load_spectrum(
     Returns
     -------
     xarray.Dataset
-        Over (group, component, load_range): `cycles` [1]. NaN where a bin of some weight has no result.
+        Over (group, component, load_range): `cycles` [1]. NaN where a bin of some weight has no result. Ranges below the
+        smallest and above the largest that occur are left out.
 
     Raises
     ------
@@ -156,12 +157,25 @@ def load_spectrum(
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = total / used[..., None, None]
     cycles = years * YEAR * _weighted(mean, bins.probabilities(weights))
+    kept = _span(np.nan_to_num(cycles).any(axis=(0, 1)))
     about = _about("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(
-        {"cycles": (("group", "component", "load_range"), cycles, about)},
-        bins.coordinates(study, bins=False) | {"component": study.component, "load_range": study.load_range},
+        {"cycles": (("group", "component", "load_range"), cycles[..., kept], about)},
+        bins.coordinates(study, bins=False) | {"component": study.component, "load_range": study.load_range[kept]},
         {"title": f"Load cycles: {study.attrs.get('title', '')}", "years": years},
     )
+
+
+def _where_something_happens(numbers: np.ndarray, every: np.ndarray) -> slice:
+    """Thresholds that some orbits exceed and some do not, and one more at either end."""
+    with np.errstate(invalid="ignore"):
+        some = (numbers > 0.0) & (numbers < every[None, ..., None] * (1.0 - 1e-12))
+    return _span(some.any(axis=(0, 1, 2)))
+
+
+def _span(some: np.ndarray) -> slice:
+    places = np.flatnonzero(some)
+    return slice(max(int(places[0]) - 1, 0), int(places[-1]) + 2) if places.size else slice(0, 1)
 
 
 def _weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:

@@ -16,7 +16,7 @@ from macroslip.loads import bundled_cases
 
 #: Names that labels of the user's own would hide.
 RESERVED = (
-    "case", "row", "roller", "interface", "orbit", "sample", "time", "run", "key", "load", "file", "bearing", "lubricant",
+    "case", "row", "roller", "interface", "orbit", "sample", "time", "run", "key", "loads", "file", "bearing", "lubricant",
     "model", "outcome", "reason",
 )  # fmt: skip
 _BUNDLED_UNITS = {"wind_speed": "m/s", "turbulence": "1"}

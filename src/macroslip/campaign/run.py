@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import uuid
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -155,6 +156,7 @@ class _Campaign:
         self.study, self.directory, self._report = study, directory, progress
         self.ended = Ended(Progress(len(study)))
         self._log: Log | None = None
+        self._id = uuid.uuid4().hex
 
     @contextmanager
     def opened(self) -> Iterator[None]:
@@ -229,6 +231,7 @@ class _Campaign:
         return {
             "directory": str(self.directory),
             "setup": self._setup,
+            "campaign": self._id,
             "run": run.name,
             "load": name if self.study.loads.source == "bundled" else str(self.study.folder / name),
             **{noun: getattr(run, noun) for noun in RECORDS},

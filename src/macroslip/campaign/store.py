@@ -22,6 +22,8 @@ FORMAT = 1
 MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES = (
     "manifest.json", "runs.parquet", "journal.jsonl", "summary.parquet", "log.txt", "cases",
 )  # fmt: skip
+#: Attribute with the description of variables that have no values.
+_EMPTY = "variables_without_values"
 #: Everything a study's folder may hold; in a folder with other things no study begins.
 OURS = {MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES, "lock"}
 
@@ -46,15 +48,25 @@ def to_bytes(result: xr.Dataset) -> bytes:
         for name, variable in result.data_vars.items()
         if variable.dtype.kind in "iu" and variable.size and np.abs(variable.values.astype(float)).max() >= 2**31
     }
-    return bytes(result.assign(large).to_netcdf(engine="scipy", format="NETCDF3_64BIT"))
+    result = result.assign(large)
+    # A dimension of length zero would be taken for one that can grow: a window without a complete orbit.
+    empty = {str(name): one for name, one in result.variables.items() if one.size == 0}
+    about = {name: [one.dims, one.shape, one.dtype.str, one.attrs, name in result.coords] for name, one in empty.items()}
+    kept = result.drop_vars(list(empty)).assign_attrs({_EMPTY: json.dumps(about)} if empty else {})
+    return bytes(kept.to_netcdf(engine="scipy", format="NETCDF3_64BIT"))
 
 
 def from_bytes(content: bytes) -> xr.Dataset:
     """The dataset that a netCDF file of the store holds."""
+    import numpy as np
     import xarray as xr
 
-    with xr.open_dataset(io.BytesIO(content), engine="scipy") as result:
-        return result.load()
+    with xr.open_dataset(io.BytesIO(content), engine="scipy") as opened:
+        result = opened.load()
+    about = json.loads(result.attrs.pop(_EMPTY, "{}"))
+    empty = {name: (dims, np.empty(shape, dtype), attrs) for name, (dims, shape, dtype, attrs, _) in about.items()}
+    coordinates = [name for name, description in about.items() if description[-1]]
+    return result.assign(empty).set_coords(coordinates)
 
 
 def checksum(content: bytes) -> str:

@@ -43,8 +43,8 @@ class Run:
 
     @property
     def labels(self) -> dict[str, Any]:
-        """Load, fields, bearing, lubricant, model, and the parameters by key."""
-        choices = {"load": self.load.name, "bearing": self.bearing, "lubricant": self.lubricant, "model": self.model}
+        """Loads, fields, bearing, lubricant, model, and the parameters by key."""
+        choices = {"loads": self.load.name, "bearing": self.bearing, "lubricant": self.lubricant, "model": self.model}
         return choices | dict(self.load.fields) | {setting.key: setting.value for setting in self.settings}
 
 
@@ -106,4 +106,4 @@ class Study:
         fields = {name: (units, "label of the loads") for name, units in self.loads.units.items()}
         parameters = {key: (units or "1", "value of the case; NaN: that of the base case") for key, units in
                       self.parameters.items()}
-        return {"load": ("1", "loads of the case"), **choices, **fields, **parameters}
+        return {"loads": ("1", "loads of the case"), **choices, **fields, **parameters}

@@ -196,7 +196,7 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
 
 
 _CHOICES = ("bearing", "lubricant", "model")
-_NO_LABELS = ("case", "run", "load", "outcome", "reason", "key")
+_NO_LABELS = ("case", "run", "loads", "outcome", "reason", "key")
 
 
 def _same(key: tuple[Any, ...]) -> tuple[Any, ...]:

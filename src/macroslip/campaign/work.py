@@ -31,7 +31,7 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     task : dict
-        Plain data: `directory`, `setup` (checksum of its manifest), `run` (name), `load`, `bearing`, `lubricant`,
+        Plain data: `directory`, `setup` (checksum of its manifest), `campaign` (a name no other one has), `run` (name), `load`, `bearing`, `lubricant`,
         `settings` (list of key, value, unit), `threads`, and `again`: whether to compute even if a result is there.
 
     Returns
@@ -120,7 +120,7 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> tuple[Case, HubLoads |
     settings = [Setting(*one) for one in task["settings"]]
     records = {noun: setup["records"][noun][task[noun]] for noun in RECORDS}
     case, cut = template(setup["case"], settings, records, folder=Path(setup["folder"]))
-    loads = _loads(setup["source"], task["load"], tuple(sorted(cut.items())))
+    loads = _loads(task["campaign"], setup["source"], task["load"], tuple(sorted(cut.items())))
     try:
         return replace(case, loads=loads), loads
     except InputError as problem:
@@ -129,8 +129,8 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> tuple[Case, HubLoads |
 
 
 @functools.lru_cache(maxsize=1)
-def _loads(source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
-    """Read a load history; runs with the same one follow each other."""
+def _loads(campaign: str, source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
+    """Read a load history; runs with the same one follow each other, and a campaign takes a file as it first finds it."""
     return read_loads(source, path, dict(cut))
 
 

@@ -148,10 +148,10 @@ def _failures(ended: Ended, output: Path) -> None:
     from macroslip.cli.printing import PIPE_WIDTH
 
     shown = Table(box=None, padding=(0, 2, 0, 0))
-    for heading in ("load", "bearing, lubricant, model, parameters", "outcome", "reason"):
+    for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):
         shown.add_column(heading, overflow="fold")
     for labels, outcome, reason in ended.failures[:_LISTED]:
-        shown.add_row(*(printable(text) for text in (labels["load"], _others(labels), outcome, " ".join(reason.split()))))
+        shown.add_row(*(printable(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split()))))
     out = Console(stderr=True, markup=False, highlight=False)
     (out if out.is_terminal else Console(stderr=True, markup=False, highlight=False, width=PIPE_WIDTH)).print(shown)
     total = ended.progress.failed
@@ -166,5 +166,5 @@ def _failures(ended: Ended, output: Path) -> None:
 
 def _others(labels: dict[str, Any]) -> str:
     choices = [str(labels[name]) for name in ("bearing", "lubricant", "model")]
-    parameters = [f"{name} {value}" for name, value in labels.items() if "." in name and name != "load"]
+    parameters = [f"{name} {value}" for name, value in labels.items() if "." in name and name != "loads"]
     return ", ".join(choices + parameters)
