@@ -53,25 +53,26 @@ def test_workers_started_here_listen_on_the_loopback_only_and_find_what_one_proc
 
 def test_a_stranger_cannot_hand_work_to_a_cluster_started_here(tmp_path, slow_content):
     """Without the certificate of the run nobody connects."""
-    from distributed import Client
+    from distributed import default_client
 
-    tried = []
+    answers = []
+    attempt = "import sys; from distributed import Client; Client(sys.argv[1], timeout=2).submit(print).result()"
 
-    def attempt(progress):
-        if tried:
-            return
-        ports = {one.laddr.port for one in psutil.Process().net_connections("inet") if one.status == "LISTEN"}
-        for port in ports:
+    def stranger(progress):
+        if not answers:
+            address = default_client().scheduler.address
+            assert address.startswith("tls://127.0.0.1:")
+            command = [sys.executable, "-c", attempt, address.replace("tls", "tcp")]
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             try:
-                Client(f"tcp://127.0.0.1:{port}", timeout=1, set_as_default=False).close()
-                tried.append("connected")
-            except OSError:
-                tried.append("refused")
+                answers.append(process.wait(15))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                answers.append(process.wait())
 
-    short = slow_content | {"variations": {}}
-    short["variations"] = {"grid": {"drivetrain.tilt": {"values": [4, 5, 6], "unit": "deg"}}}
-    run_campaign(study_of(short, tmp_path), tmp_path / "out", workers=1, progress=attempt)
-    assert tried and set(tried) == {"refused"}
+    one = slow_content | {"variations": {"grid": {"drivetrain.tilt": {"values": [4, 5], "unit": "deg"}}}}
+    ended = run_campaign(study_of(one, tmp_path), tmp_path / "out", workers=1, progress=stranger)
+    assert answers[0] != 0 and ended.progress.computed == 2
 
 
 @pytest.fixture
@@ -179,13 +180,15 @@ def test_a_scheduler_that_dies_loses_nothing(dask, campaign, wait_for, done, slo
 
 
 def test_a_case_that_kills_its_workers_is_recorded_and_the_others_computed(tmp_path, load_files, content, monkeypatch):
-    """A load file whose name ends a worker stands for a case that needs more memory than there is."""
+    """A worker that ends where it would store a certain result stands for one that the system ends for its memory."""
+    run_campaign(study_of(content, load_files), tmp_path / "before")
+    key = str(open_study(tmp_path / "before").key.values[2])
     site = tmp_path / "site"
     site.mkdir()
     (site / "sitecustomize.py").write_text(
         "import os, sys\n"
         "def hook(event, arguments):\n"
-        "    if event == 'open' and str(arguments[0]).endswith('14mps_seed1.csv'): os._exit(1)\n"
+        f"    if event == 'open' and '.{key}.nc.' in str(arguments[0]): os._exit(1)\n"
         "if os.environ.get('MACROSLIP_TEST_PARENT') not in (None, str(os.getpid())): sys.addaudithook(hook)\n"
     )
     monkeypatch.setenv("PYTHONPATH", str(site))
@@ -207,7 +210,7 @@ def test_wrong_addresses_and_arguments(tmp_path, load_files, content):
 class Client:
     """What `Dask` needs of a client: threads by worker."""
 
-    loop = None
+    loop = object()
 
     def __init__(self, threads):
         self._threads = threads
