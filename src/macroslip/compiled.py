@@ -19,7 +19,7 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 _extra_sources: list[str] = []
 #: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
-_ROOMS_ABOVE_THE_KERNELS = ("bench", "cli", "report", "study", "torque")
+_ROOMS_ABOVE_THE_KERNELS = ("bench", "campaign", "cli", "report", "study", "torque")
 
 
 @functools.cache
