@@ -25,6 +25,9 @@ _HOMES = {
     "Window": "macroslip.study.case",
     "Traces": "macroslip.study.case",
     "simulate": "macroslip.study.simulate",
+    "read_study": "macroslip.campaign.study_file",
+    "run_campaign": "macroslip.campaign.run",
+    "open_study": "macroslip.campaign.reader",
     "InputError": "macroslip.errors",
     "MacroslipError": "macroslip.errors",
 }

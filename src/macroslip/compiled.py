@@ -19,7 +19,7 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 _extra_sources: list[str] = []
 #: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
-_ROOMS_ABOVE_THE_KERNELS = ("bench", "cli", "report", "study", "torque")
+_ROOMS_ABOVE_THE_KERNELS = ("bench", "campaign", "cli", "report", "study", "torque")
 
 
 @functools.cache
@@ -52,6 +52,16 @@ def depend_on(*functions: Callable) -> None:
             _extra_sources.append(source)
 
 
+class _IndexFile(IndexDataCacheFile):
+    """Index of one function's kernels. One that names classes this version no longer has is as good as none."""
+
+    def _load_index(self):
+        try:
+            return super()._load_index()
+        except (AttributeError, ImportError):
+            return {}
+
+
 class _PackageCache(FunctionCache):
     """Numba's cache of one function, outdated by any change of the sources a kernel can be made of.
 
@@ -63,13 +73,13 @@ class _PackageCache(FunctionCache):
         super().__init__(function)
         # The stamp outdates the whole index, so that kernels of older sources are overwritten and do not pile up.
         self._stamp = (self._cache_file._source_stamp, _package_hash())
-        self._files: dict[str, IndexDataCacheFile] = {}
+        self._files: dict[str, _IndexFile] = {}
 
     def _use_file(self) -> None:
         laws = hashlib.sha256("\0".join(sorted(_extra_sources)).encode()).hexdigest()[:12] if _extra_sources else ""
         if laws not in self._files:
             base = self._impl.filename_base + (f"-{laws}" if laws else "")
-            self._files[laws] = IndexDataCacheFile(self._cache_path, base, self._stamp)
+            self._files[laws] = _IndexFile(self._cache_path, base, self._stamp)
         self._cache_file = self._files[laws]
 
     def load_overload(self, sig, target_context):

@@ -169,11 +169,12 @@ def test_results_page_has_the_sentence_of_every_status():
 def test_results_page_names_what_reproduce_writes():
     text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
     source = (ROOT / "src" / "macroslip" / "study" / "reproduce.py").read_text(encoding="utf-8")
-    summary = re.search(r"summary = _plain\(\s*\{(.*?)\n            \}", source, re.DOTALL).group(1)
+    summary = re.search(r"summary = plain\(\s*\{(.*?)\n            \}", source, re.DOTALL).group(1)
     names = re.findall(r'^ {16}"(\w+)":', summary, re.MULTILINE)
-    figures = [name.removeprefix("figure_") for name in re.findall(r'"(\w+)": lambda: draw\.', source)]
+    figures = re.findall(r'"(\w+)": lambda(?: run=run)?: (?:draw|bearing_sets)\.', source)
+    figures = [name.removeprefix("figure_") for name in figures]
     study = re.findall(r'put\(\s*"(\w+)"', (ROOT / "src/macroslip/study/paper_study.py").read_text(encoding="utf-8"))
-    assert len(names) > 5 and len(figures) > 5 and len(study) > 4
+    assert len(names) > 5 and len(figures) == 16 and len(study) > 4
     missing = [name for name in [*names, *study] if f"`{name}`" not in text]
     assert missing + [name for name in figures if f"`{name}`" not in text and f"`figure_{name}`" not in text] == []
 

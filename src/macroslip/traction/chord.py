@@ -103,7 +103,8 @@ def chord_stress(fluid, pressure, film_thickness, slip):
 
     Notes
     -----
-    Relative error of the 18 nodes below 1e-3 up to 4 GPa.
+    Relative error of the 18 nodes below 1e-4 up to 2 GPa and 1e-3 up to 4 GPa with Roelands' viscosity; with Barus' and
+    a limiting stress, 5e-4 up to 1 GPa and 1e-2 up to 2 GPa.
 
     Examples
     --------
