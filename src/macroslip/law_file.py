@@ -9,7 +9,6 @@ import traceback
 from importlib.machinery import SourceFileLoader
 from os import PathLike
 from pathlib import Path
-from types import ModuleType
 from typing import NamedTuple
 
 from macroslip.errors import InputError
@@ -94,7 +93,7 @@ that registers film or traction laws, as docs/laws.md shows. Check its path, whi
     return _loaded[name]
 
 
-def _import(path: Path, name: str) -> ModuleType:
+def _import(path: Path, name: str) -> None:
     """Run the file as a module; what goes wrong in it is told with its line."""
     loader = SourceFileLoader(name, str(path.resolve()))
     module = importlib.util.module_from_spec(importlib.util.spec_from_file_location(name, path.resolve(), loader=loader))
@@ -109,8 +108,7 @@ def _import(path: Path, name: str) -> ModuleType:
         reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
         what = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
         remedy = f"Mend it; python {path} shows where the error comes from."
-        raise InputError(what, where=_place(path, error), allowed=_ALLOWED, remedy=remedy) from None
-    return module
+        raise InputError(what, where=_place(path, error), remedy=remedy) from None
 
 
 def _place(path: Path, error: BaseException) -> str:
