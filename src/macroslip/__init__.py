@@ -17,6 +17,7 @@ _HOMES = {
     "main_bearing_load": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
     "Laws": "macroslip.laws",
+    "load_laws": "macroslip.law_file",
     "Case": "macroslip.study.case",
     "Radau": "macroslip.study.case",
     "ExplicitEuler": "macroslip.study.case",

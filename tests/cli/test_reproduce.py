@@ -25,7 +25,8 @@ def test_it_ends_with_at_most_ten_lines_and_the_place(study, folder, macroslip):
     calls, _ = study
     done = macroslip("reproduce", "-o", "results", "--threads", 2)
     assert (done.code, done.err) == (0, "")
-    assert done.out.splitlines() == [*(f"line {n}" for n in range(10)), "written: results; the report: results/report.html"]
+    written = "written: results; the report: results/report.html"
+    assert done.out.splitlines() == [*(f"line {n}" for n in range(10)), written]
     assert calls == [("results", 2, None)]
 
 

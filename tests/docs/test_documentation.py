@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from macroslip import BearingLoads, Case, Traces, bundled_cases, simulate
+from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, simulate
 from macroslip.integrate.status import Status
+from macroslip.study.case_form import Choice
 from macroslip.study.case_keys import CASE
 from macroslip.study.case_section import Section, Variants
 
@@ -124,8 +125,8 @@ def test_input_page_names_every_key_of_a_case():
 def test_input_page_names_every_law_and_method():
     text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
     laws, integrator = CASE.keys["laws"].keys, CASE.keys["integrator"].sections
-    laws = {*laws["film"].names(), *laws["traction"].names()}
-    names = [*laws, *integrator, bundled_cases()[0], bundled_cases()[-1]]
+    choices = [name for choice in laws.values() if isinstance(choice, Choice) for name in choice.names()]
+    names = [*choices, *integrator, bundled_cases()[0], bundled_cases()[-1]]
     missing = [name for name in names if f"`{name}`" not in text]
     assert missing == []
 
@@ -140,13 +141,15 @@ def test_input_page_shows_the_lines_that_the_program_asks_for():
 
 @pytest.fixture(scope="module")
 def dataset():
+    """A result of the physical model, which has all variables of the paper's and more."""
     loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.2)
-    return simulate(Case(loads=loads, rollers=[0], traces=Traces(step=0.1)))
+    return simulate(Case(loads=loads, rollers=[0], traces=Traces(step=0.1), laws=Laws.physical()))
 
 
 def test_results_page_names_every_variable_coordinate_and_attribute(dataset):
     text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-    names = [*dataset.variables, *dataset.attrs, *dataset.interface.values, *dataset.row.values]
+    labels = [*dataset.interface.values, *dataset.row.values, *dataset.mechanism.values]
+    names = [*dataset.variables, *dataset.attrs, *labels]
     assert [name for name in names if f"`{name}`" not in text] == []
 
 
@@ -166,11 +169,12 @@ def test_results_page_has_the_sentence_of_every_status():
 def test_results_page_names_what_reproduce_writes():
     text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
     source = (ROOT / "src" / "macroslip" / "study" / "reproduce.py").read_text(encoding="utf-8")
-    summary = re.search(r"summary = _plain\(\s*\{(.*?)\n            \}", source, re.DOTALL).group(1)
+    summary = re.search(r"summary = plain\(\s*\{(.*?)\n            \}", source, re.DOTALL).group(1)
     names = re.findall(r'^ {16}"(\w+)":', summary, re.MULTILINE)
-    figures = [name.removeprefix("figure_") for name in re.findall(r'"(\w+)": lambda: draw\.', source)]
+    figures = re.findall(r'"(\w+)": lambda(?: run=run)?: (?:draw|bearing_sets)\.', source)
+    figures = [name.removeprefix("figure_") for name in figures]
     study = re.findall(r'put\(\s*"(\w+)"', (ROOT / "src/macroslip/study/paper_study.py").read_text(encoding="utf-8"))
-    assert len(names) > 5 and len(figures) > 5 and len(study) > 4
+    assert len(names) > 5 and len(figures) == 16 and len(study) > 4
     missing = [name for name in [*names, *study] if f"`{name}`" not in text]
     assert missing + [name for name in figures if f"`{name}`" not in text and f"`figure_{name}`" not in text] == []
 

@@ -127,11 +127,18 @@ def told(tmp_path):
         ),
         (LOADS + "forces: {gravity: yes}\n", "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false."),
         (
-            LOADS + "laws: {film: dowson, traction: baruss-crook}\n",
+            LOADS + "laws: {film: dowson, traction: barus-crook}\n",
             "2 problems: (1) case.yaml, line 2, laws.film: 'dowson' does not exist. Allowed: masjedi-khonsari, "
-            "masjedi-khonsari-moes, moes. Choose one of these. (2) case.yaml, line 2, laws.traction: 'baruss-crook' "
-            "does not exist. Allowed: "
-            "barus-crook. Did you mean barus-crook?",
+            "masjedi-khonsari-moes, moes. Choose one of these. A law of your own needs its file: macroslip run CASE "
+            "--laws FILE. (2) case.yaml, line 2, laws.traction: 'barus-crook' does not exist. Allowed: mechanisms. "
+            "Choose one of these. A law of your own needs its file: macroslip run CASE --laws FILE.",
+        ),
+        (
+            LOADS + "laws: {model: real, rheology: limiting_shear, microslip: on}\n",
+            "3 problems: (1) case.yaml, line 2, laws.model: 'real' does not exist. Allowed: paper, physical. Choose one "
+            "of these. (2) case.yaml, line 2, laws.rheology: 'limiting_shear' does not exist. Allowed: newtonian, "
+            "limiting-shear, eyring. Did you mean limiting-shear? (3) case.yaml, line 2, laws.microslip: it is 'on'. "
+            "Allowed: true or false.",
         ),
         (
             LOADS + "integrator: {method: euler}\n",

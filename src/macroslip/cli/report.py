@@ -17,7 +17,8 @@ PAGE = "report.html"
 def report(
     results: Annotated[Path, typer.Argument(help="A file that `macroslip run` wrote, or a folder of such files.")],
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="The page to write; report.html beside the results if not given.")
+        Path | None,
+        typer.Option("--output", "-o", help="The page to write; report.html beside the results if not given."),
     ] = None,
     title: Annotated[str, typer.Option("--title", help="Heading of the page.")] = "Slip of the rollers",
     force: Annotated[bool, typer.Option("--force", help="Replace the page if it exists.")] = False,

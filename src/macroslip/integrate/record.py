@@ -121,9 +121,11 @@ def powers(model, at, forces, slip):
 
 
 @jit
-def orbit_at(record, time):
-    """Index of the complete orbit that holds `time`, or −1 outside all of them."""
+def orbit_at(record, time, likely):
+    """Index of the complete orbit that holds `time`, or −1 outside all of them; `likely` is looked at first."""
     edges = record.edges
+    if likely >= 0 and edges[likely] <= time < edges[likely + 1]:
+        return likely
     if time < edges[0] or time >= edges[-1]:
         return -1
     low, high = 0, edges.size - 1

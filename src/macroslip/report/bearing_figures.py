@@ -40,7 +40,8 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
     axes.tick_params(labelsize=9)
     axes.set_rlabel_position(45.0)
     largest = float(axes.get_ylim()[1])
-    axes.set_yticks([largest * part for part in (0.25, 0.5, 0.75)], [f"{largest * part:.2g}" for part in (0.25, 0.5, 0.75)])
+    ticks = [largest * part for part in (0.25, 0.5, 0.75)]
+    axes.set_yticks(ticks, [f"{value:.2g}" for value in ticks])
     axes.set_title(f"{row} row [mJ/°]", fontsize=10, loc="left", pad=12)
     return axes
 
@@ -103,9 +104,8 @@ def plot_roller_spread(axes: Axes, energy: xr.DataArray, row: str) -> Axes:
     total = energy.sel(row=row).sum("interface", skipna=False)
     mean = float(total.mean())
     axes.axhline(1.0, color=GREY, linewidth=0.8)
-    style = ROW.get(row, {"color": BLACK, "marker": "o"})
     numbers = total.roller.values
-    axes.plot(numbers, total.values / mean, linestyle="none", markersize=5, color=style["color"], marker=style["marker"])
+    axes.plot(numbers, total.values / mean, markersize=5, **{**ROW[row], "linestyle": "none"})
     axes.set_xticks(numbers[:: max(1, numbers.size // 7)])
     axes.margins(y=0.25)
     axes.ticklabel_format(axis="y", useOffset=False)
@@ -125,7 +125,8 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
         x = places + width * (k - 0.5 * (len(rows) - 1))
         # An interface that never carries load has no share.
         known = one.notnull().any("roller").values
-        mean, low, high = (1e2 * getattr(one.isel(interface=known), name)("roller").values for name in ("mean", "min", "max"))
+        one = 1e2 * one.isel(interface=known)
+        mean, low, high = (getattr(one, name)("roller").values for name in ("mean", "min", "max"))
         hatch = {"hatch": "///"} if k else {}
         axes.bar(x[known], mean, 0.9 * width, color=ROW[row]["color"], edgecolor="white", label=f"{row} row", **hatch)
         axes.errorbar(x[known], mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3)
@@ -226,13 +227,15 @@ def plot_over_station(axes: Axes, values: xr.DataArray, title: str = "") -> Axes
     for row in mean.row.values.tolist():
         axes.plot(mean.station.values, mean.sel(row=row).values, markersize=4, label=f"{row} row", **ROW[row])
     units = mean.station.attrs.get("units", "m")
-    return finish(axes, f"station along the roller [{units}]", f"{values.name} [{values.attrs.get('units', '–')}]", title)
+    name = f"{values.name} [{values.attrs.get('units', '–')}]"
+    return finish(axes, f"station along the roller [{units}]", name, title)
 
 
 def mark_wind_speeds(axes: Axes, speeds: tuple[float, ...], words: str) -> Axes:
-    """Shade the wind speeds [m/s] at which a statement puts something, and write its words at the top."""
+    """Shade the wind speeds [m/s] at which a statement puts something, and write its words at the foot."""
     axes.axvspan(min(speeds) - 0.8, max(speeds) + 0.8, color=BLUE, alpha=0.10, linewidth=0.0, zorder=-1)
-    axes.text(min(speeds) - 0.6, 0.98, words, transform=axes.get_xaxis_transform(), va="top", fontsize=9, color=BLUE)
+    place = axes.get_xaxis_transform()
+    axes.text(min(speeds) - 0.6, 0.02, words, transform=place, va="bottom", fontsize=9, color=BLUE)
     return axes
 
 

@@ -11,7 +11,7 @@ from macroslip.report import bearing_figures as draw
 from macroslip.report.bearing_view import scene_data
 from macroslip.report.page import Block, Paragraph, Pictures, Section, View
 from macroslip.report.pictures import picture
-from macroslip.study.orbit_profile import run_input
+from macroslip.study.run_input import run_input
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -88,8 +88,8 @@ def orbit_blocks(profile: Mapping[str, xr.Dataset], of: str = "") -> tuple[Block
         ),
         Pictures(
             films,
-            f"Film thickness and Λ over the orbit{of}: median over rollers and time, shaded from 5 to 95 %. {_least(orbit)} "
-            "Outside its range (below) the formula is used all the same.",
+            f"Film thickness and Λ over the orbit{of}: median over rollers and time, shaded from 5 to 95 %. "
+            f"{_least(orbit)} Outside its range (below) the formula is used all the same.",
         ),
     )
 
@@ -108,7 +108,8 @@ def result_blocks(result: xr.Dataset, of: str = "") -> tuple[Block, ...]:
     total = result.energy.sum("interface", skipna=False)
     spread = [(row, total.sel(row=row).dropna("roller")) for row in rows]
     known = [
-        f"{row} {float(one.min()):.4g} to {float(one.max()):.4g} J ({100 * float(one.max() / one.min() - 1):.2g} % apart)"
+        f"{row} {float(one.min()):.4g} to {float(one.max()):.4g} J "
+        f"({100 * float(one.max() / one.min() - 1):.2g} % apart)"
         for row, one in spread if one.size and float(one.min()) > 0.0
     ]
     blocks: list[Block] = [

@@ -1,4 +1,4 @@
-"""Plots as pictures for a page: one axes each, as SVG inside the page, so that they stay sharp and need no other file."""
+"""Plots as pictures for a page: one axes each, as SVG inside the page, so that they stay sharp without other files."""
 
 from __future__ import annotations
 

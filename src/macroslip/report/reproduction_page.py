@@ -59,8 +59,8 @@ def reproduction_page(
         ),
     ]
     subtitle = (
-        f"{_PAPER}, beside the same equations solved to convergence: 21 load cases of ten minutes, 28 rollers in each of "
-        f"two rows. {'' if len(runs) > 1 else 'Model: ' + next(iter(runs)) + '.'}"
+        f"{_PAPER}, beside the same equations solved to convergence: 21 load cases of ten minutes, 28 rollers in each "
+        f"of two rows. {'' if len(runs) > 1 else 'Model: ' + next(iter(runs)) + '.'}"
     )
     return render(TITLE, subtitle, sections)
 
@@ -93,8 +93,8 @@ def _answer(judged: Mapping[str, list[Statement]], summary: Mapping[str, Any]) -
             Paragraph("; ".join(words) + ".", strong=True),
             Statements(tuple(judged), rows),
             Paragraph(
-                failure_line(places, failed["study_total"]) + " That the paper's turbine used this bearing is not known, "
-                "nor how its equations were solved."
+                f"{failure_line(places, failed['study_total'])} That the paper's turbine used this bearing is not "
+                "known, nor how its equations were solved."
             ),
         ),
     )
@@ -143,15 +143,16 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
         )
         blocks.append(Pictures(pictures, f"Energy above, largest power per orbit below{_titled('', name, runs)}."))
         blocks.append(_sensitivity_table(table))
-        notes = [f"{one}: {note}" for one, note in zip(table.variation.values, table.note.values, strict=True) if note]
-        refused = [f"{one}: {text}" for one, text in zip(table.variation.values, table.refused.values, strict=True) if text]
-        refused = [f"{one} Half the way to it was taken" for one in refused]
+        names = table.variation.values.tolist()
+        notes = [f"{one}: {note}" for one, note in zip(names, table.note.values.tolist(), strict=True) if note]
+        texts = zip(names, table.refused.values.tolist(), strict=True)
+        refused = [f"{one}: {text} Half the way to it was taken" for one, text in texts if text]
         blocks.append(Points(tuple(f"{note[0].upper()}{note[1:]}." for note in (*notes, *refused))))
     return Section("sensitivity", "What the result depends on", tuple(blocks))
 
 
 def _sensitivity_table(table: xr.Dataset) -> Table:
-    rows = []
+    rows, sides = [], table.row.values.tolist()
     for k, name in enumerate(table.variation.values.tolist()):
         one = table.isel(variation=k)
         unit = str(one.unit.values)
@@ -159,7 +160,7 @@ def _sensitivity_table(table: xr.Dataset) -> Table:
             at = one.sel(level=level)
             if level != "base" and float(at.value) == float(one.value.sel(level="base")):
                 continue
-            cells = [f"{float(at[what].sel(row=row)):.4g}" for what in ("energy", "peak_power") for row in table.row.values]
+            cells = [f"{float(at[what].sel(row=row)):.4g}" for what in ("energy", "peak_power") for row in sides]
             rows.append((name, f"{float(at.value):g}" + ("" if unit == "1" else f" {unit}"), *cells))
-    of = [f"{what}, {row} [{unit}]" for what, unit in (("energy", "J"), ("mean P_max", "W")) for row in table.row.values]
+    of = [f"{what}, {row} [{unit}]" for what, unit in (("energy", "J"), ("mean P_max", "W")) for row in sides]
     return Table(("value", "set to", *of), tuple(rows))

@@ -166,16 +166,21 @@ class Plain:
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several names; they are asked for when they are needed, so that a law costs nothing until then."""
+    """One of several names; they are asked for when they are needed, so that a law costs nothing until then.
+
+    `more` says how a name that does not exist can come to exist.
+    """
 
     about: str
     names: Callable[[], Sequence[str]]
+    more: str = ""
 
     def read(self, value: Any, place: Place) -> str:
         """Check that the name exists."""
         names = self.names()
         if value not in names:
-            raise place.problem(f"{shown(value)} does not exist", ", ".join(names), _nearest(value, names))
+            remedy = " ".join(part for part in (_nearest(value, names), self.more) if part)
+            raise place.problem(f"{shown(value)} does not exist", ", ".join(names), remedy)
         return value
 
     def schema(self) -> dict[str, Any]:

@@ -76,6 +76,7 @@ def numerical_line(tolerances: xr.Dataset, steps: xr.Dataset) -> str:
 def failure_line(failed: dict[str, int], study_rollers: int) -> str:
     """How many integrations failed, of the study and beside it, in one line."""
     if not any(failed.values()):
-        return f"All {study_rollers} rollers of the study and all integrations beside it completed, explicit Euler in A1 apart."
+        completed = f"All {study_rollers} rollers of the study and all integrations beside it completed"
+        return f"{completed}, explicit Euler in A1 apart."
     parts = ", ".join(f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count)
     return f"FAILED INTEGRATIONS: {parts} (the study has {study_rollers} rollers); every mean they enter is missing."

@@ -9,12 +9,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.errors import InputError
+from macroslip.laws import Laws
 from macroslip.loads import HubLoads, bundled_cases
 from macroslip.study.case import Case, Window
+from macroslip.study.row_loads import row_loads
 from macroslip.study.simulate import simulate
 
 if TYPE_CHECKING:
     import xarray as xr
+
+#: Quantities of every orbit of which the study keeps the extreme of the window, and which.
+_EXTREMES = {"flash_temperature": "max", "power_density": "max", "slide_roll_ratio": "max", "min_film_ratio": "min"}
 
 
 def run_study(
@@ -22,10 +27,11 @@ def run_study(
     *,
     rollers: str | Sequence[int] = "all",
     window: Window | None = None,
+    laws: Laws = Laws.paper(),
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> xr.Dataset:
-    """Simulate bundled load cases with the default bearing, lubricant, laws and integrator.
+    """Simulate bundled load cases with the default bearing, lubricant and integrator.
 
     Parameters
     ----------
@@ -35,6 +41,8 @@ def run_study(
         Rollers of each row.
     window : Window, optional
         By default from the completion of the first orbit to the end of the loads.
+    laws : Laws
+        Mechanisms in the contacts; the paper's by default.
     threads : int, optional
         Threads over rollers; the number of usable processors by default.
     progress : callable, optional
@@ -56,12 +64,12 @@ def run_study(
     names = bundled_cases() if names is None else list(names)
     parts, attributes, loads = [], {}, []
     for done, name in enumerate(names, start=1):
-        result = simulate(
-            Case(loads=HubLoads.bundled(name), rollers=rollers, window=window or Window()), threads=threads
-        )
+        case = Case(loads=HubLoads.bundled(name), rollers=rollers, window=window or Window(), laws=laws)
+        result = simulate(case, threads=threads)
         if result.sizes["orbit"] == 0:
             raise InputError("the window holds no complete orbit", where=f"case {name}", allowed="one orbit or more")
-        parts.append(_case_values(result))
+        loaded = row_loads(case, result.attrs["window_start"], result.attrs["window_end"])
+        parts.append(_case_values(result).merge(loaded))
         attributes = dict(result.attrs)
         loads.append(json.loads(attributes["input"])["loads"])
         if progress:
@@ -74,6 +82,7 @@ def run_study(
     study.attrs = {
         "title": "Frictional energy and peak power of the rollers over wind speed and turbulence",
         "source": attributes["source"],
+        "model": attributes["model"],
         "input": json.dumps({**json.loads(attributes["input"]), "loads": loads}, ensure_ascii=False),
         "film_range_notes": attributes["film_range_notes"],
         "citations": attributes["citations"],
@@ -82,10 +91,19 @@ def run_study(
 
 
 def _case_values(result: xr.Dataset) -> xr.Dataset:
-    """What the study keeps of one case: energies per roller, and statistics of P_max over (roller, orbit) samples."""
+    """What the study keeps of one case: energies per roller, and statistics of P_max over (roller, orbit) samples.
+
+    Contacts with microslip or asperities add energies by mechanism and station, and extremes over the window.
+    """
     import xarray as xr
 
-    kept = result[["energy", "min_spin_ratio", "outside_film_range", "status"]]
+    detail = ("mechanism_energy", "asperity_energy", "station_energy", "quadrature_error")
+    kept = result[["energy", "min_spin_ratio", "outside_film_range", "status", *(one for one in detail if one in result)]]
+    for name, extreme in _EXTREMES.items():
+        if name in result:
+            # A contact without load in an orbit (NaN) has no extreme to compare.
+            kept[name] = getattr(result[name], extreme)("orbit", keep_attrs=True)
+            kept[name].attrs["long_name"] = result[name].attrs["long_name"].replace("per orbit", "in the window")
     peak = result.peak_power.max("interface", skipna=False)
     samples = ("roller", "orbit")
     duration = result.attrs["window_end"] - result.attrs["window_start"]

@@ -211,7 +211,7 @@ def _write_report(
 
 
 def _failed(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, int]:
-    """Failed integrations by place, all models together. Explicit Euler may fail in A1: that is what it is there for."""
+    """Failed integrations by place, all models together. Explicit Euler may fail in A1: it is there to show that."""
     counts = [failures(run) for run in runs.values()]
     stability = experiments["A1"].attrs
     beside = [int(stability[f"status_{name}"] != 0) for name in ("backward", "converged")]

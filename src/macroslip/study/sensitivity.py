@@ -11,22 +11,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.errors import InputError
-from macroslip.film import law as film_law
-from macroslip.film import masjedi_khonsari
 from macroslip.study.case import Case
 from macroslip.study.simulate import simulate
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from macroslip.contact.interface import Interface
-
 LEVELS = ("low", "base", "high")
 #: Parts of a variation's distance that are tried, the next one where a value is refused.
 _PARTS = (1.0, 0.5, 0.25, 0.125)
 #: Film thickness of the starved bearing over that of the flooded one.
 STARVED = 0.7
-_STARVED_FILM = f"masjedi-khonsari-{STARVED:g}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,10 +58,7 @@ def _with_bearing(case: Case, **values: float) -> Case:
 
 
 def with_inlet_temperature(case: Case, temperature: float) -> Case:
-    """The case with its lubricant at another inlet temperature [K].
-
-    The viscosity follows the lubricant's own law, η0 exp(−β (T − T0)); that is a law for small rises, and pressure
-    coefficient and conductivity stay as they are.
+    """The case with its lubricant at another inlet temperature [K], by `Lubricant.at_inlet`.
 
     Examples
     --------
@@ -75,32 +67,27 @@ def with_inlet_temperature(case: Case, temperature: float) -> Case:
     >>> round(warm.lubricant.viscosity, 4)
     0.1332
     """
-    oil = case.lubricant
-    thinner = math.exp(-oil.temperature_viscosity * (temperature - oil.inlet_temperature))
-    oil = oil.replace(inlet_temperature=temperature, viscosity=oil.viscosity * thinner)
-    return dataclasses.replace(case, lubricant=oil)
+    return dataclasses.replace(case, lubricant=case.lubricant.at_inlet(temperature))
+
+
+def film_factor(case: Case) -> float:
+    """Film thickness over that of a flooded contact [-] in a case."""
+    return case.lubricant.starvation if case.laws.starvation else 1.0
 
 
 def with_film_factor(case: Case, factor: float) -> Case:
-    """The case with the Masjedi-Khonsari film 1 or `STARVED` times as thick; the film law is registered if need be."""
-    if factor == 1.0:
-        return case
-    if _STARVED_FILM not in film_law.names():
-        film_law.register(
-            _STARVED_FILM,
-            masjedi_khonsari.MasjediKhonsari,
-            reference=f"{film_law.reference('masjedi-khonsari')}; times {STARVED:g}",
-            prepare=_prepare_starved,
-            thickness=masjedi_khonsari.thickness,
-            in_range=masjedi_khonsari.in_range,
-            range_notes=masjedi_khonsari.range_notes,
-        )
-    return dataclasses.replace(case, film=_STARVED_FILM)
+    """The case with films `factor` times as thick as flooded ones, by the starvation of its lubricant.
 
-
-def _prepare_starved(interface: Interface) -> masjedi_khonsari.MasjediKhonsari:
-    law = masjedi_khonsari.prepare(interface)
-    return law._replace(log_smooth=law.log_smooth + math.log(STARVED))
+    Examples
+    --------
+    >>> from macroslip import Case, HubLoads
+    >>> starved = with_film_factor(Case(loads=HubLoads.bundled("14B")), 0.7)
+    >>> starved.laws.name, starved.lubricant.starvation
+    ('paper, but starvation on', 0.7)
+    """
+    return dataclasses.replace(
+        case, lubricant=case.lubricant.replace(starvation=factor), laws=case.laws.but(starvation=True)
+    )
 
 
 VARIATIONS = (
@@ -119,7 +106,7 @@ VARIATIONS = (
         name="inlet temperature", unit="°C", low=20.0, high=60.0,
         base=lambda case: case.lubricant.inlet_temperature - 273.15,
         apply=lambda case, value: with_inlet_temperature(case, value + 273.15),
-        note="viscosity η0 exp(−β (T − 35 °C)): 2.3 times at 20 °C, 0.25 times at 60 °C; nothing else changes",
+        note="viscosity η0 exp(−β (T − T0)) from the base temperature T0; nothing else changes",
     ),
     Variation(
         name="bearing to gearbox", unit="m", low=1.8, high=2.6,
@@ -131,11 +118,31 @@ VARIATIONS = (
     ),
     Variation(
         name="film factor", unit="1", low=STARVED, high=1.0,
-        base=lambda case: 1.0,
+        base=film_factor,
         apply=with_film_factor,
         note="film thickness over that of the law, at every interface; 0.7 is reported for a starved bearing",
     ),
 )
+
+#: Of a film whose stress is limited, beside `VARIATIONS`.
+LIMITING_SHEAR = Variation(
+    name="limiting shear", unit="1", low=0.035, high=0.05,
+    base=lambda case: case.lubricant.limiting_shear,
+    apply=lambda case, value: dataclasses.replace(case, lubricant=case.lubricant.replace(limiting_shear=value)),
+    note="largest shear stress of the film over pressure; the range reported for PAO",
+)
+
+
+def variations_of(case: Case) -> tuple[Variation, ...]:
+    """`VARIATIONS`, and `LIMITING_SHEAR` where the laws of a case know it.
+
+    Examples
+    --------
+    >>> from macroslip import Case, HubLoads, Laws
+    >>> [one.name for one in variations_of(Case(loads=HubLoads.bundled("14B"), laws=Laws.physical()))][-2:]
+    ['film factor', 'limiting shear']
+    """
+    return (*VARIATIONS, LIMITING_SHEAR) if case.laws.rheology == "limiting-shear" else VARIATIONS
 
 
 def sensitivity(
@@ -161,8 +168,8 @@ def sensitivity(
     xarray.Dataset
         Over (variation, level): value, in the unit that the coordinate `unit` says; over (variation, level, row):
         energy [J] in the window, mean over the rollers; peak_power [W], mean over rollers and orbits of the largest
-        power at any interface per orbit; failed, the number of failed rollers. A mean that a failed roller enters is NaN.
-        A value that the model refuses, because a contact ellipse would reach past the roller's ends, say, is halved
+        power at any interface per orbit; failed, the number of failed rollers. A mean that a failed roller enters is
+        NaN. A value that the model refuses, because a contact ellipse would reach past the roller's ends, say, is halved
         towards that of the case until it does not; the coordinate `refused` over variation says so.
 
     Raises
@@ -224,7 +231,8 @@ def _nearest_run(
         except InputError as error:
             if part == _PARTS[-1]:
                 raise
-            refusals.append(f"{value:g} {variation.unit if variation.unit != '1' else ''}".strip() + f" is refused: {error}")
+            unit = "" if variation.unit == "1" else f" {variation.unit}"
+            refusals.append(f"{value:g}{unit} is refused: {error}")
 
 
 def _differs(variation: Variation, case: Case, level: str) -> bool:

@@ -93,12 +93,12 @@ def energy_over_wind_speed(numbers: xr.Dataset, study: xr.Dataset) -> Statement:
     found = {"highest_mps": highest, "normalised_energy": energy.values.tolist(), "spread": spread}
     words = f"highest at {order[0]:g} and {order[1]:g} m/s, and {100 * spread:.1f} % between the highest and the lowest"
     orbits = _by_wind_speed(study.orbits)
+    slowest = float(orbits.wind_speed[int(np.argmin(orbits.values))])
     change = {row: _range(_by_wind_speed(study.orbit_energy.sel(row=row))) for row in study.row.values.tolist()}
     per_orbit = " and ".join(f"{100 * value:.1f} % {row}" for row, value in change.items())
     because = (
         f"between wind speeds the energy of one orbit changes by {per_orbit}, the number of orbits by "
-        f"{100 * _range(orbits):.1f} %: it is least at {float(orbits.wind_speed[int(np.argmin(orbits.values))]):g} m/s, "
-        "where the turbine is not always at its rated speed"
+        f"{100 * _range(orbits):.1f} %: it is least at {slowest:g} m/s, where the shaft turns slowest"
     )
     return Statement(
         paper="energy is highest at 12 and 14 m/s",
@@ -170,7 +170,7 @@ def peak_power_over_wind_speed(numbers: xr.Dataset) -> Statement:
 
 
 def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None) -> Statement:
-    """Mean peak power of the downwind over the upwind row; `steps` from `step_size` says what a fixed step does to it."""
+    """Mean peak power of the downwind over the upwind row; `steps` from `step_size` says what a fixed step does."""
     ratio = numbers.peak_power_ratio
     mean = _by_wind_speed(ratio)
     highest_at = float(mean.wind_speed[int(np.argmax(mean.values))])
@@ -251,8 +251,8 @@ def varying_over_static(
         one = tolerances.sel(row="downwind").sortby("stopping_tolerance")
         loose = one.isel(stopping_tolerance=int(np.argmin(np.abs(np.log10(one.stopping_tolerance.values) + 6.0))))
         because += (
-            f"; an iteration on spin that stops at a relative change of {float(loose.stopping_tolerance):.0e} breaks that "
-            f"balance and gives {float(loose.ratio):,.0f} times"
+            f"; an iteration on spin that stops at a relative change of {float(loose.stopping_tolerance):.0e} breaks "
+            f"that balance and gives {float(loose.ratio):,.0f} times"
         )
     return Statement(
         paper=VARYING,

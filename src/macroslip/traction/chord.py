@@ -110,7 +110,7 @@ def chord_stress(fluid, pressure, film_thickness, slip):
     --------
     >>> full = Fluid(LIMITING_SHEAR, 0.54, 2.1, 1.0, 1e8, 0.04, 0.0)
     >>> round(chord_stress(full, 1e9, 5e-7, 1.0) / (0.04 * 1e9 * math.pi / 4), 4)
-    0.9976
+    0.9999
     """
     total = 0.0
     for node in range(_COSINES.size):

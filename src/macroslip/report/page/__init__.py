@@ -15,5 +15,6 @@ from macroslip.report.page.blocks import (
 from macroslip.report.page.render import render
 
 __all__ = [
-    "Beside", "Block", "Paragraph", "Pictures", "Points", "Section", "Statements", "Table", "Verbatim", "View", "render",
+    "Beside", "Block", "Paragraph", "Pictures", "Points", "Section", "Statements", "Table", "Verbatim", "View",
+    "render",
 ]

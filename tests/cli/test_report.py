@@ -1,0 +1,55 @@
+"""`macroslip report`: from what `macroslip run` wrote to one page."""
+
+import pytest
+
+
+@pytest.fixture
+def ran(quick, folder, macroslip):
+    """Two results of `macroslip run`, one with traces."""
+    (folder / "out").mkdir()
+    for name, further in (("plain", ""), ("traced", "traces: {step: 0.05 s}\n")):
+        case = quick(further)
+        assert macroslip("run", case, "-o", f"out/{name}.nc", "--quiet").code == 0
+    return folder
+
+
+def test_a_folder_becomes_one_page_beside_its_results(ran, macroslip):
+    done = macroslip("report", "out", "--title", "Mine <b>")
+    assert (done.code, done.out, done.err) == (0, "written: out/report.html\n", "")
+    page = (ran / "out" / "report.html").read_text(encoding="utf-8")
+    assert "<h1>Mine &lt;b&gt;</h1>" in page
+    assert ">plain<" in page and ">traced<" in page and "data-view" in page
+    assert "paper states" not in page
+    again = macroslip("report", "out")
+    assert again.code == 2 and "the file exists" in again.err
+    assert macroslip("report", "out", "--force", "--quiet").out == ""
+
+
+def test_one_file_and_a_page_of_ones_own_choice(ran, macroslip):
+    done = macroslip("report", "out/plain.nc", "-o", "page.html")
+    assert (done.code, done.out) == (0, "written: page.html\n")
+    assert "data-view" not in (ran / "page.html").read_text(encoding="utf-8").split("</header>")[1].split("<script>")[0]
+
+
+@pytest.mark.parametrize(
+    ("place", "message"),
+    [("nothing", "nothing: there is no such file or folder"), ("empty", "empty: the folder holds no netCDF file"),
+     ("broken.nc", "broken.nc: the file cannot be read as netCDF"), ("other.nc", "other: the dataset has no energy")],
+)
+def test_what_is_no_result_gives_one_paragraph(folder, macroslip, place, message):
+    import xarray as xr
+
+    (folder / "empty").mkdir()
+    (folder / "broken.nc").write_text("no netCDF")
+    xr.Dataset({"x": 1.0}).to_netcdf(folder / "other.nc", engine="h5netcdf")
+    done = macroslip("report", place)
+    assert done.code == 2 and message in done.err
+    assert not list(folder.rglob("*.html"))
+
+
+def test_failed_rollers_give_exit_code_3(quick, folder, macroslip):
+    case = quick("integrator: {method: radau, max_steps: 5}\n")
+    assert macroslip("run", case, "-o", "case.nc", "--quiet").code == 3
+    done = macroslip("report", "case.nc")
+    assert done.code == 3 and "failed: 4 of 4 rollers" in done.err
+    assert "4 of 4 rollers FAILED" in (folder / "report.html").read_text(encoding="utf-8")

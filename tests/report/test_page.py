@@ -1,0 +1,149 @@
+"""Pages on results: what stands in them, what is refused, and that they are one self-contained file."""
+
+import base64
+import re
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from macroslip import BearingLoads, Case, InputError, simulate
+from macroslip.bearing import Bearing
+from macroslip.report.bearing_view import LEAST_POWER, MISSING, quantise, scene_data
+from macroslip.report.bibliography import bibtex
+from macroslip.report.page import Paragraph, Section, Table, View, render
+from macroslip.report.results_page import results_page
+from macroslip.study.orbit_scene import scene
+
+
+@pytest.fixture(scope="module")
+def bare():
+    """A result without traces and without a complete orbit."""
+    return simulate(Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.5), rollers=[0, 14]))
+
+
+@pytest.fixture(scope="module")
+def page(result):
+    return results_page({"fourteen": result}, title="Four rollers")
+
+
+def test_a_page_refers_to_nothing_outside_itself(page):
+    assert re.findall(r"""(?:src|href)=["'](?!data:|#)""", page) == []
+    assert re.findall(r"url\(|@import|<link(?![^>]*data:)", page) == []
+    assert "script-src 'sha256-" in page and "default-src 'none'" in page
+    assert len(page.encode()) < 8e6
+
+
+def test_a_page_is_the_same_for_the_same_results(page, result):
+    assert results_page({"fourteen": result}, title="Four rollers") == page
+
+
+def test_every_picture_says_what_it_shows(page):
+    pictures = re.findall(r"<img [^>]*>", page)
+    assert len(pictures) > 8
+    assert all(re.search(r'alt="[^"]{10,}"', one) and re.search(r'width="\d+" height="\d+"', one) for one in pictures)
+
+
+def test_typefaces_are_two_at_most(page):
+    # One of the page, from the system; one of the figures, whose letters are drawn.
+    assert len(re.findall(r"font(?:-family)?:[^;]*(?:sans-serif|serif|monospace)", page)) == 1
+
+
+def test_the_overview_has_the_numbers(page, result):
+    energy = result.energy.sum("interface").sel(row="upwind")
+    for value in (energy.mean(), energy.min(), energy.max(), result.peak_power.sel(row="upwind").max()):
+        assert f"<td class=\"number\">{float(value):.4g}</td>" in page
+    assert "All 8 rollers completed." in page
+
+
+def test_provenance_is_complete(page):
+    for words in ("macroslip 0", "masjedi-khonsari", "tolerance 0.0002", "engineering estimate", "bundled case 14B",
+                  "@misc{hart_slip", "doi = {10.1115/1.4005514}", "hardness group 0.03033", ">completed<"):
+        assert words in page
+
+
+def test_without_traces_the_page_says_what_would_give_more(bare):
+    page = results_page({"bare": bare})
+    assert "Give the case traces" in page
+    assert "data-view" not in page.split("<main>")[1].split("<script>")[0]
+
+
+def test_failed_rollers_are_told_first(result):
+    failed = result.copy(deep=True)
+    failed.status.loc[{"row": "upwind", "roller": 7}] = 3
+    for name in ("energy", "orbit_energy", "peak_power"):
+        failed[name].loc[{"row": "upwind", "roller": 7}] = np.nan
+    page = results_page({"one": failed})
+    assert "1 of 8 rollers FAILED" in page
+    assert "roller 7 of the upwind row ended at t = " in page and "the step limit was reached" in page
+
+
+def test_a_study_over_cases(result):
+    two = xr.concat(
+        [result[["energy", "status", "peak_power"]].drop_vars("orbit", errors="ignore")] * 2,
+        xr.DataArray(["a<b", "c"], dims="case", name="case"), combine_attrs="override",
+    )
+    page = results_page({"campaign": two})
+    assert "campaign, a&lt;b" in page and "Energy of a roller by case and row" in page
+    assert "All 16 rollers completed." in page
+
+
+def test_energies_by_mechanism_and_station_appear_by_themselves(result):
+    share = xr.DataArray([0.2, 0.3, 0.5], dims="mechanism", coords={"mechanism": ["microslip", "shear", "cage"]})
+    by_mechanism = (result.energy.sum("interface") * share).assign_attrs(units="J", long_name="by mechanism")
+    station = xr.DataArray([1.0, 2.0], dims="station", coords={"station": ("station", [-0.01, 0.01], {"units": "m"})})
+    along = (result.energy.sum("interface") * station).rename("along").assign_attrs(units="J/m")
+    page = results_page({"physical": result.assign(by_mechanism=by_mechanism, along=along)})
+    assert 'alt="Energy by mechanism and row, by_mechanism"' in page
+    assert 'alt="Energy along the roller by row, along"' in page
+
+
+@pytest.mark.parametrize(
+    ("results", "message"),
+    [({}, "no result"), ({"a": xr.Dataset({"x": 1})}, "^a: the dataset has no energy, no status, no row")],
+)
+def test_what_is_no_result_is_refused(results, message):
+    with pytest.raises(InputError, match=message):
+        results_page(results)
+
+
+def test_names_are_escaped_wherever_they_stand(hostile):
+    table = Table((hostile,), ((hostile,),), hostile)
+    section = Section("a", hostile, (Paragraph(hostile), table, View({hostile: {}})))
+    page = render(hostile, hostile, (section,))
+    assert "<img" not in page and "7*7" in page
+    assert page.count("<script") == page.count("</script>") == 2
+    assert "</script><" not in page.split('class="scenes">')[1].split("</script>")[0]
+
+
+def test_scene_survives_the_way_to_the_page(result):
+    part = scene(result)
+    data = scene_data(part, Bearing.read("skf-240-600-bc"))
+    assert data["count"] == part.sizes["time"] and data["radii"]["pitch"] == pytest.approx(372.7)
+    for name, one, factor in zip(("slip", "roller_load", "power"), data["quantities"], (1e3, 1e-3, 1.0), strict=True):
+        codes = np.frombuffer(base64.b64decode(one["codes"]), "<u2").reshape(part[name].shape)
+        found = one["low"] + (one["high"] - one["low"]) * codes / 65534.0
+        expected = factor * part[name].values.astype(float)
+        if one["logarithmic"]:
+            found, expected = 10.0**found, np.maximum(expected, LEAST_POWER)
+            np.testing.assert_allclose(found, expected, rtol=2e-4)
+        else:
+            np.testing.assert_allclose(found, expected, atol=1.01 * (one["high"] - one["low"]) / 65534.0)
+            if name == "roller_load":
+                np.testing.assert_array_equal(codes == 0, expected == 0.0)
+    assert np.frombuffer(quantise(np.array([np.nan]), 0.0, 1.0), "<u2").tolist() == [MISSING]
+
+
+def test_the_scale_of_colours_is_one_of_lightness(result):
+    colours = np.array(scene_data(scene(result), Bearing.read("skf-240-600-bc"))["colours"])
+    lightness = colours @ np.array([0.299, 0.587, 0.114])
+    assert (np.diff(lightness) > 4.0).all()
+
+
+def test_works_that_are_not_known_by_name_are_cited_all_the_same():
+    text = bibtex(["Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing",
+                   "Some One, A law {of mine, doi:10.1000/xyz123.", "Some One, A law too", ""])
+    assert text.count("\n\n") == 3 and "doi = {10.1000/xyz123}" in text
+    assert text.count("{") == text.count("}")
+    keys = re.findall(r"@\w+\{([^,]+),", text)
+    assert len(set(keys)) == 4
