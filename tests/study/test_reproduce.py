@@ -305,13 +305,25 @@ def test_everything_is_written_says_the_same_and_is_used_again(quick, study, mon
     }
 
 
-def test_a_second_model_gets_its_own_column_section_and_files(quick, monkeypatch, tmp_path):
+def test_a_second_model_gets_its_own_column_section_and_files_and_its_failures_head_the_summary(
+    quick, study, monkeypatch, tmp_path
+):
+    def run_study(**options):
+        return with_failed_roller(study) if options.get("drag") is False else study
+
+    monkeypatch.setattr(model_run, "run_study", run_study)
     monkeypatch.setattr(model_run, "MODELS", {"paper": {}, "other": {"drag": False}})
     monkeypatch.setattr(module, "MODELS", {"paper": {}, "other": {"drag": False}})
     saved = []
     monkeypatch.setattr(module, "_save", lambda figures, *others: saved.extend(figures))
     summary = quick(tmp_path / "results")
     assert len(summary["headline"]) == 10
+    assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
+    assert summary["failed_rollers"]["study_by_case"] == {"14B_other": 1}
+    assert summary["figures"]["4b_other"]["data_vars"]["energy_ratio"]["data"][2] is None
+    assert summary["figures"]["4b"]["data_vars"]["energy_ratio"]["data"][2] > 0.0
+    between = summary["statements"][1]["models"]
+    assert [between[name]["verdict"] for name in ("paper", "other")] == [verdicts.DIFFERS, verdicts.UNKNOWN]
     unloaded = summary["statements"][4]["models"]
     assert unloaded["paper"]["verdict"] == verdicts.AGREES
     assert unloaded["other"]["verdict"] == verdicts.NOT_COMPUTED
@@ -321,20 +333,9 @@ def test_a_second_model_gets_its_own_column_section_and_files(quick, monkeypatch
     assert "figure_3a_other" not in saved
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
     for words in ("Under <em>other</em>", 'id="rollers-other"', "Figure 4a: energy over mean wind speed (model other)",
-                  "case 14B, model other"):
+                  "case 14B, model other", "FAILED INTEGRATIONS: 1 in study"):
         assert words in page
     assert "Figure 3a: constant load and speed (model other)" not in page
-
-
-def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
-    monkeypatch.setattr(model_run, "run_study", lambda **options: with_failed_roller(study))
-    monkeypatch.setattr(module, "_save", lambda *arguments: None)
-    summary = quick(tmp_path / "results")
-    assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
-    assert summary["failed_rollers"]["study_by_case"] == {"14B": 1}
-    assert summary["figures"]["4b"]["data_vars"]["energy_ratio"]["data"][2] is None
-    page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
-    assert "FAILED INTEGRATIONS: 1 in study" in page
 
 
 @pytest.mark.parametrize("exists", [False, True])

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from macroslip.campaign.build import read_loads, template
+from macroslip.campaign.cycles import COMPONENTS, RANGE_EDGES
 from macroslip.campaign.store import to_bytes
 from macroslip.campaign.study import Run, Study
 from macroslip.errors import InputError
@@ -20,6 +21,8 @@ _LOOKED_AT = 3
 _STRETCH = 60.0
 #: A line of the journal and of the tables [bytes].
 _RECORD_BYTES = 2500
+#: Counts of both components in a result, and their classes [bytes].
+_CYCLES_BYTES = 8 * (len(COMPONENTS) + 1) * RANGE_EDGES.size
 
 
 @dataclass(frozen=True)
@@ -89,10 +92,8 @@ def estimate(study: Study) -> Estimate:
     def mean(values: list[float]) -> float:
         return sum(values) / len(values) if values else float("nan")
 
-    runs = len(study)
-    return Estimate(
-        runs, len(lengths), mean(lengths), runs * mean(seconds), runs * (mean(sizes) + _RECORD_BYTES), tuple(problems)
-    )
+    runs, others = len(study), _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
+    return Estimate(runs, len(lengths), mean(lengths), runs * mean(seconds), runs * (mean(sizes) + others), tuple(problems))
 
 
 def _case(study: Study, run: Run) -> Case:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from macroslip.cli.failure import CASES_FAILED, tell
+from macroslip.errors import InputError
 
 if TYPE_CHECKING:
     from macroslip.campaign.progress import Progress
@@ -45,7 +46,7 @@ def study(
         _dry_run(checked, workers, threads)
         return
     if output is None:
-        raise typer.BadParameter("name the folder for the results, with -o", param_hint="--output")
+        raise InputError("there is no folder for the results", where="--output", remedy="Name one, new or empty, with -o.")
     from macroslip.campaign.run import run_campaign
 
     with _shown(quiet=quiet) as report:

@@ -3,30 +3,61 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from functools import partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from macroslip.bearing.frames import ROWS
+from macroslip.laws import Laws
 from macroslip.loads import Drivetrain, HubLoads, bundled_cases, main_bearing_load
 from macroslip.study import verdicts
-from macroslip.study.case import Case, Traces
+from macroslip.study.case import Case, Traces, Window
+from macroslip.study.dissipation import explained, knows_mechanisms
 from macroslip.study.orbit_profile import orbit_profile
 from macroslip.study.paper_numbers import paper_numbers
 from macroslip.study.paper_study import run_study
 from macroslip.study.reuse import Reuse
-from macroslip.study.sensitivity import VARIATIONS, sensitivity
-from macroslip.study.simulate import simulate
+from macroslip.study.sensitivity import sensitivity, variations_of
+from macroslip.study.simulate import simulate, usable_processors
 from macroslip.study.single_roller import inflexion_angle, peak_turn, static_turn, typical_turn
+from macroslip.study.uncertain_values import VALUES
+from macroslip.study.uncertainty import CASES, END, ROLLERS, SAMPLES, SEED, uncertainty
+from macroslip.torque import computed_torque
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.loads import BearingLoads
 
-#: Models by name, and what a case is given to choose them.
-MODELS: Mapping[str, Mapping[str, Any]] = MappingProxyType({"paper": MappingProxyType({})})
-#: The model of the paper, under which its single rollers and the numerical experiments are computed.
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Model:
+    """A model of the reproduction, and how much of the work it gets.
+
+    Parameters
+    ----------
+    laws : Laws
+    rollers : "all" or tuple of int
+        Rollers of each row in the study and the sensitivity.
+    sensitivity_end : float, optional
+        End of the sensitivity's window [s]; None: the end of the loads.
+    """
+
+    laws: Laws
+    rollers: str | tuple[int, ...] = "all"
+    sensitivity_end: float | None = None
+
+
+#: Models by name. A roller under `physical` takes about ten times as long as under `paper`.
+MODELS: Mapping[str, Model] = MappingProxyType(
+    {
+        "paper": Model(laws=Laws.paper()),
+        "physical": Model(laws=Laws.physical(), rollers=tuple(range(0, 28, 4)), sensitivity_end=200.0),
+    }
+)
+#: The model of the paper, under which the numerical experiments are computed.
 PAPER = "paper"
 #: The case shown in detail, whose means are the static load.
 DETAILED_CASE = "14B"
@@ -34,8 +65,15 @@ STATIC_LOADS = {"downward": False, "downward and thrust": True}
 #: Time between the samples of the traces [s]; that of the loads.
 TRACE_STEP = 0.05
 
-#: What is computed under each model, in its order, and what that takes of the time, in proportion.
-MODEL_STAGES = {"study": 28.0, "single rollers": 2.0, "one case in detail": 5.0, "sensitivity": 7.0}
+#: What is computed under each model, in its order, and what that takes of the time under `paper` and others, in
+#: proportion.
+MODEL_STAGES = {
+    "study": (28.0, 75.0),
+    "one case in detail": (5.0, 20.0),
+    "single rollers": (2.0, 15.0),
+    "sensitivity": (7.0, 15.0),
+    "uncertainty": (0.0, 70.0),
+}
 
 Progress = Callable[[str, int, int], None]
 
@@ -51,11 +89,13 @@ class ModelRun:
     numbers : xarray.Dataset
         From `paper_numbers`.
     turns : dict
-        Traced turns by figure ("static", "typical", "peak") and title; empty where the model has none.
+        Traced turns by figure ("static", "typical", "peak") and title.
     profile : dict
-        From `orbit_profile`: the detailed case.
+        From `orbit_profile`: the detailed case; and "torque", from `computed_torque`.
     sensitivity : xarray.Dataset
         From `sensitivity`.
+    uncertainty : xarray.Dataset or None
+        From `uncertainty`; None under the paper's model.
     """
 
     study: xr.Dataset
@@ -63,6 +103,7 @@ class ModelRun:
     turns: dict[str, dict[str, xr.Dataset]]
     profile: dict[str, xr.Dataset]
     sensitivity: xr.Dataset
+    uncertainty: xr.Dataset | None = None
 
 
 def stage_label(stage: str, model: str) -> str:
@@ -82,38 +123,49 @@ def compute_model(name: str, reuse: Reuse, threads: int | None, report: Progress
     report : callable
         Called as report(label, done, total) with the labels of `MODEL_STAGES`.
     """
-    choices = MODELS[name]
+    model = MODELS[name]
+    laws = model.laws
 
     def told(stage: str) -> Callable[[int, int], None]:
         return lambda done, total: report(stage_label(stage, name), done, total)
 
-    detailed = Case(loads=HubLoads.bundled(DETAILED_CASE), **choices)
-    whole = [Case(loads=HubLoads.bundled(one), **choices).as_dict() for one in bundled_cases()]
+    loads = HubLoads.bundled(DETAILED_CASE)
+    whole = [Case(loads=HubLoads.bundled(one), laws=laws, rollers=model.rollers).as_dict() for one in bundled_cases()]
     study = reuse.part(
         f"study-{name}", whole,
-        lambda: {"study": run_study(threads=threads, progress=told("study"), **choices)},
+        lambda: {"study": run_study(rollers=model.rollers, laws=laws, threads=threads, progress=told("study"))},
     )["study"]
     told("study")(1, 1)
-    turns: dict[str, dict[str, xr.Dataset]] = {}
-    if name == PAPER:
-        stored = reuse.part("turns", detailed.as_dict(), lambda: _turns(threads, told("single rollers")))
-        for title, turn in stored.items():
-            group, _, rest = title.partition(": ")
-            turns.setdefault(group, {})[rest] = turn
-        told("single rollers")(1, 1)
-    traced = Case(loads=detailed.loads, traces=Traces(step=TRACE_STEP), **choices)
-    profile = reuse.part(
-        f"detail-{name}", traced.as_dict(), lambda: orbit_profile(simulate(traced, threads=threads))
-    )
+    traced = Case(loads=loads, traces=Traces(step=TRACE_STEP), laws=laws)
+    profile = reuse.part(f"detail-{name}", traced.as_dict(), lambda: _detail(simulate(traced, threads=threads)))
     told("one case in detail")(1, 1)
-    limits = [[one.name, one.low, one.high] for one in VARIATIONS]
+    stored = reuse.part(
+        f"turns-{name}", traced.as_dict(), lambda: _turns(profile["result"], laws, threads, told("single rollers"))
+    )
+    turns: dict[str, dict[str, xr.Dataset]] = {}
+    for title, turn in stored.items():
+        group, _, rest = title.partition(": ")
+        turns.setdefault(group, {})[rest] = turn
+    told("single rollers")(1, 1)
+    varied = Case(loads=loads, laws=laws, rollers=model.rollers, window=Window(end=model.sensitivity_end))
+    variations = variations_of(varied)
+    limits = [[one.name, one.low, one.high] for one in variations]
     table = reuse.part(
-        f"sensitivity-{name}", [detailed.as_dict(), limits],
-        lambda: {"table": sensitivity(detailed, threads=threads, progress=told("sensitivity"))},
+        f"sensitivity-{name}", [varied.as_dict(), limits],
+        lambda: {"table": sensitivity(varied, variations, threads=threads, progress=told("sensitivity"))},
     )["table"]
     told("sensitivity")(1, 1)
+    sample = None
+    if laws.microslip:
+        sample = reuse.part(
+            f"uncertainty-{name}",
+            [[Case(loads=HubLoads.bundled(one), laws=laws).as_dict() for one in CASES], ROLLERS, END, SAMPLES, SEED,
+             [asdict(one) for one in VALUES]],
+            lambda: {"sample": uncertainty(laws, threads=threads, progress=told("uncertainty"))},
+        )["sample"]
+        told("uncertainty")(1, 1)
     return ModelRun(
-        study=study, numbers=paper_numbers(study), turns=turns, profile=profile, sensitivity=table
+        study=study, numbers=paper_numbers(study), turns=turns, profile=profile, sensitivity=table, uncertainty=sample
     )
 
 
@@ -122,19 +174,24 @@ def varying_load() -> BearingLoads:
     return main_bearing_load(HubLoads.bundled(DETAILED_CASE), Drivetrain())
 
 
-def _turns(threads: int | None, report: Callable[[int, int], None]) -> dict[str, xr.Dataset]:
+def _detail(result: xr.Dataset) -> dict[str, xr.Dataset]:
+    return orbit_profile(result) | {"torque": computed_torque(result)}
+
+
+def _turns(
+    result: xr.Dataset, laws: Laws, threads: int | None, report: Callable[[int, int], None]
+) -> dict[str, xr.Dataset]:
     """Traced turns by "figure: column"; the static ones of both rows under "static"."""
     varying = varying_load()
-    result = simulate(Case(loads=varying), threads=threads)
-    jobs = [(f"static: {name}, {row}", static_turn, (varying, row), {"thrust": thrust})
-            for name, thrust in STATIC_LOADS.items() for row in ROWS]
-    jobs += [(f"typical: {row} row", typical_turn, (varying, result, row), {}) for row in ROWS]
-    jobs += [(f"peak: {row} row", peak_turn, (varying, result, row), {}) for row in ROWS]
-    found = {}
-    for done, (title, trace, arguments, options) in enumerate(jobs, start=1):
-        found[title] = trace(*arguments, **options)
-        report(done, len(jobs))
-    return found
+    jobs = {f"static: {name}, {row}": partial(static_turn, varying, row, thrust=thrust, laws=laws)
+            for name, thrust in STATIC_LOADS.items() for row in ROWS}
+    for name, trace in (("typical", typical_turn), ("peak", peak_turn)):
+        jobs |= {f"{name}: {row} row": partial(trace, varying, result, row, laws) for row in ROWS}
+    with ThreadPoolExecutor(threads or usable_processors()) as pool:
+        futures = {title: pool.submit(job) for title, job in jobs.items()}
+        for done, _ in enumerate(as_completed(futures.values()), start=1):
+            report(done, len(jobs))
+        return {title: future.result() for title, future in futures.items()}
 
 
 def statements(run: ModelRun, experiments: Mapping[str, xr.Dataset]) -> list[verdicts.Statement]:
@@ -149,31 +206,28 @@ def statements(run: ModelRun, experiments: Mapping[str, xr.Dataset]) -> list[ver
     Returns
     -------
     list of Statement
-        Eight, in the same order for every model; where a statement needs what the model lacks, "not computed".
+        Eight, in the same order for every model; where a statement needs what was not computed, "not computed".
     """
-    static = run.turns.get("static", {})
-    energies = {
-        name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in ROWS} for name in STATIC_LOADS if static
-    }
-    thrust = energies.get("downward and thrust", {}).get("downwind", float("nan"))
-    downward = static.get("downward, downwind")
+    static = run.turns["static"]
+    energies = {name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in ROWS} for name in STATIC_LOADS}
+    thrust = energies["downward and thrust"]["downwind"]
+    downward = static["downward, downwind"]
     found = [
         verdicts.energy_over_wind_speed(run.numbers, run.study),
         verdicts.energy_between_rows(run.numbers, thrust),
         verdicts.peak_power_over_wind_speed(run.numbers),
         verdicts.peak_power_between_rows(run.numbers, experiments.get("step_size")),
     ]
-    if downward is None:
-        found += [verdicts.not_computed(verdicts.UNLOADED), verdicts.not_computed(verdicts.VARYING)]
-    else:
-        found.append(verdicts.unloaded_roller(downward, inflexion_angle(downward)))
-        found.append(
-            verdicts.varying_over_static(run.numbers, DETAILED_CASE, energies, experiments.get("nonlinear_tolerance"))
-        )
+    found.append(verdicts.unloaded_roller(downward, inflexion_angle(downward)))
+    found.append(
+        verdicts.varying_over_static(run.numbers, DETAILED_CASE, energies, experiments.get("nonlinear_tolerance"))
+    )
     found.append(verdicts.cage_dominates(run.study))
     if "A1" in experiments:
-        return [*found, verdicts.euler_stability(experiments["A1"])]
-    return [*found, verdicts.not_computed(verdicts.EULER)]
+        found.append(verdicts.euler_stability(experiments["A1"]))
+    else:
+        found.append(verdicts.not_computed(verdicts.EULER))
+    return explained(found, run.study, run.numbers) if knows_mechanisms(run.study) else found
 
 
 def failures(run: ModelRun) -> dict[str, int]:
@@ -183,4 +237,5 @@ def failures(run: ModelRun) -> dict[str, int]:
         "single_rollers": sum(turn.attrs["status"] != 0 for group in run.turns.values() for turn in group.values()),
         "detailed_case": int((run.profile["result"].status != 0).sum()),
         "sensitivity": int(run.sensitivity.failed.sum()),
+        "uncertainty": int((run.uncertainty.outcome == 1).sum()) if run.uncertainty is not None else 0,
     }

@@ -43,7 +43,8 @@ def stages() -> dict[str, float]:
     """Labels of the stages in their order, and what each takes of the time, in proportion, as measured once."""
     shares: dict[str, float] = {}
     for name in MODELS:
-        shares |= {stage_label(stage, name): share for stage, share in MODEL_STAGES.items()}
+        of_one = {stage_label(stage, name): share[name != PAPER] for stage, share in MODEL_STAGES.items()}
+        shares |= {label: share for label, share in of_one.items() if share}
     return shares | {"experiments": 7.0, "figures": 8.0, "report": 7.0}
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from macroslip.bearing import geometry
 from macroslip.bearing.frames import initial_angles
 from macroslip.errors import InputError
+from macroslip.laws import Laws
 from macroslip.loads import BearingLoads
 from macroslip.roller.travel import travel
 from macroslip.study.case import Case, Traces, Window
@@ -42,7 +43,7 @@ def static_load(variable: BearingLoads, *, thrust: bool, duration: float) -> Bea
     return BearingLoads.constant(force, float(variable.shaft_speed.mean()), duration)
 
 
-def trace_turn(loads: BearingLoads, row: str, roller: int, time: float) -> xr.Dataset:
+def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: Laws = Laws.paper()) -> xr.Dataset:
     """Spin and cumulative frictional energy of one roller over the turn from the bottom to the bottom at `time`.
 
     The history is integrated from its start, so the roller arrives with its own past.
@@ -57,6 +58,8 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float) -> xr.Da
         Number in the row.
     time : float
         A time within the turn [s].
+    laws : Laws
+        Mechanisms in the contacts.
 
     Returns
     -------
@@ -81,11 +84,10 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float) -> xr.Da
     step = (end - start) / (_POINTS * _FINE)
     # Rounding may put the last trace time past the end of the turn by one unit in the last place.
     traces = Traces(step=step * (1.0 - 1e-12), start=start, end=end)
-    result = simulate(Case(loads=until, rollers=[roller], window=Window(start=start, end=end), traces=traces))
+    window = Window(start=start, end=end)
+    result = simulate(Case(loads=until, rollers=[roller], window=window, traces=traces, laws=laws), threads=1)
     result = result.sel(row=row).isel(roller=0)
-    surface_speed = result.spin.values * geometry.roller_radius(case.bearing)
-    sliding = np.column_stack([result.slip.values, result.slip.values, surface_speed])
-    by_interface = np.abs(result.traction.values * sliding)
+    by_interface = result.power.values
     power = by_interface.sum(axis=1)
     seconds = result.time.values
     pieces = 0.5 * (power[1:] + power[:-1]) * np.diff(seconds)
@@ -123,13 +125,13 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float) -> xr.Da
     )
 
 
-def static_turn(variable: BearingLoads, row: str, *, thrust: bool) -> xr.Dataset:
+def static_turn(variable: BearingLoads, row: str, *, thrust: bool, laws: Laws = Laws.paper()) -> xr.Dataset:
     """The ninth turn of the row's first roller under the `static_load` of a history; by then spin is periodic."""
     period = 2.0 * np.pi / (_orbit_ratio(Case(loads=variable)) * float(variable.shaft_speed.mean()))
-    return trace_turn(static_load(variable, thrust=thrust, duration=9.5 * period), row, 0, 8.5 * period)
+    return trace_turn(static_load(variable, thrust=thrust, duration=9.5 * period), row, 0, 8.5 * period, laws)
 
 
-def typical_turn(loads: BearingLoads, result: xr.Dataset, row: str) -> xr.Dataset:
+def typical_turn(loads: BearingLoads, result: xr.Dataset, row: str, laws: Laws = Laws.paper()) -> xr.Dataset:
     """The turn of the row's first roller whose energy comes closest to the median of all rollers' orbits but the last.
 
     Parameters
@@ -144,7 +146,7 @@ def typical_turn(loads: BearingLoads, result: xr.Dataset, row: str) -> xr.Datase
     roller = int(result.roller.values[0])
     orbit = int(np.argmin(np.abs(energy.isel(roller=0).values - np.median(energy.values))))
     middle = 0.5 * (result.orbit_start.values[orbit] + result.orbit_end.values[orbit])
-    return trace_turn(loads, row, roller, float(middle))
+    return trace_turn(loads, row, roller, float(middle), laws)
 
 
 def largest_peak(result: xr.Dataset, row: str) -> tuple[int, int]:
@@ -158,12 +160,12 @@ def largest_peak(result: xr.Dataset, row: str) -> tuple[int, int]:
     return int(result.roller.values[roller]), int(orbit)
 
 
-def peak_turn(loads: BearingLoads, result: xr.Dataset, row: str) -> xr.Dataset:
+def peak_turn(loads: BearingLoads, result: xr.Dataset, row: str, laws: Laws = Laws.paper()) -> xr.Dataset:
     """The turn with the row's largest frictional power. Parameters are those of `typical_turn`."""
     roller, orbit = largest_peak(result, row)
     # An orbit counted from the roller's place at the start lies in two turns from the bottom.
     ends = float(result.orbit_start.values[orbit]), float(result.orbit_end.values[orbit]) - 1e-6
-    return max((trace_turn(loads, row, roller, end) for end in ends), key=lambda turn: turn.peak_power_W)
+    return max((trace_turn(loads, row, roller, end, laws) for end in ends), key=lambda turn: turn.peak_power_W)
 
 
 def inflexion_angle(turn: xr.Dataset) -> float:

@@ -1,0 +1,165 @@
+"""What the sample over uncertain values says: ranges of the results, what drives them, and how often trends hold."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.study.verdicts import ABOUT, DOMINANT
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Quantiles that are given.
+QUANTILES = (0.05, 0.5, 0.95)
+#: Probability below which a rank correlation is taken to name a driver. With 13 values and ten quantities a smaller one
+#: than usual: about one of them is found by chance.
+DRIVER_LEVEL = 0.01
+
+
+def quantities(sample: xr.Dataset) -> xr.Dataset:
+    """The results whose uncertainty is told, over (sample, quantity).
+
+    Parameters
+    ----------
+    sample : xarray.Dataset
+        From `uncertainty`.
+
+    Returns
+    -------
+    xarray.Dataset
+        `result` over (sample, quantity), with the coordinate `units` over quantity; NaN where a sample did not complete.
+    """
+    import xarray as xr
+
+    energy = sample.orbit_energy.sum("interface", skipna=False)
+    down, up = (energy.sel(row=row) for row in ("downwind", "upwind"))
+    peak = sample.peak_power.sel(row="downwind") / sample.peak_power.sel(row="upwind")
+    inner = sample.orbit_energy.sel(row="downwind", interface="inner") / down
+    names = sample.case.values.tolist()
+    first, last = names[0], names[-1]
+    found: dict[str, tuple[xr.DataArray, str]] = {}
+    for name in (first, last):
+        found[f"energy per orbit, downwind, {name}"] = down.sel(case=name), "J"
+    found[f"energy in {first} / {last}"] = sample.window_energy.sel(case=first) / sample.window_energy.sel(case=last), "1"
+    for name in names:
+        found[f"energy, downwind / upwind, {name}"] = (down / up).sel(case=name), "1"
+    found[f"share of the inner raceway, downwind, {first}"] = inner.sel(case=first), "1"
+    for name in names:
+        found[f"mean P_max, downwind / upwind, {name}"] = peak.sel(case=name), "1"
+    found[f"friction torque of the contacts, {first}"] = sample.torque.sel(case=first), "N m"
+    values = np.stack([one.values for one, _ in found.values()], axis=1)
+    return xr.Dataset(
+        {"result": (("sample", "quantity"), values, {"units": "1", "long_name": "result, in the unit of its quantity"})},
+        {"sample": sample.sample, "quantity": list(found), "units": ("quantity", [unit for _, unit in found.values()])},
+    )
+
+
+def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
+    """Ranges and rank correlations over the samples that completed.
+
+    Parameters
+    ----------
+    sample : xarray.Dataset
+        From `uncertainty`.
+
+    Returns
+    -------
+    xarray.Dataset
+        base [unit of the quantity] over quantity; range over (quantity, quantile); rank_correlation and probability [1]
+        (Spearman) over (quantity, parameter); trend_share [1] over trend: how many of the completed samples show it, and
+        trend_base whether the base values do. Attributes: completed, failed, refused: numbers of samples.
+    """
+    import xarray as xr
+    from scipy.stats import spearmanr
+
+    found = quantities(sample)
+    good = (sample.outcome == 0) & (sample.sample > 0)
+    result, values = found.result.values[good], sample.value.values[good]
+    ranks = np.full((found.sizes["quantity"], values.shape[1]), np.nan)
+    chance = ranks.copy()
+    if len(result) > 2:
+        for q in range(ranks.shape[0]):
+            for p in range(ranks.shape[1]):
+                ranks[q, p], chance[q, p] = spearmanr(values[:, p], result[:, q])
+    trends = {name: flags.values for name, flags in _trends(sample).items()}
+    shares = [float(flags[good].mean()) if good.any() else np.nan for flags in trends.values()]
+    quantile = np.quantile(result, QUANTILES, axis=0).T if len(result) else np.full((ranks.shape[0], 3), np.nan)
+
+    def of(outcome: int) -> int:
+        return int(((sample.outcome == outcome) & (sample.sample > 0)).sum())
+
+    return xr.Dataset(
+        {
+            "base": ("quantity", found.result.values[0], {"units": "1", "long_name": "with the base values"}),
+            "range": (("quantity", "quantile"), quantile, {"units": "1", "long_name": "quantiles over the samples"}),
+            "rank_correlation": (
+                ("quantity", "parameter"), ranks, {"units": "1", "long_name": "Spearman's rank correlation"}
+            ),
+            "probability": (
+                ("quantity", "parameter"), chance, {"units": "1", "long_name": "of such a rank correlation by chance"}
+            ),
+            "trend_share": ("trend", shares, {"units": "1", "long_name": "share of the samples that show the trend"}),
+            "trend_base": (
+                "trend", [int(flags[0]) for flags in trends.values()],
+                {"units": "1", "long_name": "whether the base values show it"},
+            ),
+        },
+        {"quantity": found.quantity, "units": found.units, "quantile": list(QUANTILES), "trend": list(trends),
+         "parameter": sample.parameter},
+        {"completed": of(0), "failed": of(1), "refused": of(2)},
+    )
+
+
+def _trends(sample: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Whether each sample shows what the paper states, as far as three cases can."""
+    names = sample.case.values.tolist()
+    first = names[0]
+    energy = sample.orbit_energy.sum("interface", skipna=False)
+    ratio = energy.sel(row="downwind") / energy.sel(row="upwind")
+    peak = sample.peak_power.sel(row="downwind") / sample.peak_power.sel(row="upwind")
+    cage = sample.orbit_energy.sel(interface="cage").sum("row") / energy.sum("row")
+    others = names[1:]
+    cases = ", ".join(names)
+    return {
+        f"energy highest in {first} of {cases}": (sample.window_energy.sel(case=first) > sample.window_energy.sel(case=others)).all("case"),
+        "downwind row spends more than the upwind row, every case": (ratio > 1.0).all("case"),
+        "energy ratio within a factor of 2 of 10, any case": ((ratio >= 10.0 / ABOUT) & (ratio <= 10.0 * ABOUT)).any("case"),
+        f"ratio of peak powers highest in {first}": (peak.sel(case=first) > peak.sel(case=others)).all("case"),
+        f"ratio of peak powers falls from case to case of {cases}": (peak.diff("case") < 0.0).all("case"),
+        "ratio of peak powers within a factor of 2 of 5, any case": ((peak >= 5.0 / ABOUT) & (peak <= 5.0 * ABOUT)).any("case"),
+        "cage takes at least half of the energy of both rows, any case": (cage >= DOMINANT).any("case"),
+    }
+
+
+def drivers(summary: xr.Dataset, quantity: str) -> list[tuple[str, float]]:
+    """Parameters whose rank correlation with a quantity is no chance, the strongest first, with its value."""
+    one = summary.sel(quantity=quantity)
+    order = np.argsort(-np.abs(one.rank_correlation.values))
+    return [
+        (str(one.parameter.values[k]), float(one.rank_correlation.values[k]))
+        for k in order if one.probability.values[k] < DRIVER_LEVEL
+    ]
+
+
+def told(value: float) -> str:
+    """A number with three digits, without a power of ten where one can do without."""
+    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+
+
+def uncertainty_line(summary: xr.Dataset) -> str:
+    """The sample in one line: its size, the first quantities' ranges, and how often the first trend holds."""
+    words = [
+        f"{name} {told(low)} to {told(high)}" + (f" {unit}" if unit != "1" else "") + f" (median {told(middle)})"
+        for name, unit, (low, middle, high) in zip(
+            summary.quantity.values, summary.units.values, summary.range.values, strict=True
+        )
+    ]
+    total = sum(summary.attrs[name] for name in ("completed", "failed", "refused"))
+    held = [f"{one}: {100.0 * share:.0f} %" for one, share in zip(summary.trend.values, summary.trend_share.values, strict=True)]
+    return (
+        f"Over the ranges of the estimated values ({summary.attrs['completed']} of {total} samples completed, "
+        f"{summary.attrs['failed']} failed, {summary.attrs['refused']} refused), 5 to 95 %: {'; '.join(words)}. "
+        f"Share of the samples that show it: {'; '.join(held)}."
+    )

@@ -1,0 +1,90 @@
+"""Friction torque of the whole bearing from a simulation of all its rollers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.errors import InputError
+from macroslip.study.run_input import run_input
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def computed_torque(result: xr.Dataset) -> xr.Dataset:
+    """Torque with which friction in the contacts and drag of the lubricant hold the shaft, at every time of the traces.
+
+        T = (Σ P + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
+
+    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without. It is
+    the torque a drive has to supply for what is dissipated at that moment. Kinetic energy of the rollers and the work
+    of their weight, whose mean over an orbit vanishes, are left out, and so is what the model does not have: resistance
+    of the oil squeezed at the contacts' inlets, churning beyond the rollers' drag, hysteresis of the steel, seals.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        From `macroslip.simulate`, of all rollers of both rows, with traces.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque
+        [N m] over (row, interface, time), drag_torque [N m] over time: what it consists of. NaN where the shaft stands
+        still, or from where a roller failed.
+
+    Raises
+    ------
+    InputError
+        If there are no traces, or rollers are missing.
+
+    Examples
+    --------
+    >>> from macroslip import BearingLoads, Case, Traces, simulate
+    >>> loads = BearingLoads.constant([0.0, -300e3, 100e3], 2.143, 2.0)
+    >>> torque = computed_torque(simulate(Case(loads=loads, traces=Traces(step=1.0))))
+    >>> print(f"{torque.drag_torque[-1]:.2f} N m of drag")
+    2.91 N m of drag
+    """
+    import xarray as xr
+
+    if "power" not in result or "time" not in result.power.dims or not result.sizes["time"]:
+        raise InputError("the result has no traces", where="friction torque",
+                         remedy="Give the case traces, such as traces: {step: 0.05 s}.")
+    bearing, models, _ = run_input(result)
+    missing = bearing.rollers_per_row - result.sizes["roller"]
+    if missing or len(models) < 2:
+        raise InputError(
+            f"{missing} rollers of each row are missing" if missing else "a row is missing",
+            where="friction torque", allowed="a result of all rollers of both rows",
+            remedy="Simulate with rollers: all.",
+        )
+    model = next(iter(models.values()))
+    # Every roller has the same speed in pure rolling; that of a failed one is NaN.
+    spin = np.nan_to_num(result.spin_pure.values.reshape(-1, result.sizes["time"]))
+    spin = spin[np.argmax(np.abs(spin).max(axis=1))]
+    orbital = -spin * model.radius / model.outer_radius
+    shaft = orbital / model.orbit_ratio
+    with np.errstate(divide="ignore"):
+        per_power = np.where(shaft != 0.0, 1.0 / np.abs(shaft), np.nan)
+    contacts = result.power.sum("roller", skipna=False).transpose("row", "interface", "time")
+    contacts = contacts.drop_vars("start_angle", errors="ignore") * per_power
+    drag_force = model.drag * orbital**2
+    drag = 2 * bearing.rollers_per_row * drag_force * bearing.pitch_radius * np.abs(orbital) * per_power
+
+    def put(values: object, units: str, long_name: str) -> tuple:
+        return "time", np.asarray(values), {"units": units, "long_name": long_name}
+
+    contacts.attrs = {"units": "N m", "long_name": "torque of the friction at the interface"}
+    return xr.Dataset(
+        {
+            "shaft_speed": put(shaft, "rad/s", "speed of the inner ring"),
+            "torque": put(contacts.sum(("row", "interface"), skipna=False) + drag, "N m",
+                          "friction torque of the bearing, against the rotation"),
+            "contact_torque": contacts,
+            "drag_torque": put(drag, "N m", "torque of the lubricant's drag on the rollers"),
+        },
+        attrs={"title": f"Friction torque: {result.attrs['title']}", "model": result.attrs["model"]},
+    )
