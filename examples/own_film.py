@@ -24,8 +24,8 @@ class DowsonHigginson(NamedTuple):
 def prepare(interface):
     """The numbers for an interface: plain Python, called once for each.
 
-    H = 2.65 U^0.7 G^0.54 W^-0.13 with H = h/R, U = eta0 u_e/(E' R), G = alpha_p E', W = w/(E' R). The elliptical contact
-    is taken as a line, w = 3Q/(4a), as the other film laws do.
+    H = 2.65 U^0.7 G^0.54 W^-0.13 with H = h/R, U = eta0 u_e/(E' R), G = alpha_p E', W = w/(E' R). The elliptical
+    contact is taken as a line, w = 3Q/(4a), as the other film laws do.
     """
     radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
     load_group = 0.75 / interface.hertz.semi_axis_across / (modulus * radius)

@@ -1,4 +1,4 @@
-"""Laws of one's own from a Python file that the user names: on the command line or in a program, never in a data file."""
+"""Laws of one's own from a Python file that the user names on the command line or in a program, never in a data file."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ def load_laws(path: str | PathLike[str]) -> OwnLaws:
     >>> load_laws("my_laws.py")
     Traceback (most recent call last):
         ...
-    macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). Allowed: a Python file \
-that registers film or traction laws, as docs/laws.md shows. Check its path, which starts at the current folder.
+    macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). Allowed: a Python \
+file that registers film or traction laws, as docs/laws.md shows. Check its path, which starts at the current folder.
     """
     from macroslip.film import law as film_law
     from macroslip.traction import law as traction_law
@@ -94,7 +94,8 @@ that registers film or traction laws, as docs/laws.md shows. Check its path, whi
 def _import(path: Path, name: str) -> None:
     """Run the file as a module; what goes wrong in it is told with its line."""
     loader = SourceFileLoader(name, str(path.resolve()))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_file_location(name, path.resolve(), loader=loader))
+    spec = importlib.util.spec_from_file_location(name, path.resolve(), loader=loader)
+    module = importlib.util.module_from_spec(spec)
     # Compiled kernels are stored with the names of the types in them, and look these up here.
     sys.modules[name] = module
     try:

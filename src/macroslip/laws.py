@@ -79,12 +79,12 @@ class Laws:
                 chosen = " and ".join(f"{name} ({_word(getattr(self, name))})" for name in void)
                 beside = ", ".join(f"{name}: {_written(_DEFAULTS[name])}" for name in void)
                 raise InputError(
-                    f"the traction law '{self.traction}' has no {chosen}, which stand beside it: a traction law of one's own "
-                    "takes the place of these mechanisms",
+                    f"the traction law '{self.traction}' has no {chosen}, which stand beside it: a traction law of one's "
+                    "own takes the place of these mechanisms",
                     where="laws.traction",
                     allowed=f"{MECHANISMS}, or a law of one's own without these",
-                    remedy=f"With your law, set model: paper and name the mechanisms you want to add to it, or keep the "
-                    f"model and set {beside}",
+                    remedy="With your law, set model: paper and name the mechanisms you want to add to it, or keep "
+                    f"the model and set {beside}",
                 )
 
     @classmethod
@@ -129,7 +129,8 @@ class Laws:
         best = None
         for model in MODELS:
             other = Laws.named(model)
-            off = [f"{one.name} {_word(getattr(self, one.name))}" for one in fields(self) if _differs(self, other, one.name)]
+            names = [one.name for one in fields(self) if getattr(self, one.name) != getattr(other, one.name)]
+            off = [f"{name} {_word(getattr(self, name))}" for name in names]
             if best is None or len(off) < len(best[1]):
                 best = model, off
         return best[0] + (f", but {', '.join(sorted(best[1]))}" if best[1] else "")
@@ -172,7 +173,3 @@ def _word(value: Any) -> str:
 
 def _written(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def _differs(one: Laws, other: Laws, name: str) -> bool:
-    return getattr(one, name) != getattr(other, name)

@@ -35,6 +35,7 @@ from macroslip.cli import app
 app(["init", "case.yaml"], standalone_mode=False)
 app(["run", "case.yaml", "-o", "case.nc", "--quiet"], standalone_mode=False)
 shutil.copy(sys.argv[1], "turbine.outb")
+shutil.copy(sys.argv[2], "own_film.py")
 """
 #: Runs each file given in a namespace of its own.
 RUNNER = "import runpy, sys\nfor path in sys.argv[1:]: runpy.run_path(path)"
@@ -56,7 +57,7 @@ def runs(tmp_path_factory):
     """Outcome of every example and of every page's code, run at once, each in a process and a folder of its own."""
     prepared = tmp_path_factory.mktemp("prepared")
     # First of all and alone: this also compiles the kernels.
-    assert (first := python("-c", PREPARATION, str(SAMPLE), folder=prepared)).returncode == 0, first.stderr
+    assert (first := python("-c", PREPARATION, str(SAMPLE), str(ROOT / "examples" / "own_film.py"), folder=prepared)).returncode == 0, first.stderr
 
     def run(path: Path) -> subprocess.CompletedProcess:
         folder = tmp_path_factory.mktemp(path.stem)
@@ -91,6 +92,19 @@ def test_numbers_that_the_model_page_quotes(runs):
     printed = runs[ROOT / "docs" / "model.md"].stdout
     assert re.findall(r"([\d.]+) of the load", printed) == ["0.06", "0.14", "3.30", "47.11"]
     assert re.findall(r"([\d.]+) W", printed) == ["8.7", "7.1"]
+
+
+NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+
+
+def test_the_physical_page_quotes_what_its_code_prints(runs):
+    page = ROOT / "docs" / "physical.md"
+    quoted = "".join(re.findall(r"^```text\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE))
+    printed = runs[page].stdout
+    assert re.sub(NUMBER, "#", quoted) == re.sub(NUMBER, "#", printed)
+    for old, new in zip(re.findall(NUMBER, quoted), re.findall(NUMBER, printed), strict=True):
+        last_digit = 10.0 ** -len(old.partition(".")[2])
+        assert float(new) == pytest.approx(float(old), rel=5e-3, abs=1.01 * last_digit)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -228,10 +242,11 @@ def test_results_page_names_what_reproduce_writes():
     assert missing + [name for name in figures if f"`{name}`" not in text and f"`figure_{name}`" not in text] == []
 
 
-def test_model_page_names_modules_that_exist():
+def test_pages_of_the_models_name_modules_that_exist():
     text = (ROOT / "docs" / "model.md").read_text(encoding="utf-8")
-    modules = re.findall(r"`((?!src/)[a-z_]+/[a-z_]*(?:\.py)?)`", text)
-    assert len(modules) > 15
+    text += (ROOT / "docs" / "physical.md").read_text(encoding="utf-8")
+    modules = re.findall(r"`((?!src/|tests/)[a-z_]+/[a-z_]*(?:\.py)?)`", text)
+    assert len(modules) > 25
     assert [name for name in modules if not (ROOT / "src" / "macroslip" / name).exists()] == []
 
 

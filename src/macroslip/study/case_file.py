@@ -190,7 +190,8 @@ class _Builder:
             except InputError as problem:
                 key = problem.what.partition(" ")[0]
                 written = self.data["drivetrain"][key]
-                lengths = {name: good.get(name, getattr(Drivetrain(), name)) for name in ("hub_to_bearing", "bearing_to_gearbox")}
+                names = "hub_to_bearing", "bearing_to_gearbox"
+                lengths = {name: good.get(name, getattr(Drivetrain(), name)) for name in names}
                 allowed = allowed_range(key, **lengths).text(CASE.keys["drivetrain"].keys[key].unit(written))
                 self.problems.append(place.inside(key).problem(f"it is {written}", allowed, "Check value and unit."))
                 # Where the shaft's mass may be depends on the lengths.
