@@ -60,8 +60,6 @@ that registers film or traction laws, as docs/laws.md shows. Check its path, whi
     from macroslip.film import law as film_law
     from macroslip.traction import law as traction_law
 
-    # This module registers the laws of the package, whose names are taken.
-    importlib.import_module("macroslip.roller.contacts")
     path = Path(path)
     try:
         text = path.read_bytes()

@@ -117,8 +117,15 @@ def told(tmp_path):
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1260 m\n  tilt: 50 deg\n  shaft_mass_station: 4 m\n",
             "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m. "
-            "Check value and unit. (2) case.yaml, line 4, drivetrain.tilt: it is 50 deg. Allowed: -0.3 to 0.3 "
-            "rad. Check value and unit.",
+            "Check value and unit. (2) case.yaml, line 4, drivetrain.tilt: it is 50 deg. Allowed: -17.1887 to 17.1887 "
+            "deg. Check value and unit.",
+        ),
+        (
+            LOADS + "drivetrain: {tilt: 5 rad, bearing_to_gearbox: 0mm, shaft_mass: -1 kg}\n",
+            "3 problems: (1) case.yaml, line 2, drivetrain.bearing_to_gearbox: it is 0mm. Allowed: above 0, up to 20000 "
+            "mm. Check value and unit. (2) case.yaml, line 2, drivetrain.tilt: it is 5 rad. Allowed: -0.3 to 0.3 rad. "
+            "Check value and unit. (3) case.yaml, line 2, drivetrain.shaft_mass: it is -1 kg. Allowed: 0 to 1e6 kg. "
+            "Check value and unit.",
         ),
         (
             LOADS + "drivetrain:\n  shaft_mass_station: 4 m\n",

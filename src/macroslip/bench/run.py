@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -63,7 +64,7 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
     times of the thread measurement are the exception.
     """
     try:
-        from matplotlib.figure import Figure  # noqa: F401  told now, not after minutes of measuring
+        import_module("matplotlib.figure")  # told now, not after minutes of measuring
     except ImportError:
         what = "matplotlib, which draws the diagram, is not installed"
         raise InputError(what, remedy=f"{INSTALL} brings it.") from None

@@ -11,6 +11,7 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from typing import Any
 
 from macroslip.campaign.crew import Done
@@ -34,8 +35,8 @@ _LOOK = 1.0
 def check_installed() -> None:
     """Tell how to install what a cluster needs."""
     try:
-        import cryptography  # noqa: F401
-        import distributed  # noqa: F401
+        for name in ("cryptography", "distributed"):
+            import_module(name)
     except ImportError as error:
         remedy = "pip install 'macroslip[cluster]', or leave out --workers and --scheduler."
         raise MacroslipError(f"workers need {error.name}, which is not installed: {remedy}") from None

@@ -8,6 +8,7 @@ feel.
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -77,7 +78,7 @@ def counted(loads: BearingLoads) -> xr.Dataset:
 def check_installed() -> None:
     """Tell how to install what counts cycles, before anything is computed that needs it."""
     try:
-        import fatpack  # noqa: F401
+        import_module("fatpack")
     except ImportError:
         remedy = "pip install 'macroslip[cycles]', or leave `cycles` out of the study."
         raise MacroslipError(f"counting cycles needs fatpack, which is not installed: {remedy}") from None

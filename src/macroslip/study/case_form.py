@@ -98,6 +98,10 @@ class Quantity:
             raise place.problem(f"{shown(value)} is too large for a number", self.form)
         return si_value
 
+    def unit(self, value: str) -> str:
+        """Unit of a text that `read` has accepted."""
+        return re.sub(rf"^\s*{_NUMBER}\s*", "", value).strip()
+
     def schema(self) -> dict[str, Any]:
         """Text of the form number and unit, or a word."""
         units = "|".join(re.escape(unit).replace("\\ ", " ") for unit in self.dimension.units)

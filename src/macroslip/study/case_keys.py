@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-
 from macroslip.catalogue.units import ANGLE, FORCE, LENGTH, MASS, MOMENT, SPEED, TIME
 from macroslip.laws import MECHANISMS, MODELS, asperity_laws, rheologies, viscosities
 from macroslip.loads import bundled_cases
@@ -19,8 +17,6 @@ _OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
 def _film_laws() -> list[str]:
     from macroslip.film import law
 
-    # This module registers the laws of the package.
-    import_module("macroslip.roller.contacts")
     return law.names()
 
 
