@@ -187,6 +187,13 @@ def test_a_turn_under_downward_load(downward):
     assert downward.spin_speed.max() <= 1.0001 * downward.spin_speed_pure.max()
 
 
+def test_a_turn_with_microslip(varying, downward):
+    turn = static_turn(varying, "downwind", thrust=False, laws=Laws.physical())
+    assert turn.attrs["energy_from_traces_J"] == pytest.approx(turn.attrs["energy_J"], rel=1e-4)
+    assert turn.attrs["energy_J"] > 10.0 * downward.attrs["energy_J"]
+    np.testing.assert_allclose(turn.roller_load, downward.roller_load, rtol=1e-9)
+
+
 def test_a_turn_needs_a_whole_turn(varying):
     with pytest.raises(InputError, match="no whole turn"):
         trace_turn(varying, "downwind", 0, 599.9)
@@ -250,6 +257,18 @@ def table():
     return sensitivity(Case(loads=HubLoads.bundled("14B"), **SMALL), VARIATIONS[:2])
 
 
+def fewer_turns(result, laws, threads, report):
+    """One turn in the place of all, traced at samples 18 times as far apart as others are."""
+    from unittest.mock import patch
+
+    with patch.object(single_roller, "_FINE", 2):
+        turn = static_turn(model_run.varying_load(), "downwind", thrust=False, laws=laws)
+    titles = [f"static: {name}, {row}" for name in model_run.STATIC_LOADS for row in ("downwind", "upwind")]
+    titles += [f"{figure}: {row} row" for figure in ("typical", "peak") for row in ("downwind", "upwind")]
+    report(1, 1)
+    return dict.fromkeys(titles, turn)
+
+
 def only(monkeypatch, **models):
     for place in (model_run, module):
         monkeypatch.setattr(place, "MODELS", models)
@@ -262,7 +281,7 @@ def quick(monkeypatch, study, table, experiments):
     monkeypatch.setattr(model_run, "run_study", lambda **options: study)
     short = {"window": SMALL["window"]}
     monkeypatch.setattr(model_run, "simulate", lambda case, threads: simulate(dataclasses.replace(case, **short)))
-    monkeypatch.setattr(model_run, "sensitivity", lambda case, **options: table)
+    monkeypatch.setattr(model_run, "sensitivity", lambda *arguments, **options: table)
     monkeypatch.setattr(module, "_experiments", lambda *arguments: experiments)
     return partial(module.reproduce, threads=1)
 
@@ -316,8 +335,7 @@ def test_everything_is_written_says_the_same_and_is_used_again(quick, study, mon
 
 def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study, monkeypatch, tmp_path):
     inside = run_study(["12C", "14A", "14B"], laws=Laws.physical(), **SMALL)
-    # Turns are traced at samples 18 times as far apart.
-    monkeypatch.setattr(single_roller, "_FINE", 2)
+    monkeypatch.setattr(model_run, "_turns", fewer_turns)
     only(monkeypatch, paper=Model(laws=Laws.paper()), physical=Model(laws=Laws.physical(), sensitivity_end=30.0))
     monkeypatch.setattr(model_run, "run_study", lambda laws, **options: study if laws == Laws.paper() else inside)
     small = {"samples": 2, "cases": ("12B", "24B"), "rollers": (0,), "end": 14.0}
@@ -325,7 +343,7 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study,
     calls = []
     summary = quick(tmp_path / "results", progress=lambda *call: calls.append(call))
     assert len(summary["headline"]) == 10
-    assert {label for label, _, _ in calls} == set(module.stages())
+    assert {label for label, _, _ in calls} == set(module.stages()) - {"experiments"}
     first, rows, *_, euler = (one["models"] for one in summary["statements"])
     assert "microslip" in first["physical"]["because"]
     assert "microslip" not in first["paper"]["because"]
@@ -355,6 +373,7 @@ def test_every_fourth_roller_stands_for_the_row():
 
 
 def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
+    monkeypatch.setattr(model_run, "_turns", fewer_turns)
     monkeypatch.setattr(model_run, "run_study", lambda **options: with_failed_roller(study))
     monkeypatch.setattr(module, "_save", lambda *arguments: None)
     summary = quick(tmp_path / "results")
@@ -369,6 +388,7 @@ def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
 def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(quick, monkeypatch, tmp_path, exists):
     from macroslip.report import paper_figures
 
+    monkeypatch.setattr(model_run, "_turns", fewer_turns)
     target = tmp_path / "results"
     if exists:
         target.mkdir()

@@ -87,7 +87,7 @@ def plotted(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset])
         numbers["roller_spread"] = result[["energy"]].to_dict(data="list")
         numbers["outside_film_range"] = result[["outside_film_range"]].to_dict(data="list")
         numbers["sensitivity"] = run.sensitivity.to_dict(data="list")
-        numbers["friction_torque"] = run.profile["torque"].mean("time").to_dict(data="list")
+        numbers["friction_torque"] = run.profile["torque"].mean("time", keep_attrs=True).to_dict(data="list")
         if knows_mechanisms(run.study):
             numbers["mechanisms"] = dissipation(run.study).to_dict(data="list")
         if run.uncertainty is not None:
