@@ -96,7 +96,7 @@ def mechanisms_figure(parts: xr.Dataset) -> Figure:
     figure, axes = new_figure(8.6, 3.9, 1, 3)
     for one, row in zip(axes, ("downwind", "upwind"), strict=False):
         plot_parts(one, parts.part_energy, row)
-    plot_stations(axes[2], parts.station_energy, "downwind", _shown(parts))
+    plot_stations(axes[2], parts.station_energy, "downwind", shown(parts))
     axes[2].legend(frameon=False, fontsize=7, loc="upper center", ncols=2)
     axes[2].margins(y=0.35)
     axes[2].set_ylim(bottom=0.0)
@@ -116,7 +116,7 @@ def models_figure(numbers: Mapping[str, xr.Dataset]) -> Figure:
     return figure
 
 
-def _shown(parts: xr.Dataset) -> tuple[str, ...]:
+def shown(parts: xr.Dataset) -> tuple[str, ...]:
     """A case of the lowest, the middle and the highest wind speed, of turbulence B where there is one."""
     speeds = np.unique(parts.wind_speed.values)
     chosen = dict.fromkeys(float(speeds[k]) for k in (0, speeds.size // 2, -1))

@@ -63,7 +63,7 @@ def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
     axes.set_yticks([])
     axes.set_xlim(-0.6, rank.shape[1] - 0.4)
     axes.set_ylim(-0.6, rank.shape[0] - 0.4)
-    return finish(axes, "", "", "rank correlation with")
+    return finish(axes, "varied value", "", "rank correlation")
 
 
 def uncertainty_figure(summary: xr.Dataset) -> Figure:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 #: Size of the sample, a power of two as Sobol's sequence asks for, and the seed of its scrambling.
 SAMPLES, SEED = 64, 20240613
 #: Cases that stand for the study, the rollers of each row that stand for the row, and the end of the window [s].
-CASES, ROLLERS, END = ("12B", "18B", "24B"), (0, 14), 150.0
+CASES, ROLLERS, END = ("12B", "18B", "24B"), (0,), 200.0
 #: Meaning of the variable `outcome`.
 OUTCOMES = ("completed", "a roller failed", "refused")
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.study.verdicts import ABOUT, DOMINANT
+from macroslip.study.verdicts import ABOUT, DOMINANT, Statement
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,7 +83,9 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
     if len(result) > 2:
         for q in range(ranks.shape[0]):
             for p in range(ranks.shape[1]):
-                ranks[q, p], chance[q, p] = spearmanr(values[:, p], result[:, q])
+                # What does not change has no rank.
+                if np.ptp(result[:, q]) > 0.0 and np.ptp(values[:, p]) > 0.0:
+                    ranks[q, p], chance[q, p] = spearmanr(values[:, p], result[:, q])
     trends = {name: flags.values for name, flags in _trends(sample).items()}
     shares = [float(flags[good].mean()) if good.any() else np.nan for flags in trends.values()]
     quantile = np.quantile(result, QUANTILES, axis=0).T if len(result) else np.full((ranks.shape[0], 3), np.nan)
@@ -148,18 +151,39 @@ def told(value: float) -> str:
     return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
 
 
-def uncertainty_line(summary: xr.Dataset) -> str:
-    """The sample in one line: its size, the first quantities' ranges, and how often the first trend holds."""
-    words = [
-        f"{name} {told(low)} to {told(high)}" + (f" {unit}" if unit != "1" else "") + f" (median {told(middle)})"
-        for name, unit, (low, middle, high) in zip(
-            summary.quantity.values, summary.units.values, summary.range.values, strict=True
-        )
+def sample_size(summary: xr.Dataset) -> str:
+    """How many samples there are and what became of them, in words."""
+    completed, failed, refused = (summary.attrs[name] for name in ("completed", "failed", "refused"))
+    return f"{completed} of {completed + failed + refused} samples completed, {failed} failed, {refused} were refused"
+
+
+def with_uncertainty(statements: list[Statement], summary: xr.Dataset) -> list[Statement]:
+    """The statements on energy and peak power over wind speed and between rows, with what the sample says of them.
+
+    Parameters
+    ----------
+    statements : list of Statement
+        In the order of `macroslip.study.model_run.statements`.
+    summary : xarray.Dataset
+        From `uncertainty_summary`.
+    """
+    shares = dict(zip(summary.trend.values.tolist(), summary.trend_share.values.tolist(), strict=True))
+
+    def held(trend: str) -> str:
+        return f"{100.0 * next(share for name, share in shares.items() if name.startswith(trend)):.0f} %"
+
+    def reach(quantity: str) -> str:
+        rows = [k for k, name in enumerate(summary.quantity.values.tolist()) if name.startswith(quantity)]
+        ends = summary.range.isel(quantity=rows)
+        return f"{told(float(ends.sel(quantile=QUANTILES[0]).min()))} to {told(float(ends.sel(quantile=QUANTILES[-1]).max()))}"
+
+    words = {
+        0: f"with the estimated values anywhere in their ranges, {held('energy highest')} of the samples agree on the "
+        "lowest wind speed",
+        1: f"{reach('energy, downwind / upwind')} times with the estimated values anywhere in their ranges",
+        3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most at the "
+        f"lowest wind speed in {held('ratio of peak powers highest')} of the samples",
+    }
+    return [
+        replace(one, found=f"{one.found}; {words[k]}") if k in words else one for k, one in enumerate(statements)
     ]
-    total = sum(summary.attrs[name] for name in ("completed", "failed", "refused"))
-    held = [f"{one}: {100.0 * share:.0f} %" for one, share in zip(summary.trend.values, summary.trend_share.values, strict=True)]
-    return (
-        f"Over the ranges of the estimated values ({summary.attrs['completed']} of {total} samples completed, "
-        f"{summary.attrs['failed']} failed, {summary.attrs['refused']} refused), 5 to 95 %: {'; '.join(words)}. "
-        f"Share of the samples that show it: {'; '.join(held)}."
-    )
