@@ -124,8 +124,9 @@ def campaign(tmp_path, slow_content):
 
         def _run(self, address, options):
             try:
-                self.ended = run_campaign(study_of(slow_content, tmp_path), self.out, scheduler=address,
-                                          progress=self._take, **options)
+                self.ended = run_campaign(
+                    study_of(slow_content, tmp_path), self.out, scheduler=address, progress=self._take, **options
+                )
             except BaseException as error:
                 self.error = error
 
@@ -219,7 +220,9 @@ class Client:
         return {f"worker{number}": 1 for number in range(self._threads)}
 
 
-@pytest.mark.parametrize(("threads", "seconds", "bundle"), [(2, 1.0, 1), (1000, 1.0, 10), (2, 1e-3, 20), (1000, 60.0, 1)])
+@pytest.mark.parametrize(
+    ("threads", "seconds", "bundle"), [(2, 1.0, 1), (1000, 1.0, 10), (2, 1e-3, 20), (1000, 60.0, 1)]
+)
 def test_short_runs_travel_together_so_that_the_scheduler_keeps_up(threads, seconds, bundle):
     from macroslip.campaign.cluster import Dask
 

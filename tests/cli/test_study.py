@@ -54,7 +54,9 @@ def test_dry_run_counts_and_estimates_and_writes_nothing(study, macroslip):
 
 
 def test_the_estimate_of_the_disk_is_right(folder, macroslip):
-    (folder / "study.yaml").write_text("loads: {bundled: [14A, 14B, 14C]}\ncase: {rollers: [0, 5], loads: {end: 300 s}}\n")
+    (folder / "study.yaml").write_text(
+        "loads: {bundled: [14A, 14B, 14C]}\ncase: {rollers: [0, 5], loads: {end: 300 s}}\n"
+    )
     done = macroslip("study", "study.yaml", "--dry-run")
     estimated = float(re.search(r"^disk +([\d.]+) kB", done.out, re.MULTILINE)[1])
     macroslip("study", "study.yaml", "-o", "out")

@@ -6,6 +6,7 @@ bounded memory. Where cases are short and workers many, several runs travel toge
 
 from __future__ import annotations
 
+import importlib.util
 import logging
 import math
 import time
@@ -33,12 +34,10 @@ _LOOK = 1.0
 
 def check_installed() -> None:
     """Tell how to install what a cluster needs."""
-    try:
-        import cryptography  # noqa: F401
-        import distributed  # noqa: F401
-    except ImportError as error:
+    missing = [name for name in ("distributed", "cryptography") if importlib.util.find_spec(name) is None]
+    if missing:
         remedy = "pip install 'macroslip[cluster]', or leave out --workers and --scheduler."
-        raise MacroslipError(f"workers need {error.name}, which is not installed: {remedy}") from None
+        raise MacroslipError(f"workers need {' and '.join(missing)}, not installed here: {remedy}")
 
 
 @contextmanager
@@ -165,7 +164,9 @@ class Dask:
         if future.status != "error":
             raise MacroslipError("the scheduler is gone. Nothing that was reported done is lost; go on with --resume.")
         if not isinstance(error, KilledWorker):
-            raise MacroslipError(f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?")
+            raise MacroslipError(
+                f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?"
+            )
         if len(tasks) > 1:  # one of them is to blame
             for task in tasks:
                 self._send([task])

@@ -1,13 +1,14 @@
 """Cycles of the load on the main bearing, counted by the rainflow method.
 
 Raceways and rollers meet a load cycle at every pass, whatever the turbine does; what rainflow adds are the slow cycles
-of the bearing's load as a whole. Two are counted. Cycles of the axial load move load from one row of rollers to the other
-and back, and a row that is unloaded is a row that slips. Cycles of the radial load are what housing, shaft and ring seats
-feel.
+of the bearing's load as a whole. Two are counted. Cycles of the axial load move load from one row of rollers to the
+other and back, and a row that is unloaded is a row that slips. Cycles of the radial load are what housing, shaft and
+ring seats feel.
 """
 
 from __future__ import annotations
 
+import importlib.util
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -66,21 +67,29 @@ def counted(loads: BearingLoads) -> xr.Dataset:
     counts = np.array([_histogram(from_shaft[name]) for name in COMPONENTS])
     middle = np.sqrt(RANGE_EDGES[1:] * RANGE_EDGES[:-1])
     return xr.Dataset(
-        {"load_cycles": (("component", "load_range"), counts, {"units": "1", "long_name": "cycles of the bearing's load"})},
+        {
+            "load_cycles": (
+                ("component", "load_range"),
+                counts,
+                {"units": "1", "long_name": "cycles of the bearing's load"},
+            )
+        },
         {
             "component": list(COMPONENTS),
-            "load_range": ("load_range", middle, {"units": "N", "long_name": "range of the cycle, middle of its class"}),
+            "load_range": (
+                "load_range",
+                middle,
+                {"units": "N", "long_name": "range of the cycle, middle of its class"},
+            ),
         },
     )
 
 
 def check_installed() -> None:
     """Tell how to install what counts cycles, before anything is computed that needs it."""
-    try:
-        import fatpack  # noqa: F401
-    except ImportError:
+    if importlib.util.find_spec("fatpack") is None:
         remedy = "pip install 'macroslip[cycles]', or leave `cycles` out of the study."
-        raise MacroslipError(f"counting cycles needs fatpack, which is not installed: {remedy}") from None
+        raise MacroslipError(f"counting cycles needs fatpack, which is not installed: {remedy}")
 
 
 def _histogram(series: np.ndarray) -> np.ndarray:

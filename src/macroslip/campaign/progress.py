@@ -71,7 +71,8 @@ class Progress:
         """Everything in one line."""
         left = self.time_left
         return (
-            f"{self.done} of {self.total} done ({self.computed} computed, {self.unchanged} unchanged, {self.failed} failed), "
+            f"{self.done} of {self.total} done "
+            f"({self.computed} computed, {self.unchanged} unchanged, {self.failed} failed), "
             f"{self.rate:.3g} a second, {'-' if left is None else duration(left)} left"
         )
 
