@@ -123,32 +123,45 @@ def peak_memory(code: str) -> dict:
 
 
 MEMORY = """
-import json, resource, sys, tempfile
+import json, os, sys, tempfile
 sys.path.insert(0, ".")
-from campaign import study
+from campaign import high_water, study
 from macroslip import run_campaign
 
 if __name__ == "__main__":
-    peaks = []
+    import psutil
+
+    peaks, workers = [], [0]
+
     def look(progress):
-        peaks.append(1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
+        peaks.append(high_water(os.getpid()))
+        if len(peaks) % 20 == 0:
+            workers.append(max([high_water(child.pid) for child in psutil.Process().children(recursive=True)], default=0))
+
     with tempfile.TemporaryDirectory() as folder:
         ended = run_campaign(study({count}, {seconds}, {rollers}), folder + "/out", progress=look, **{options})
-    children = 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-    n = len(peaks)
-    print(json.dumps({{"runs": ended.progress.computed, "seconds": ended.progress.seconds, 
-                      "first_tenth": peaks[max(n // 10 - 1, 0)], "last": peaks[-1], "largest_worker": children}}))
+    print(json.dumps({"runs": ended.progress.computed, "seconds": ended.progress.seconds,
+                      "after_a_tenth": peaks[max(len(peaks) // 10 - 1, 0)], "at_the_end": peaks[-1],
+                      "largest_worker": max(workers)}))
 """
+
+
+def high_water(process: int) -> int:
+    """Peak resident memory of a process [bytes], which unlike that of getrusage knows nothing of its parent."""
+    try:
+        lines = Path(f"/proc/{process}/status").read_text(encoding="utf-8").splitlines()
+    except OSError:  # it has ended
+        return 0
+    return next((1024 * int(line.split()[1]) for line in lines if line.startswith("VmHWM")), 0)
 
 
 def memory(quick: bool) -> dict[str, dict]:
     """Peak memory after a tenth of a campaign and at its end: 3,000 short cases, and ten-minute ones."""
     count, long = (400, 20) if quick else (3000, 60)
-    code = MEMORY.replace("{{", "{").replace("}}", "}")
 
     def measured(runs: int, seconds: float | None, rollers: object, options: dict) -> dict:
         text = (
-            code.replace("{count}", str(runs)).replace("{seconds}", repr(seconds)).replace("{rollers}", repr(rollers))
+            MEMORY.replace("{count}", str(runs)).replace("{seconds}", repr(seconds)).replace("{rollers}", repr(rollers))
         )
         return peak_memory(text.replace("{options}", repr(options)))
 

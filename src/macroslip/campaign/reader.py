@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import uuid
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
@@ -143,7 +144,7 @@ def _details(
     cases = [
         _Result(stored[n]["key"], stored[n]["detail"], numbers[n]) if n in stored else None for n in range(len(found))
     ]
-    shared = _Shared(directory, tuple(cases), rollers, sizes)
+    shared = _Shared(uuid.uuid4().hex, directory, tuple(cases), rollers, sizes)
     variables, coordinates = {}, {}
     for name, one in {name: one for example in examples for name, one in example.variables.items()}.items():
         is_coordinate = any(name in example.coords for example in examples)
@@ -170,6 +171,7 @@ def _rollers(layout: Mapping[str, Any]) -> tuple[int, ...]:
 class _Shared:
     """What all variables of a study have in common."""
 
+    opened: str
     directory: Path
     cases: tuple[_Result | None, ...]
     rollers: tuple[int, ...]
@@ -199,7 +201,7 @@ class _Stacked(BackendArray):
         whole = np.full(self.shape[1:], np.nan)
         result = self._shared.cases[number]
         if result is not None:
-            variables = _read(self._shared.directory, result.key, result.checksum).variables
+            variables = _read(self._shared.opened, self._shared.directory, result.key, result.checksum).variables
             if self._name in variables:
                 values = variables[self._name].transpose(*self._dims).values
                 places = [
@@ -217,6 +219,6 @@ class _Stacked(BackendArray):
 
 
 @functools.lru_cache(maxsize=8)
-def _read(directory: Path, key: str, checksum: str) -> xr.Dataset:
-    """A result; the last few are kept, because several variables of a case are often wanted one after the other."""
+def _read(opened: str, directory: Path, key: str, checksum: str) -> xr.Dataset:
+    """A result; the last few of an opened study are kept: several variables of a case are often wanted in turn."""
     return read_result(directory, key, checksum)
