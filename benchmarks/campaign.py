@@ -136,7 +136,8 @@ if __name__ == "__main__":
     def look(progress):
         peaks.append(high_water(os.getpid()))
         if len(peaks) % 20 == 0:
-            workers.append(max([high_water(child.pid) for child in psutil.Process().children(recursive=True)], default=0))
+            workers.append(max([high_water(child.pid) for child in psutil.Process().children(recursive=True)],
+            default=0))
 
     with tempfile.TemporaryDirectory() as folder:
         ended = run_campaign(study({count}, {seconds}, {rollers}), folder + "/out", progress=look, **{options})

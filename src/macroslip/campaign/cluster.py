@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import logging
 import math
+import signal
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -82,6 +83,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
                 ) as local,
                 Client(local) as client,
             ):
+                client.register_plugin(_ignore_interrupts())
                 yield Dask(client, note)
             return
         try:
@@ -91,6 +93,17 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
             raise InputError(f"no scheduler answers at '{scheduler}' ({error})", remedy=remedy) from None
         with client:
             yield Dask(client, note)
+
+
+def _ignore_interrupts() -> Any:
+    """Have workers leave Ctrl-C, which the terminal sends to all processes, to the one that started them."""
+    from distributed import WorkerPlugin
+
+    class IgnoreInterrupts(WorkerPlugin):
+        def setup(self, worker: Any) -> None:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    return IgnoreInterrupts()
 
 
 def threads_of_worker(workers: int | None) -> int:

@@ -67,6 +67,13 @@ class Progress:
             self._marks.append((now, self.done))
 
     @property
+    def short(self) -> str:
+        """What fits beside a bar."""
+        left = self.time_left
+        rest = "-" if left is None else duration(left)
+        return f"{self.done} of {self.total}, {self.failed} failed, {self.rate:.3g} a second, {rest} left"
+
+    @property
     def line(self) -> str:
         """Everything in one line."""
         left = self.time_left

@@ -138,10 +138,10 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
 
         yield line
         return
-    with Bar(BarColumn(), TextColumn("{task.description}"), console=console, transient=True) as bar:
+    with Bar(BarColumn(20), TextColumn("{task.description}"), console=console, transient=True) as bar:
         task = bar.add_task("beginning (the first run of all compiles)", total=None)
         yield lambda progress: bar.update(
-            task, description=progress.line, total=progress.total, completed=progress.done
+            task, description=progress.short, total=progress.total, completed=progress.done
         )
 
 
