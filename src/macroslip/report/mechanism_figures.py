@@ -59,7 +59,9 @@ def plot_stations(axes: Axes, along: xr.DataArray, row: str, cases: tuple[str, .
     return finish(axes, "place along the roller [mm]", "energy per orbit and length [J/m]", f"{row} row")
 
 
-def plot_models(axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, label: str, row: str | None = None) -> Axes:
+def plot_models(
+    axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, label: str, row: str | None = None
+) -> Axes:
     """One quantity of figure 4 or 5 under every model over mean wind speed, mean and range of the turbulence classes.
 
     Parameters
@@ -85,8 +87,9 @@ def plot_models(axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, la
                 key: ROW[which][key] for key in ("color", "marker")
             }
             name = model if len(rows) == 1 else f"{model}, {which}"
-            axes.plot(mean.wind_speed.values, mean.values, linestyle=line, markersize=4, label=name, **style)
-            axes.fill_between(mean.wind_speed.values, low.values, high.values, alpha=0.15, linewidth=0.0, color=style["color"])
+            speeds = mean.wind_speed.values
+            axes.plot(speeds, mean.values, linestyle=line, markersize=4, label=name, **style)
+            axes.fill_between(speeds, low.values, high.values, alpha=0.15, linewidth=0.0, color=style["color"])
     axes.set_xticks(mean.wind_speed.values)
     return finish(axes, "mean wind speed [m/s]", label)
 

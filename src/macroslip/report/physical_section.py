@@ -62,8 +62,10 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
             for row in run.study.row.values.tolist()
         ]
         shown.append(
-            picture(lambda axes, parts=parts: draw.plot_stations(axes, parts.station_energy, "downwind", draw.shown(parts)),
-                    "Energy along the roller, downwind row", legend="below", height=4.2)
+            picture(
+                lambda axes, parts=parts: draw.plot_stations(axes, parts.station_energy, "downwind", draw.shown(parts)),
+                "Energy along the roller, downwind row", legend="below", height=4.2,
+            )
         )
         blocks += [
             Pictures(tuple(shown), f"Energy per orbit of a mean roller under {name}, by what makes the surfaces slide."),
@@ -95,7 +97,8 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
         cells = (told(float(value)) for value in (one.base, *one.range.sel(quantile=[0.5, 0.05, 0.95]).values))
         rows.append((f"{quantity}{unit}", *cells, named or "none"))
     trends = tuple(
-        f"{trend[0].upper()}{trend[1:]}: {100.0 * float(share):.0f} % of the samples; base values: {'yes' if base else 'no'}."
+        f"{trend[0].upper()}{trend[1:]}: {100.0 * float(share):.0f} % of the samples; "
+        f"base values: {'yes' if base else 'no'}."
         for trend, share, base in zip(
             summary.trend.values.tolist(), summary.trend_share.values, summary.trend_base.values, strict=True
         )
@@ -106,8 +109,8 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
     )
     return [
         Paragraph(
-            f"Model {name}: all values below drawn together from their ranges, evenly, by a scrambled Sobol sequence with a "
-            f"fixed seed; cases {', '.join(sample.case.values.tolist())}. {sample_size(summary)}."
+            f"Model {name}: all values below drawn together from their ranges, evenly, by a scrambled Sobol sequence "
+            f"with a fixed seed; cases {', '.join(sample.case.values.tolist())}. {sample_size(summary)}."
         ),
         Pictures(
             (
@@ -135,9 +138,10 @@ def _torque(runs: Mapping[str, ModelRun]) -> Section:
     )
     blocks: tuple[Block, ...] = (
         Paragraph(
-            "Friction torque of the whole bearing in case 14B: dissipated power and drag of all 56 rollers over shaft speed, "
-            "beside handbook estimates. The models have no rolling resistance of the oil at the contacts' inlets, which is "
-            "most of SKF's torque, and no churning beyond drag; SKF's sliding part is what to compare microslip with."
+            "Friction torque of the whole bearing in case 14B: dissipated power and drag of all 56 rollers over shaft "
+            "speed, beside handbook estimates. The models have no rolling resistance of the oil at the contacts' inlets, "
+            "which is most of SKF's torque, and no churning beyond drag; SKF's sliding part is what to compare microslip "
+            "with."
         ),
         Pictures(
             (picture(lambda axes: plot_torque(axes, histories, start, end), "Friction torque over time", legend="below",

@@ -43,7 +43,8 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
     found: dict[str, tuple[xr.DataArray, str]] = {}
     for name in (first, last):
         found[f"energy per orbit, downwind, {name}"] = down.sel(case=name), "J"
-    found[f"energy in {first} / {last}"] = sample.window_energy.sel(case=first) / sample.window_energy.sel(case=last), "1"
+    window = sample.window_energy
+    found[f"energy in {first} / {last}"] = window.sel(case=first) / window.sel(case=last), "1"
     for name in names:
         found[f"energy, downwind / upwind, {name}"] = (down / up).sel(case=name), "1"
     found[f"share of the inner raceway, downwind, {first}"] = inner.sel(case=first), "1"
@@ -52,8 +53,8 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
     found[f"friction torque of the contacts, {first}"] = sample.torque.sel(case=first), "N m"
     values = np.stack([one.values for one, _ in found.values()], axis=1)
     return xr.Dataset(
-        {"result": (("sample", "quantity"), values, {"units": "1", "long_name": "result, in the unit of its quantity"})},
-        {"sample": sample.sample, "quantity": list(found), "units": ("quantity", [unit for _, unit in found.values()])},
+        {"result": (("sample", "quantity"), values, {"units": "1", "long_name": "result, in its quantity's unit"})},
+        {"sample": sample.sample, "quantity": list(found), "units": ("quantity", [one for _, one in found.values()])},
     )
 
 
@@ -123,15 +124,18 @@ def _trends(sample: xr.Dataset) -> dict[str, xr.DataArray]:
     ratio = energy.sel(row="downwind") / energy.sel(row="upwind")
     peak = sample.peak_power.sel(row="downwind") / sample.peak_power.sel(row="upwind")
     cage = sample.orbit_energy.sel(interface="cage").sum("row") / energy.sum("row")
-    others = names[1:]
-    cases = ", ".join(names)
+    others, cases, window = names[1:], ", ".join(names), sample.window_energy
+
+    def about(values: xr.DataArray, stated: float) -> xr.DataArray:
+        return ((values >= stated / ABOUT) & (values <= stated * ABOUT)).any("case")
+
     return {
-        f"energy highest in {first} of {cases}": (sample.window_energy.sel(case=first) > sample.window_energy.sel(case=others)).all("case"),
+        f"energy highest in {first} of {cases}": (window.sel(case=first) > window.sel(case=others)).all("case"),
         "downwind row spends more than the upwind row, every case": (ratio > 1.0).all("case"),
-        "energy ratio within a factor of 2 of 10, any case": ((ratio >= 10.0 / ABOUT) & (ratio <= 10.0 * ABOUT)).any("case"),
+        "energy ratio within a factor of 2 of 10, any case": about(ratio, 10.0),
         f"ratio of peak powers highest in {first}": (peak.sel(case=first) > peak.sel(case=others)).all("case"),
         f"ratio of peak powers falls from case to case of {cases}": (peak.diff("case") < 0.0).all("case"),
-        "ratio of peak powers within a factor of 2 of 5, any case": ((peak >= 5.0 / ABOUT) & (peak <= 5.0 * ABOUT)).any("case"),
+        "ratio of peak powers within a factor of 2 of 5, any case": about(peak, 5.0),
         "cage takes at least half of the energy of both rows, any case": (cage >= DOMINANT).any("case"),
     }
 
@@ -175,14 +179,15 @@ def with_uncertainty(statements: list[Statement], summary: xr.Dataset) -> list[S
     def reach(quantity: str) -> str:
         rows = [k for k, name in enumerate(summary.quantity.values.tolist()) if name.startswith(quantity)]
         ends = summary.range.isel(quantity=rows)
-        return f"{told(float(ends.sel(quantile=QUANTILES[0]).min()))} to {told(float(ends.sel(quantile=QUANTILES[-1]).max()))}"
+        low, high = float(ends.isel(quantile=0).min()), float(ends.isel(quantile=-1).max())
+        return f"{told(low)} to {told(high)}"
 
     words = {
         0: f"with the estimated values anywhere in their ranges, {held('energy highest')} of the samples agree on the "
         "lowest wind speed",
         1: f"{reach('energy, downwind / upwind')} times with the estimated values anywhere in their ranges",
-        3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most at the "
-        f"lowest wind speed in {held('ratio of peak powers highest')} of the samples",
+        3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most at "
+        f"the lowest wind speed in {held('ratio of peak powers highest')} of the samples",
     }
     return [
         replace(one, found=f"{one.found}; {words[k]}") if k in words else one for k, one in enumerate(statements)

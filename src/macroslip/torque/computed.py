@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def computed_torque(result: xr.Dataset) -> xr.Dataset:
-    """Torque with which friction in the contacts and drag of the lubricant hold the shaft, at every time of the traces.
+    """Torque with which friction in the contacts and drag of the lubricant hold the shaft, at the times of the traces.
 
         T = (Σ P + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
 
