@@ -2,9 +2,9 @@
 
     python benchmarks/campaign.py [--quick] [--only speed] [-o campaign.json]
 
-It takes about fifteen minutes (`--quick`: three) and wants a quiet machine. It prints every number and writes it to a JSON
-file. Ratios are the best of several rounds, taken in turn, beside what two processors were worth for plain hashing in the
-same rounds.
+It takes about fifteen minutes (`--quick`: three) and wants a quiet machine. It prints every number and writes it to a
+JSON file. Ratios are the best of several rounds, taken in turn, beside what two processors were worth for plain hashing
+in the same rounds.
 """
 
 from __future__ import annotations
@@ -77,8 +77,12 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
     """One and two threads, one and two workers, in turn."""
     work = study(16 if quick else 48)
     found: dict[str, list] = {"hashing": []}
-    options = {"one thread": {"threads": 1}, "two threads": {"threads": 2}, "one worker": {"workers": 1, "threads": 1},
-               "two workers": {"workers": 2, "threads": 1}}
+    options = {
+        "one thread": {"threads": 1},
+        "two threads": {"threads": 2},
+        "one worker": {"workers": 1, "threads": 1},
+        "two workers": {"workers": 2, "threads": 1},
+    }
     for _ in range(1 if quick else ROUNDS):
         found["hashing"].append(hashing(1) / hashing(2))
         for name, given in options.items():
@@ -87,52 +91,79 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
     overheads = [one["overhead"] for one in found["one thread"]]
     return {
         "two_threads_over_one": best["two threads"] / best["one thread"],
-        "two_threads_over_one_best_round": max(b["rate"] / a["rate"] for a, b in zip(found["one thread"], found["two threads"])),
+        "two_threads_over_one_best_round": max(
+            b["rate"] / a["rate"] for a, b in zip(found["one thread"], found["two threads"])
+        ),
         "two_workers_over_one": best["two workers"] / best["one worker"],
-        "two_workers_over_one_best_round": max(b["rate"] / a["rate"] for a, b in zip(found["one worker"], found["two workers"])),
+        "two_workers_over_one_best_round": max(
+            b["rate"] / a["rate"] for a, b in zip(found["one worker"], found["two workers"])
+        ),
         "one_worker_over_this_process": best["one worker"] / best["one thread"],
         "hashing_two_over_one": max(found["hashing"]),
         "overhead": min(overheads),
         "overhead_worst_round": max(overheads),
         "overhead_two_workers": min(one["overhead"] for one in found["two workers"]),
-        **{key: found["one thread"][0][key] for key in ("other_ms", "simulate_s", "bytes_per_case", "journal_bytes_per_case")},
-        "wall_beyond_steady_two_workers_s": min(one["wall_s"] - len(work) / one["rate"] for one in found["two workers"]),
+        **{
+            key: found["one thread"][0][key]
+            for key in ("other_ms", "simulate_s", "bytes_per_case", "journal_bytes_per_case")
+        },
+        "wall_beyond_steady_two_workers_s": min(
+            one["wall_s"] - len(work) / one["rate"] for one in found["two workers"]
+        ),
         "rounds": found,
     }
 
 
 def peak_memory(code: str) -> dict:
     """The numbers that a process prints as JSON."""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=Path(__file__).parent)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=Path(__file__).parent
+    )
     return json.loads(done.stdout.splitlines()[-1])
 
 
 MEMORY = """
-import json, resource, sys, tempfile
+import json, os, sys, tempfile
 sys.path.insert(0, ".")
-from campaign import study
+from campaign import high_water, study
 from macroslip import run_campaign
 
 if __name__ == "__main__":
-    peaks = []
+    import psutil
+
+    peaks, workers = [], [0]
+
     def look(progress):
-        peaks.append(1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
+        peaks.append(high_water(os.getpid()))
+        if len(peaks) % 20 == 0:
+            workers.append(max([high_water(child.pid) for child in psutil.Process().children(recursive=True)],
+            default=0))
+
     with tempfile.TemporaryDirectory() as folder:
         ended = run_campaign(study({count}, {seconds}, {rollers}), folder + "/out", progress=look, **{options})
-    children = 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-    n = len(peaks)
-    print(json.dumps({{"runs": ended.progress.computed, "seconds": ended.progress.seconds, "first_tenth": peaks[max(n // 10 - 1, 0)],
-                      "last": peaks[-1], "largest_worker": children}}))
+    print(json.dumps({"runs": ended.progress.computed, "seconds": ended.progress.seconds,
+                      "after_a_tenth": peaks[max(len(peaks) // 10 - 1, 0)], "at_the_end": peaks[-1],
+                      "largest_worker": max(workers)}))
 """
+
+
+def high_water(process: int) -> int:
+    """Peak resident memory of a process [bytes], which unlike that of getrusage knows nothing of its parent."""
+    try:
+        lines = Path(f"/proc/{process}/status").read_text(encoding="utf-8").splitlines()
+    except OSError:  # it has ended
+        return 0
+    return next((1024 * int(line.split()[1]) for line in lines if line.startswith("VmHWM")), 0)
 
 
 def memory(quick: bool) -> dict[str, dict]:
     """Peak memory after a tenth of a campaign and at its end: 3,000 short cases, and ten-minute ones."""
     count, long = (400, 20) if quick else (3000, 60)
-    code = MEMORY.replace("{{", "{").replace("}}", "}")
 
     def measured(runs: int, seconds: float | None, rollers: object, options: dict) -> dict:
-        text = code.replace("{count}", str(runs)).replace("{seconds}", repr(seconds)).replace("{rollers}", repr(rollers))
+        text = (
+            MEMORY.replace("{count}", str(runs)).replace("{seconds}", repr(seconds)).replace("{rollers}", repr(rollers))
+        )
         return peak_memory(text.replace("{options}", repr(options)))
 
     return {
@@ -157,7 +188,9 @@ def scheduler(quick: bool) -> dict[str, float]:
 
     count, task = (500 if quick else 3000), {"run": "0" * 32, "load": "x" * 120, "settings": [["a.b", 1.0, "mm"]] * 3}
     found = {}
-    with LocalCluster(n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", security=True) as local:
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", security=True
+    ) as local:
         with Client(local) as client:
             for bundle in (1, 10):
                 cluster.work_several = nothing
@@ -196,9 +229,23 @@ def coordinator(folder: Path, quick: bool) -> dict[str, float]:
         def wait(self):
             tasks, self.tasks = self.tasks, []
             key = [hashlib.sha256(task["run"].encode()).hexdigest() for task in tasks]
-            return [(task, {"run": task["run"], "key": one, "program": program(), "outcome": "completed", "reason": "", "detail": one,
-                            "size": 280000, "layout": {"sizes": {"row": 2}, "variables": "0" * 16},
-                            "values": values | {"simulate_seconds": 1.0, "other_seconds": 0.01}}) for task, one in zip(tasks, key)]
+            return [
+                (
+                    task,
+                    {
+                        "run": task["run"],
+                        "key": one,
+                        "program": program(),
+                        "outcome": "completed",
+                        "reason": "",
+                        "detail": one,
+                        "size": 280000,
+                        "layout": {"sizes": {"row": 2}, "variables": "0" * 16},
+                        "values": values | {"simulate_seconds": 1.0, "other_seconds": 0.01},
+                    },
+                )
+                for task, one in zip(tasks, key)
+            ]
 
     module.ThisProcess = Pretended
     out = folder / "pretended"
@@ -211,7 +258,12 @@ def coordinator(folder: Path, quick: bool) -> dict[str, float]:
     index = time.perf_counter() - started
     rss = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     sizes = {path.name: path.stat().st_size / runs for path in out.iterdir() if path.is_file()}
-    return {"ms_per_run": 1e3 * seconds / runs, "index_us_per_run": 1e6 * index / runs, "peak_bytes": rss, "bytes_per_run": sizes}
+    return {
+        "ms_per_run": 1e3 * seconds / runs,
+        "index_us_per_run": 1e6 * index / runs,
+        "peak_bytes": rss,
+        "bytes_per_run": sizes,
+    }
 
 
 def module_names() -> list[str]:
@@ -232,15 +284,21 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run_campaign(study(1, 5.0), folder / "compile")
-        parts = {"speed": lambda: speed(folder, given.quick), "scheduler": lambda: scheduler(given.quick),
-                 "memory": lambda: memory(given.quick), "coordinator": lambda: coordinator(folder, given.quick)}
+        parts = {
+            "speed": lambda: speed(folder, given.quick),
+            "scheduler": lambda: scheduler(given.quick),
+            "memory": lambda: memory(given.quick),
+            "coordinator": lambda: coordinator(folder, given.quick),
+        }
         for name, measure in parts.items():
             if given.only in (None, name):
                 found[name] = measure()
                 print(name)
                 for key, value in found[name].items():
                     if key != "rounds":
-                        print(f"  {key}: {json.dumps(value) if isinstance(value, dict) else f'{value:.4g}'}", flush=True)
+                        print(
+                            f"  {key}: {json.dumps(value) if isinstance(value, dict) else f'{value:.4g}'}", flush=True
+                        )
                 given.output.write_text(json.dumps(found, indent=1), encoding="utf-8")
 
 

@@ -21,7 +21,8 @@ from macroslip.campaign.study_file import study_of
 
 if __name__ == "__main__":
     content, folder, directory, options = json.loads(sys.argv[1])
-    run_campaign(study_of(content, folder), directory, progress=lambda p: print(p.done, p.failed, flush=True), **options)
+    report = lambda progress: print(progress.done, progress.failed, flush=True)
+    run_campaign(study_of(content, folder), directory, progress=report, **options)
 """
 
 
@@ -69,7 +70,9 @@ def begin(tmp_path):
 
     def start(content, directory, folder=tmp_path, **options):
         given = json.dumps([content, str(folder), str(directory), options])
-        process = subprocess.Popen([sys.executable, "-c", SCRIPT, given], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [sys.executable, "-c", SCRIPT, given], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
         started.append(process)
         return process
 

@@ -30,7 +30,10 @@ def study(tmp_path_factory):
 def test_curves_count_orbits(study):
     found = exceedance(study, WEIGHTS).isel(group=0)
     good = study.isel(case=[0, 2, 4])
-    for name, values in (("energy_orbits", good.orbit_energy.sum("interface", skipna=False)), ("power_orbits", good.peak_power.max("interface"))):
+    for name, values in (
+        ("energy_orbits", good.orbit_energy.sum("interface", skipna=False)),
+        ("power_orbits", good.peak_power.max("interface")),
+    ):
         for row in ("downwind", "upwind"):
             part, length = values.sel(row=row), (good.orbit_end - good.orbit_start)
             for threshold in found.threshold.values[[1, found.sizes["threshold"] // 2, -2]]:
@@ -47,8 +50,12 @@ def test_curves_fall_from_all_orbits_to_none(study):
     found = exceedance(study, WEIGHTS).isel(group=0)
     for name in ("energy_orbits", "power_orbits"):
         assert (np.diff(found[name]) <= 0.0).all()
-    assert (found.energy_orbits.isel(threshold=-1) == 0.0).all() and (found.power_orbits.isel(threshold=-1) == 0.0).all()
-    np.testing.assert_allclose(found.orbits, np.maximum(found.energy_orbits, found.power_orbits).max("threshold"), rtol=1e-12)
+    assert (found.energy_orbits.isel(threshold=-1) == 0.0).all() and (
+        found.power_orbits.isel(threshold=-1) == 0.0
+    ).all()
+    np.testing.assert_allclose(
+        found.orbits, np.maximum(found.energy_orbits, found.power_orbits).max("threshold"), rtol=1e-12
+    )
     # About 0.15 orbits a second.
     assert 0.1 < float(found.orbits[0]) / (0.9 * YEAR) < 0.2
 
@@ -108,10 +115,20 @@ def test_tables_are_written_with_units(study, tmp_path, form):
     found = tables(study, Weibull(9.0, 2.0))
     written = write_tables(found, tmp_path, form)
     assert {path.stem for path in written} == {
-        "cases", "failures", "worst", "percentiles", "lifetime", "bins", "exceedance", "cycles"}
+        "cases",
+        "failures",
+        "worst",
+        "percentiles",
+        "lifetime",
+        "bins",
+        "exceedance",
+        "cycles",
+    }
     read = pd.read_csv if form == "csv" else pd.read_parquet
     cases = read(tmp_path / f"cases.{form}")
-    np.testing.assert_allclose(cases["energy_mean [J]"].dropna(), study.energy_mean.values[~np.isnan(study.energy_mean.values)])
+    np.testing.assert_allclose(
+        cases["energy_mean [J]"].dropna(), study.energy_mean.values[~np.isnan(study.energy_mean.values)]
+    )
     assert len(read(tmp_path / f"failures.{form}")) == 3
     assert {"lifetime_energy [J]", "covered", "drivetrain.tilt [deg]"} <= set(read(tmp_path / f"lifetime.{form}"))
     assert THRESHOLDS[0] < read(tmp_path / f"exceedance.{form}")["threshold [J or W]"].min()

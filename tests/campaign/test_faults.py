@@ -1,4 +1,4 @@
-"""Faults on purpose: whatever happens, what was reported done is done and readable, and only the rest is computed again."""
+"""Faults on purpose: what was reported done is done and readable, and only the rest is computed again."""
 
 import errno
 import os
@@ -47,8 +47,10 @@ def test_killed_again_and_again(tmp_path, begin, long_content, counted, done, id
 
 
 @pytest.mark.parametrize("failing", range(1, 12))
-def test_a_disk_that_is_full_at_any_moment(tmp_path, load_files, content, counted, monkeypatch, failing, done, identities, resumed):
-    """Every flush to the disk fails once (two before, two for each of four runs, one at the end); a run then goes on."""
+def test_a_disk_that_is_full_at_any_moment(
+    tmp_path, load_files, content, counted, monkeypatch, failing, done, identities, resumed
+):
+    """Every flush to the disk fails once (two before, two a run, one at the end); a run then goes on."""
     study, out, calls = study_of(content, load_files), tmp_path / "out", []
     real = durable.flush
 
@@ -104,7 +106,9 @@ def test_a_disk_that_is_really_full(small_disk, tmp_path, long_content, counted,
 
 
 @pytest.mark.parametrize("damage", ["flip a bit", "cut", "empty", "remove", "replace"])
-def test_a_damaged_result_is_found_and_computed_again(tmp_path, load_files, content, counted, damage, identities, resumed):
+def test_a_damaged_result_is_found_and_computed_again(
+    tmp_path, load_files, content, counted, damage, identities, resumed
+):
     study, out = study_of(content, load_files), tmp_path / "out"
     run_campaign(study, out)
     before = identities(out)
@@ -116,7 +120,11 @@ def test_a_damaged_result_is_found_and_computed_again(tmp_path, load_files, cont
     else:
         flipped = bytes([whole[-40] ^ 1])
         other = sorted(out.glob("cases/*/*.nc"))[0].read_bytes()
-        path.write_bytes({"flip a bit": whole[:-40] + flipped + whole[-39:], "cut": whole[:-1], "empty": b"", "replace": other}[damage])
+        path.write_bytes(
+            {"flip a bit": whole[:-40] + flipped + whole[-39:], "cut": whole[:-1], "empty": b"", "replace": other}[
+                damage
+            ]
+        )
     with pytest.raises(InputError, match="damaged|cannot be read"):
         open_study(out).energy.load()
     ended, simulated = resumed(study, out, counted)
@@ -142,7 +150,7 @@ def test_a_damaged_journal_loses_no_more_than_its_damaged_lines(tmp_path, load_f
 
 
 def test_what_only_the_power_cut_knows(tmp_path, load_files, content, counted, journal, resumed):
-    """A result without its line in the journal, with half of its content: it was never reported, and is computed again."""
+    """A result with half of its content and no line in the journal was never reported, and is computed again."""
     study, out = study_of(content, load_files), tmp_path / "out"
     run_campaign(study, out)
     last = journal(out)[-1]["key"]

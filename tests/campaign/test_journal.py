@@ -7,8 +7,10 @@ from hypothesis import strategies as st
 from macroslip.campaign import journal as module
 from macroslip.campaign.journal import Journal, decode, encode, record_at, records
 
-RECORDS = [{"run": f"{number:032x}", "reason": "ä\n\t" * number, "values": {"energy": [0.1 * number, float("nan")]}}
-           for number in range(4)]
+RECORDS = [
+    {"run": f"{number:032x}", "reason": "ä\n\t" * number, "values": {"energy": [0.1 * number, float("nan")]}}
+    for number in range(4)
+]
 
 
 def written(path, some=RECORDS):

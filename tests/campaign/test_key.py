@@ -55,8 +55,14 @@ def test_every_source_that_results_depend_on_enters(tmp_path, monkeypatch):
         return module._sources.__wrapped__()
 
     before = sources()
-    for name, counts in (("study/simulate.py", True), ("roller/forces.py", True), ("loads/openfast.py", True),
-                         ("campaign/summary.py", True), ("campaign/run.py", False), ("cli/run.py", False)):
+    for name, counts in (
+        ("study/simulate.py", True),
+        ("roller/forces.py", True),
+        ("loads/openfast.py", True),
+        ("campaign/summary.py", True),
+        ("campaign/run.py", False),
+        ("cli/run.py", False),
+    ):
         path = copy / name
         text = path.read_text()
         path.write_text(text + "\n# changed\n")

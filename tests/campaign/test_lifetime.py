@@ -43,7 +43,9 @@ def test_constant_power_gives_power_times_time_whatever_the_weights():
     same = study([600.0] * 7)
     weights = Weibull(9.0, 2.2)
     found = lifetime_energy(same, weights, years=20.0)
-    np.testing.assert_allclose(found.lifetime_energy.sel(row="downwind"), 20.0 * YEAR * float(found.covered), rtol=1e-12)
+    np.testing.assert_allclose(
+        found.lifetime_energy.sel(row="downwind"), 20.0 * YEAR * float(found.covered), rtol=1e-12
+    )
 
 
 @given(st.floats(3.0, 15.0), st.floats(1.0, 4.0), st.floats(0.25, 4.0))

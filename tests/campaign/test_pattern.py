@@ -19,7 +19,13 @@ def test_what_was_written_into_a_name_is_read_from_it(speed, seed, site):
 
 def test_other_names_do_not_fit():
     pattern = Pattern("{wind_speed:g}mps_seed{seed:d}.outb")
-    for name in ("12mps_seedA.outb", "12mps_seed1.out", "x12mps_seed1.outb", "12mps_seed1.outb.bak", "12mps_seed1xoutb"):
+    for name in (
+        "12mps_seedA.outb",
+        "12mps_seed1.out",
+        "x12mps_seed1.outb",
+        "12mps_seed1.outb.bak",
+        "12mps_seed1xoutb",
+    ):
         assert pattern.fields_of(name) is None
 
 

@@ -16,7 +16,13 @@ def directory(tmp_path_factory):
     content = {
         "case": {"loads": {"end": "40 s"}},
         "loads": {"bundled": ["12A", "14B"]},
-        "variations": {"list": [{"rollers": [0, 14]}, {"rollers": [3], "window.start": "1 s", "window.end": "20 s"}, {"rollers": [99]}]},
+        "variations": {
+            "list": [
+                {"rollers": [0, 14]},
+                {"rollers": [3], "window.start": "1 s", "window.end": "20 s"},
+                {"rollers": [99]},
+            ]
+        },
     }
     folder = tmp_path_factory.mktemp("study") / "out"
     run_campaign(study_of(content), folder)
@@ -46,18 +52,23 @@ def test_every_way_of_indexing_gives_the_same(directory):
     study = open_study(directory)
     whole = study.orbit_energy.values
     for key in (
-        (0,), (slice(None, None, 2),), ([3, 0],), (slice(None), 1), (0, 1, [2, 0]), (slice(1, 4), slice(None), slice(1, 3), [0, 2], 1),
+        (0,), (slice(None, None, 2),), ([3, 0],), (slice(None), 1), (0, 1, [2, 0]), 
+        (slice(1, 4), slice(None), slice(1, 3), [0, 2], 1),
         ([4, 1], 0, 1, 0, 2), (slice(0, 0),),
     ):  # fmt: skip
         dims = dict(zip(study.orbit_energy.dims, key))
-        np.testing.assert_array_equal(study.orbit_energy.isel(dims).values, study.orbit_energy.copy(data=whole).isel(dims).values)
+        np.testing.assert_array_equal(
+            study.orbit_energy.isel(dims).values, study.orbit_energy.copy(data=whole).isel(dims).values
+        )
 
 
 def test_dask_gives_the_same_piece_by_piece(directory):
     pytest.importorskip("dask")
     study = open_study(directory)
     pieces = study.chunk({"case": 2}).orbit_energy
-    np.testing.assert_array_equal(pieces.sum("interface", skipna=False).compute(), study.orbit_energy.sum("interface", skipna=False))
+    np.testing.assert_array_equal(
+        pieces.sum("interface", skipna=False).compute(), study.orbit_energy.sum("interface", skipna=False)
+    )
 
 
 def test_what_a_run_does_not_have_is_nan(directory):

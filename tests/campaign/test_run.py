@@ -45,7 +45,9 @@ def test_a_moved_or_renamed_load_file_is_not_computed_again(tmp_path, load_files
     assert study.energy.notnull().all()
 
 
-def test_changed_inputs_are_computed_again_and_only_they(tmp_path, load_files, content, counted, identities, resumed, write_loads):
+def test_changed_inputs_are_computed_again_and_only_they(
+    tmp_path, load_files, content, counted, identities, resumed, write_loads
+):
     out = tmp_path / "out"
     run_campaign(study_of(content, load_files), out)
     before = identities(out)
@@ -95,7 +97,9 @@ def test_bad_cases_are_recorded_and_the_others_computed(tmp_path, load_files, co
     assert (ended.progress.computed, ended.progress.failed) == (4, 5)
     study = open_study(out)
     assert list(study.outcome.values) == ["completed"] * 4 + ["failed"] * 5
-    for reason, words in zip(study.reason.values[4:], ("a roller carries", "not readable|column", "nan", "empty", "read"), strict=True):
+    for reason, words in zip(
+        study.reason.values[4:], ("a roller carries", "not readable|column", "nan", "empty", "read"), strict=True
+    ):
         assert any(word in reason.lower() for word in words.split("|")), reason
     assert study.energy.isel(case=slice(4, None)).isnull().all() and study.energy_mean[4:].isnull().all()
     assert [labels["seed"] for labels, _, _ in ended.failures] == [1, 2, 3, 4, 5]
@@ -199,8 +203,20 @@ def test_every_name_of_a_file_is_data(tmp_path, content, write_loads):
     for name in names:
         write_loads(tmp_path / name)
     (tmp_path / name).write_text("")
-    study = study_of(content | {"loads": {"files": "runs/*seed{seed:d}.csv", "kind": "main-bearing",}}, tmp_path)
-    up = study_of(content | {"loads": {"files": "../" + tmp_path.name + "/runs/{a}_seed{seed:d}.csv", "kind": "main-bearing"}}, tmp_path)
+    study = study_of(
+        content
+        | {
+            "loads": {
+                "files": "runs/*seed{seed:d}.csv",
+                "kind": "main-bearing",
+            }
+        },
+        tmp_path,
+    )
+    up = study_of(
+        content | {"loads": {"files": "../" + tmp_path.name + "/runs/{a}_seed{seed:d}.csv", "kind": "main-bearing"}},
+        tmp_path,
+    )
     for number, one in enumerate((study, up)):
         out = tmp_path / f"out{number}"
         run_campaign(one, out)
@@ -208,7 +224,14 @@ def test_every_name_of_a_file_is_data(tmp_path, content, write_loads):
         assert b"\x1b" not in log
         outside = [path for path in out.rglob("*") if not path.resolve().is_relative_to(out)]
         assert outside == [] and {path.name for path in out.iterdir()} <= {
-            "manifest.json", "runs.parquet", "journal.jsonl", "summary.parquet", "log.txt", "cases", "lock"}
+            "manifest.json",
+            "runs.parquet",
+            "journal.jsonl",
+            "summary.parquet",
+            "log.txt",
+            "cases",
+            "lock",
+        }
         assert all(set(path.stem) <= set("0123456789abcdef") for path in out.glob("cases/*/*"))
     assert not (tmp_path / "made").exists()
 

@@ -18,7 +18,8 @@ def check(key, value, unit=""):
     [
         ("bearing.diametral_clearance", 0.2, "mm"), ("bearing.rollers_per_row", 27, ""), ("drivetrain.tilt", 4, "deg"),
         ("forces.drag", False, ""), ("integrator.tolerance", 1e-4, ""), ("integrator.step", 1.0, "ms"),
-        ("laws.film", "masjedi-khonsari", ""), ("window.start", "auto", ""), ("traces", "none", ""), ("rollers", [0, 1], ""),
+        ("laws.film", "masjedi-khonsari", ""), ("window.start", "auto", ""), ("traces", "none", ""),
+        ("rollers", [0, 1], ""),
     ],
 )  # fmt: skip
 def test_what_a_case_file_takes_is_taken(key, value, unit):
@@ -59,8 +60,13 @@ def test_a_replaced_value_is_the_users_and_the_others_keep_their_origin():
 
 
 def test_settings_reach_the_case():
-    settings = [Setting("bearing.diametral_clearance", 0.1, "mm"), Setting("drivetrain.tilt", 4.0, "deg"),
-                Setting("integrator.tolerance", 1e-5), Setting("forces.drag", False), Setting("traces.step", 0.1, "s")]
+    settings = [
+        Setting("bearing.diametral_clearance", 0.1, "mm"),
+        Setting("drivetrain.tilt", 4.0, "deg"),
+        Setting("integrator.tolerance", 1e-5),
+        Setting("forces.drag", False),
+        Setting("traces.step", 0.1, "s"),
+    ]
     case, cut = template({"loads": {"end": "3 s"}, "traces": "none"}, settings, {})
     assert (case.bearing.diametral_clearance, case.drivetrain.tilt) == (1e-4, pytest.approx(0.0698, abs=1e-4))
     assert (case.integrator.tolerance, case.drag, case.traces.step, cut) == (1e-5, False, 0.1, {"end": 3.0})

@@ -49,7 +49,12 @@ def test_runs_are_every_combination(load_files):
     loads = [run.load.name for run in runs]
     assert len([1 for a, b in zip(loads, loads[1:]) if a != b]) == 3
     labels = runs[-1].labels
-    assert (labels["wind_speed"], labels["seed"], labels["bearing"], labels["model"]) == (14.0, 2, "own.yaml", "no drag")
+    assert (labels["wind_speed"], labels["seed"], labels["bearing"], labels["model"]) == (
+        14.0,
+        2,
+        "own.yaml",
+        "no drag",
+    )
     assert (labels["bearing.diametral_clearance"], labels["window.start"], labels["forces.drag"]) == (0.3, 0.5, False)
     assert study.labels["bearing.diametral_clearance"][0] == "mm" and study.labels["wind_speed"][0] == "m/s"
     assert study.bearings["own.yaml"].name == "own"
@@ -57,7 +62,9 @@ def test_runs_are_every_combination(load_files):
 
 def test_names_of_runs_do_not_depend_on_the_order_or_on_fields(load_files, content):
     before = {run.name for run in study_of(content, load_files).runs()}
-    renamed = content | {"loads": {"files": ["runs/14mps_seed{s:d}.csv", "runs/12mps_seed{s:d}.csv"], "kind": "main-bearing"}}
+    renamed = content | {
+        "loads": {"files": ["runs/14mps_seed{s:d}.csv", "runs/12mps_seed{s:d}.csv"], "kind": "main-bearing"}
+    }
     assert {run.name for run in study_of(renamed, load_files).runs()} == before
 
 
@@ -76,7 +83,10 @@ def test_a_table_gives_files_and_fields(load_files):
         ("loads: {bundled: all}\nvariation: {}\n", ["line 2", "Did you mean 'variations'"]),
         ("case: {rollers: [0]}\n", ["'loads' is missing"]),
         ("loads: {bundled: 99Z}\n", ["line 1", "no bundled case '99Z'"]),
-        ("loads: {bundled: all, files: x.csv}\n", ["bundled and files stand together|files and bundled stand together"]),
+        (
+            "loads: {bundled: all, files: x.csv}\n",
+            ["bundled and files stand together|files and bundled stand together"],
+        ),
         ("loads: {files: 'nothing{seed:d}.csv'}\n", ["no file fits the pattern", "Relative paths start at"]),
         ("loads: {files: '{load}.csv'}\n", ["no file fits|a field is called 'load'"]),
         ("loads: {bundled: all}\ncase:\n  loads:\n    bundled: 14B\n", ["line 4", "'bundled' cannot stand here"]),
@@ -84,11 +94,21 @@ def test_a_table_gives_files_and_fields(load_files):
         ("loads: {bundled: all}\ncase:\n  rolers: all\n", ["line 3", "Did you mean 'rollers'"]),
         ("loads: {bundled: all}\nbearings: [skf-240-600]\n", ["bearings", "skf-240-600"]),
         ("loads: {bundled: all}\nbearings: [a, a]\n", ["different texts"]),
-        ("loads: {bundled: all}\nmodels:\n  new: {laws.film: unheard-of}\n", ["line 3", "models.new.laws.film", "unheard-of"]),
+        (
+            "loads: {bundled: all}\nmodels:\n  new: {laws.film: unheard-of}\n",
+            ["line 3", "models.new.laws.film", "unheard-of"],
+        ),
         ("loads: {bundled: all}\nvariations:\n  grid:\n    drivetrain.tilt: [1, 2]\n", ["line 4", "values"]),
-        ("loads: {bundled: all}\nvariations:\n  grid:\n    drivetrain.tilt: {values: [1, 1], unit: deg}\n", ["stands twice"]),
+        (
+            "loads: {bundled: all}\nvariations:\n  grid:\n    drivetrain.tilt: {values: [1, 1], unit: deg}\n",
+            ["stands twice"],
+        ),
         ("loads: {bundled: all}\nvariations:\n  grid: {drivetrain.tilt: {values: [1], unit: deg, to: 3}}\n", ["'to'"]),
-        ("loads: {bundled: all}\nvariations:\n  list:\n  - {drivetrain.tilt: 1 deg}\n  - {drivetrain.tilt: 0.1 rad}\n", ["one unit"]),
+        (
+            "loads: {bundled: all}\nvariations:\n  list:\n"
+            "  - {drivetrain.tilt: 1 deg}\n  - {drivetrain.tilt: 0.1 rad}\n",
+            ["one unit"],
+        ),
         (
             "loads: {bundled: all}\nvariations:\n  grid: {drivetrain.tilt: {values: [1], unit: deg}}\n"
             "  list:\n  - {drivetrain.tilt: 1 deg}\n",
@@ -119,7 +139,9 @@ def test_all_problems_are_told_together(tmp_path):
         read_study(write(tmp_path, text))
 
 
-@pytest.mark.parametrize("text", ["loads: !!python/object/apply:os.system ['touch made']\n", "loads: {files: !include x}\n"])
+@pytest.mark.parametrize(
+    "text", ["loads: !!python/object/apply:os.system ['touch made']\n", "loads: {files: !include x}\n"]
+)
 def test_a_study_file_is_data(tmp_path, monkeypatch, text):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InputError):

@@ -54,7 +54,9 @@ def test_dry_run_counts_and_estimates_and_writes_nothing(study, macroslip):
 
 
 def test_the_estimate_of_the_disk_is_right(folder, macroslip):
-    (folder / "study.yaml").write_text("loads: {bundled: [14A, 14B, 14C]}\ncase: {rollers: [0, 5], loads: {end: 300 s}}\n")
+    (folder / "study.yaml").write_text(
+        "loads: {bundled: [14A, 14B, 14C]}\ncase: {rollers: [0, 5], loads: {end: 300 s}}\n"
+    )
     done = macroslip("study", "study.yaml", "--dry-run")
     estimated = float(re.search(r"^disk +([\d.]+) kB", done.out, re.MULTILINE)[1])
     macroslip("study", "study.yaml", "-o", "out")
@@ -99,20 +101,22 @@ def test_wrong_use_is_one_paragraph_and_exit_code_2(study, macroslip, arguments,
     assert "Traceback" not in done.err
 
 
-def test_interrupted_and_resumed_as_a_user_does(folder):
+@pytest.mark.parametrize("workers", [[], ["--workers", "1"]])
+def test_interrupted_and_resumed_as_a_user_does(folder, workers):
+    """Ctrl-C in a terminal goes to all processes of the command, its workers included."""
     (folder / "study.yaml").write_text(
         "loads: {bundled: [14B]}\ncase: {rollers: [0, 7], loads: {end: 60 s}}\n"
         "variations: {sample: {count: 60, seed: 1, ranges: {drivetrain.tilt: {low: 3, high: 7, unit: deg}}}}\n"
     )
     command = [sys.executable, "-c", "from macroslip.cli import main; main()", "study", "study.yaml", "-o", "out"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen([*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True)
     journal = folder / "out" / "journal.jsonl"
     end = time.monotonic() + 120
     while not journal.exists() or journal.stat().st_size == 0:
         assert time.monotonic() < end
         time.sleep(0.01)
-    os.kill(process.pid, signal.SIGINT)
-    assert process.communicate()[1].splitlines()[-1] == "interrupted" and process.returncode == 130
+    os.killpg(process.pid, signal.SIGINT)
+    assert process.communicate()[1] == "interrupted\n" and process.returncode == 130
     done = subprocess.run([*command, "--resume"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     computed, unchanged = map(int, re.search(r"(\d+) computed, (\d+) unchanged, 0 failed", done.stdout).groups())

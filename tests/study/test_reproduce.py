@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from macroslip import Case, Drivetrain, HubLoads, MacroslipError, Window, main_bearing_load, simulate
+from macroslip import Case, Drivetrain, HubLoads, Laws, MacroslipError, Window, main_bearing_load, simulate
 from macroslip.errors import InputError
-from macroslip.study import headline, model_run, verdicts
+from macroslip.study import headline, model_run, single_roller, verdicts
 from macroslip.study import reproduce as module
+from macroslip.study.model_run import Model
 from macroslip.study.paper_numbers import paper_numbers
 from macroslip.study.paper_study import run_study
 from macroslip.study.published import published_together
@@ -21,6 +22,7 @@ from macroslip.study.sensitivity import VARIATIONS, sensitivity
 from macroslip.study.single_roller import inflexion_angle, static_load, static_turn, trace_turn
 from macroslip.study.solver_experiments import nonlinear_tolerance, step_size
 from macroslip.study.stability import compare_stability
+from macroslip.study.uncertainty import uncertainty
 
 SMALL = {"rollers": [0, 14], "window": Window(end=30.0)}
 
@@ -185,6 +187,13 @@ def test_a_turn_under_downward_load(downward):
     assert downward.spin_speed.max() <= 1.0001 * downward.spin_speed_pure.max()
 
 
+def test_a_turn_with_microslip(varying, downward):
+    turn = static_turn(varying, "downwind", thrust=False, laws=Laws.physical())
+    assert turn.attrs["energy_from_traces_J"] == pytest.approx(turn.attrs["energy_J"], rel=1e-4)
+    assert turn.attrs["energy_J"] > 10.0 * downward.attrs["energy_J"]
+    np.testing.assert_allclose(turn.roller_load, downward.roller_load, rtol=1e-9)
+
+
 def test_a_turn_needs_a_whole_turn(varying):
     with pytest.raises(InputError, match="no whole turn"):
         trace_turn(varying, "downwind", 0, 599.9)
@@ -248,12 +257,31 @@ def table():
     return sensitivity(Case(loads=HubLoads.bundled("14B"), **SMALL), VARIATIONS[:2])
 
 
+def fewer_turns(result, laws, threads, report):
+    """One turn in the place of all, traced at samples 18 times as far apart as others are."""
+    from unittest.mock import patch
+
+    with patch.object(single_roller, "_FINE", 2):
+        turn = static_turn(model_run.varying_load(), "downwind", thrust=False, laws=laws)
+    titles = [f"static: {name}, {row}" for name in model_run.STATIC_LOADS for row in ("downwind", "upwind")]
+    titles += [f"{figure}: {row} row" for figure in ("typical", "peak") for row in ("downwind", "upwind")]
+    report(1, 1)
+    return dict.fromkeys(titles, turn)
+
+
+def only(monkeypatch, **models):
+    for place in (model_run, module):
+        monkeypatch.setattr(place, "MODELS", models)
+
+
 @pytest.fixture
 def quick(monkeypatch, study, table, experiments):
-    """The reproduction with a small study, one simulated part of its case, and short experiments."""
+    """The reproduction under one model, with a small study, a short part of its case, and short experiments."""
+    only(monkeypatch, paper=Model(laws=Laws.paper()))
     monkeypatch.setattr(model_run, "run_study", lambda **options: study)
-    monkeypatch.setattr(model_run, "simulate", lambda case, threads: simulate(dataclasses.replace(case, **SMALL)))
-    monkeypatch.setattr(model_run, "sensitivity", lambda case, **options: table)
+    short = {"window": SMALL["window"]}
+    monkeypatch.setattr(model_run, "simulate", lambda case, threads: simulate(dataclasses.replace(case, **short)))
+    monkeypatch.setattr(model_run, "sensitivity", lambda *arguments, **options: table)
     monkeypatch.setattr(module, "_experiments", lambda *arguments: experiments)
     return partial(module.reproduce, threads=1)
 
@@ -298,50 +326,69 @@ def test_everything_is_written_says_the_same_and_is_used_again(quick, study, mon
     monkeypatch.setattr(module, "_save", lambda *arguments: None)
     monkeypatch.setattr(module, "_write_report", lambda *arguments: None)
     again = quick(target)
-    assert again["reused"] == ["study-paper", "turns", "detail-paper", "sensitivity-paper"]
+    assert again["reused"] == ["study-paper", "detail-paper", "turns-paper", "sensitivity-paper"]
     changing = ("seconds", "reused")
     assert {key: one for key, one in again.items() if key not in changing} == {
         key: one for key, one in summary.items() if key not in changing
     }
 
 
-def test_a_second_model_gets_its_own_column_section_and_files_and_its_failures_head_the_summary(
-    quick, study, monkeypatch, tmp_path
-):
-    def run_study(**options):
-        return with_failed_roller(study) if options.get("drag") is False else study
-
-    monkeypatch.setattr(model_run, "run_study", run_study)
-    monkeypatch.setattr(model_run, "MODELS", {"paper": {}, "other": {"drag": False}})
-    monkeypatch.setattr(module, "MODELS", {"paper": {}, "other": {"drag": False}})
-    saved = []
-    monkeypatch.setattr(module, "_save", lambda figures, *others: saved.extend(figures))
-    summary = quick(tmp_path / "results")
+def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study, monkeypatch, tmp_path):
+    inside = run_study(["12C", "14A", "14B"], laws=Laws.physical(), **SMALL)
+    monkeypatch.setattr(model_run, "_turns", fewer_turns)
+    only(monkeypatch, paper=Model(laws=Laws.paper()), physical=Model(laws=Laws.physical(), sensitivity_end=30.0))
+    monkeypatch.setattr(model_run, "run_study", lambda laws, **options: study if laws == Laws.paper() else inside)
+    small = {"samples": 2, "cases": ("12B", "24B"), "rollers": (0,), "end": 14.0}
+    monkeypatch.setattr(model_run, "uncertainty", lambda laws, **options: uncertainty(laws, **small))
+    calls = []
+    summary = quick(tmp_path / "results", progress=lambda *call: calls.append(call))
     assert len(summary["headline"]) == 10
-    assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
-    assert summary["failed_rollers"]["study_by_case"] == {"14B_other": 1}
-    assert summary["figures"]["4b_other"]["data_vars"]["energy_ratio"]["data"][2] is None
-    assert summary["figures"]["4b"]["data_vars"]["energy_ratio"]["data"][2] > 0.0
-    between = summary["statements"][1]["models"]
-    assert [between[name]["verdict"] for name in ("paper", "other")] == [verdicts.DIFFERS, verdicts.UNKNOWN]
-    unloaded = summary["statements"][4]["models"]
-    assert unloaded["paper"]["verdict"] == verdicts.AGREES
-    assert unloaded["other"]["verdict"] == verdicts.NOT_COMPUTED
-    assert "paper: " in summary["headline"][1] and "; other: " in summary["headline"][1]
-    assert (tmp_path / "results" / "study_other.nc").is_file()
-    assert {"figure_3a", "figure_4a", "figure_4a_other", "sensitivity_other"} <= set(saved)
-    assert "figure_3a_other" not in saved
+    assert {label for label, _, _ in calls} == set(module.stages()) - {"experiments"}
+    first, rows, *_, euler = (one["models"] for one in summary["statements"])
+    assert "microslip" in first["physical"]["because"]
+    assert "microslip" not in first["paper"]["because"]
+    assert "anywhere in their ranges" in rows["physical"]["found"]
+    assert "anywhere in their ranges" not in rows["paper"]["found"]
+    assert euler["physical"]["verdict"] == verdicts.NOT_COMPUTED
+    assert "paper: " in summary["headline"][1] and "; physical: " in summary["headline"][1]
+    for name in ("study_physical.nc", "figure_4a_physical.svg", "sensitivity_physical.png", "figure_3a_physical.svg",
+                 "mechanisms_physical.png", "uncertainty_physical.svg", "figures_4_5_models.png", "friction_torque.svg"):
+        assert (tmp_path / "results" / name).is_file()
+    torque = summary["figures"]["friction_torque_physical"]["data_vars"]["torque"]
+    assert 1.0 < torque["data"] < 1e3
+    assert torque["attrs"]["units"] == "N m"
+    assert summary["figures"]["uncertainty_physical"]["attrs"] == {"completed": 2, "failed": 0, "refused": 0}
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
-    for words in ("Under <em>other</em>", 'id="rollers-other"', "Figure 4a: energy over mean wind speed (model other)",
-                  "case 14B, model other", "FAILED INTEGRATIONS: 1 in study"):
+    for words in ("Under <em>physical</em>", 'id="rollers-physical"', "Figure 4a: energy over mean wind speed (model physical)",
+                  "case 14B, model physical", "Figure 3a: constant load and speed (model physical)",
+                  'id="mechanisms"', 'id="uncertainty"', 'id="torque"', "2 of 2 samples completed"):
         assert words in page
-    assert "Figure 3a: constant load and speed (model other)" not in page
+
+
+def test_every_fourth_roller_stands_for_the_row():
+    physical = model_run.MODELS["physical"]
+    assert physical.rollers == (0, 4, 8, 12, 16, 20, 24)
+    assert physical.laws == Laws.physical()
+    assert model_run.MODELS["paper"] == Model(laws=Laws.paper())
+
+
+def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
+    monkeypatch.setattr(model_run, "_turns", fewer_turns)
+    monkeypatch.setattr(model_run, "run_study", lambda **options: with_failed_roller(study))
+    monkeypatch.setattr(module, "_save", lambda *arguments: None)
+    summary = quick(tmp_path / "results")
+    assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
+    assert summary["failed_rollers"]["study_by_case"] == {"14B": 1}
+    assert summary["figures"]["4b"]["data_vars"]["energy_ratio"]["data"][2] is None
+    page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
+    assert "FAILED INTEGRATIONS: 1 in study" in page
 
 
 @pytest.mark.parametrize("exists", [False, True])
 def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(quick, monkeypatch, tmp_path, exists):
     from macroslip.report import paper_figures
 
+    monkeypatch.setattr(model_run, "_turns", fewer_turns)
     target = tmp_path / "results"
     if exists:
         target.mkdir()

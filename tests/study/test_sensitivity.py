@@ -5,14 +5,18 @@ import dataclasses
 import numpy as np
 import pytest
 
-from macroslip import Case, HubLoads, InputError, simulate
+from macroslip import Case, HubLoads, InputError, Laws, simulate
 from macroslip.film import law as film_law
+from macroslip.roller.contacts import prepare_contact
 from macroslip.roller.model import interfaces
 from macroslip.study.sensitivity import (
+    LIMITING_SHEAR,
     STARVED,
     VARIATIONS,
     Variation,
+    film_factor,
     sensitivity,
+    variations_of,
     with_film_factor,
     with_inlet_temperature,
 )
@@ -62,15 +66,29 @@ def test_temperature_changes_viscosity_by_the_oils_own_law(case):
     assert warm.bearing == case.bearing
 
 
+def films(case):
+    found = interfaces(case.bearing, case.lubricant)
+    return [prepare_contact(case.laws, case.bearing, case.lubricant, one, 1).film for one in found]
+
+
 def test_the_film_is_thinner_by_the_factor_and_in_nothing_else(case):
     thin = with_film_factor(case, STARVED)
-    assert with_film_factor(case, 1.0) is case
-    for interface in interfaces(case.bearing, case.lubricant):
-        laws = [film_law.prepare(one.film, interface) for one in (case, thin)]
+    assert (film_factor(case), film_factor(thin)) == (1.0, STARVED)
+    for laws in zip(films(case), films(thin), strict=True):
         for load, speed in ((10.0, 0.4), (5e4, 0.4), (5e4, 1e-3)):
             full, starved = (film_law.film_thickness(law, load, speed) for law in laws)
             np.testing.assert_allclose(starved, STARVED * np.array(full), rtol=1e-12)
             assert film_law.film_in_range(laws[0], load, speed) == film_law.film_in_range(laws[1], load, speed)
+
+
+def test_limiting_shear_is_varied_where_it_acts(case):
+    physical = dataclasses.replace(case, laws=Laws.physical(), rollers=(0,))
+    assert variations_of(case) == VARIATIONS
+    assert variations_of(physical)[-1] is LIMITING_SHEAR
+    assert film_factor(physical) == physical.lubricant.starvation
+    table = sensitivity(physical, [LIMITING_SHEAR])
+    downwind = table.energy.sel(row="downwind", variation="limiting shear")
+    assert (np.diff(downwind.sel(level=["low", "base", "high"])) > 0.0).all()
 
 
 def clearance(low, high):

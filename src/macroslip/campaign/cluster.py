@@ -6,12 +6,13 @@ bounded memory. Where cases are short and workers many, several runs travel toge
 
 from __future__ import annotations
 
+import importlib.util
 import logging
 import math
+import signal
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from typing import Any
 
 from macroslip.campaign.crew import Done
@@ -34,12 +35,10 @@ _LOOK = 1.0
 
 def check_installed() -> None:
     """Tell how to install what a cluster needs."""
-    try:
-        for name in ("cryptography", "distributed"):
-            import_module(name)
-    except ImportError as error:
+    missing = [name for name in ("distributed", "cryptography") if importlib.util.find_spec(name) is None]
+    if missing:
         remedy = "pip install 'macroslip[cluster]', or leave out --workers and --scheduler."
-        raise MacroslipError(f"workers need {error.name}, which is not installed: {remedy}") from None
+        raise MacroslipError(f"workers need {' and '.join(missing)}, not installed here: {remedy}")
 
 
 @contextmanager
@@ -84,6 +83,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
                 ) as local,
                 Client(local) as client,
             ):
+                client.register_plugin(_ignore_interrupts())
                 yield Dask(client, note)
             return
         try:
@@ -93,6 +93,17 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
             raise InputError(f"no scheduler answers at '{scheduler}' ({error})", remedy=remedy) from None
         with client:
             yield Dask(client, note)
+
+
+def _ignore_interrupts() -> Any:
+    """Have workers leave Ctrl-C, which the terminal sends to all processes, to the one that started them."""
+    from distributed import WorkerPlugin
+
+    class IgnoreInterrupts(WorkerPlugin):
+        def setup(self, worker: Any) -> None:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    return IgnoreInterrupts()
 
 
 def threads_of_worker(workers: int | None) -> int:
@@ -166,7 +177,9 @@ class Dask:
         if future.status != "error":
             raise MacroslipError("the scheduler is gone. Nothing that was reported done is lost; go on with --resume.")
         if not isinstance(error, KilledWorker):
-            raise MacroslipError(f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?")
+            raise MacroslipError(
+                f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?"
+            )
         if len(tasks) > 1:  # one of them is to blame
             for task in tasks:
                 self._send([task])

@@ -1,14 +1,14 @@
 """Cycles of the load on the main bearing, counted by the rainflow method.
 
 Raceways and rollers meet a load cycle at every pass, whatever the turbine does; what rainflow adds are the slow cycles
-of the bearing's load as a whole. Two are counted. Cycles of the axial load move load from one row of rollers to the other
-and back, and a row that is unloaded is a row that slips. Cycles of the radial load are what housing, shaft and ring seats
-feel.
+of the bearing's load as a whole. Two are counted. Cycles of the axial load move load from one row of rollers to the
+other and back, and a row that is unloaded is a row that slips. Cycles of the radial load are what housing, shaft and
+ring seats feel.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
+import importlib.util
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -55,11 +55,11 @@ def counted(loads: BearingLoads) -> xr.Dataset:
     >>> from macroslip import BearingLoads
     >>> time = np.linspace(0.0, 10.0, 1001)
     >>> force = np.zeros((1001, 3))
-    >>> force[:, 2] = 50e3 * np.sin(2.0 * np.pi * time)
-    >>> found = counted(BearingLoads(time, np.full(1001, 2.0), force, "ten cycles of 100 kN")).sel(component="axial")
+    >>> force[:, 2] = 45e3 * np.sin(2.0 * np.pi * time)
+    >>> found = counted(BearingLoads(time, np.full(1001, 2.0), force, "ten cycles of 90 kN")).sel(component="axial")
     >>> most = found.load_cycles.argmax("load_range")
     >>> float(found.load_cycles.sum()), f"{float(found.load_range[most]):.3g} N"
-    (10.0, '9.72e+04 N')
+    (10.0, '9.17e+04 N')
     """
     import xarray as xr
 
@@ -67,21 +67,29 @@ def counted(loads: BearingLoads) -> xr.Dataset:
     counts = np.array([_histogram(from_shaft[name]) for name in COMPONENTS])
     middle = np.sqrt(RANGE_EDGES[1:] * RANGE_EDGES[:-1])
     return xr.Dataset(
-        {"load_cycles": (("component", "load_range"), counts, {"units": "1", "long_name": "cycles of the bearing's load"})},
+        {
+            "load_cycles": (
+                ("component", "load_range"),
+                counts,
+                {"units": "1", "long_name": "cycles of the bearing's load"},
+            )
+        },
         {
             "component": list(COMPONENTS),
-            "load_range": ("load_range", middle, {"units": "N", "long_name": "range of the cycle, middle of its class"}),
+            "load_range": (
+                "load_range",
+                middle,
+                {"units": "N", "long_name": "range of the cycle, middle of its class"},
+            ),
         },
     )
 
 
 def check_installed() -> None:
     """Tell how to install what counts cycles, before anything is computed that needs it."""
-    try:
-        import_module("fatpack")
-    except ImportError:
+    if importlib.util.find_spec("fatpack") is None:
         remedy = "pip install 'macroslip[cycles]', or leave `cycles` out of the study."
-        raise MacroslipError(f"counting cycles needs fatpack, which is not installed: {remedy}") from None
+        raise MacroslipError(f"counting cycles needs fatpack, which is not installed: {remedy}")
 
 
 def _histogram(series: np.ndarray) -> np.ndarray:

@@ -93,7 +93,9 @@ def estimate(study: Study) -> Estimate:
         return sum(values) / len(values) if values else float("nan")
 
     runs, others = len(study), _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
-    return Estimate(runs, len(lengths), mean(lengths), runs * mean(seconds), runs * (mean(sizes) + others), tuple(problems))
+    return Estimate(
+        runs, len(lengths), mean(lengths), runs * mean(seconds), runs * (mean(sizes) + others), tuple(problems)
+    )
 
 
 def _case(study: Study, run: Run) -> Case:

@@ -45,10 +45,10 @@ def exceedance(
     Returns
     -------
     xarray.Dataset
-        Over (group, row, threshold): `energy_orbits` and `power_orbits` [1/year], orbits a year of one roller whose energy
-        (all interfaces) or peak power (largest at any interface) exceeds the threshold [J or W]. Over (group, row): `orbits`
-        [1/year], all of them. NaN where a bin of some weight has no result. `runs` and `left_out` over (group, bin).
-        Thresholds that all orbits exceed, and those that none does, are left out but for the nearest.
+        Over (group, row, threshold): `energy_orbits` and `power_orbits` [1/year], orbits a year of one roller whose
+        energy (all interfaces) or peak power (largest at any interface) exceeds the threshold [J or W]. Over (group,
+        row): `orbits` [1/year], all of them. NaN where a bin of some weight has no result. `runs` and `left_out` over
+        (group, bin). Thresholds that all orbits exceed, and those that none does, are left out but for the nearest.
 
     Raises
     ------
@@ -91,11 +91,11 @@ def exceedance(
     dims = ("group", "row", "threshold")
     return xr.Dataset(
         {
-            "energy_orbits": (dims, found["energy"][..., kept], _about("1/year", "orbits whose energy exceeds the threshold")),
+            "energy_orbits": (dims, found["energy"][..., kept], _about("1/year", "orbits whose energy exceeds it")),
             "power_orbits": (dims, found["power"][..., kept], _about("1/year", "orbits whose peak power exceeds it")),
             "orbits": (dims[:2], every, _about("1/year", "orbits of a roller")),
             "runs": (("group", "bin"), used, _about("1", "runs that the counts rest on")),
-            "left_out": (("group", "bin"), left_out, _about("1", "runs without a result for all rollers, or without an orbit")),
+            "left_out": (("group", "bin"), left_out, _about("1", "runs without a result, or without an orbit")),
         },
         bins.coordinates(study) | {
             "row": study.row,
@@ -133,8 +133,8 @@ def load_spectrum(
     Returns
     -------
     xarray.Dataset
-        Over (group, component, load_range): `cycles` [1]. NaN where a bin of some weight has no result. Ranges below the
-        smallest and above the largest that occur are left out.
+        Over (group, component, load_range): `cycles` [1]. NaN where a bin of some weight has no result. Ranges below
+        the smallest and above the largest that occur are left out.
 
     Raises
     ------
@@ -144,7 +144,9 @@ def load_spectrum(
     import xarray as xr
 
     if "load_cycles" not in study:
-        raise InputError("the study has not counted cycles", remedy="Set `cycles: true` in the study file and run it again.")
+        raise InputError(
+            "the study has not counted cycles", remedy="Set `cycles: true` in the study file and run it again."
+        )
     bins = binned(study, field, width, by)
     counts = study.load_cycles
     shape = (len(bins.groups), bins.centres.size)

@@ -81,10 +81,13 @@ def tables(
     if weights is None:
         return found
     life = lifetime_energy(study, weights, years=years, field=field, width=width, by=by)
-    found["lifetime"] = table(life.assign(covered=life.covered.broadcast_like(life.lifetime_energy)),
-                              ["lifetime_energy", "covered"])
-    found["bins"] = table(life.assign({name: life[name].broadcast_like(life.power) for name in _OF_BINS}),
-                          ["power", "bin_energy", *_OF_BINS])
+    found["lifetime"] = table(
+        life.assign(covered=life.covered.broadcast_like(life.lifetime_energy)), ["lifetime_energy", "covered"]
+    )
+    found["bins"] = table(
+        life.assign({name: life[name].broadcast_like(life.power) for name in _OF_BINS}),
+        ["power", "bin_energy", *_OF_BINS],
+    )
     curves = exceedance(study, weights, field=field, width=width, by=by)
     found["exceedance"] = table(curves, ["energy_orbits", "power_orbits"])
     if "load_cycles" in study:

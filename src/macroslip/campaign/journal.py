@@ -1,7 +1,7 @@
 """The record of what is done: one line a run, appended and flushed to the disk before anything is reported done.
 
-A line is a checksum, a space and a JSON object. What does not match its checksum, such as a line a power cut tore, counts
-as never written. Later lines take precedence over earlier ones.
+A line is a checksum, a space and a JSON object. What does not match its checksum, such as a line a power cut tore,
+counts as never written. Later lines take precedence over earlier ones.
 """
 
 from __future__ import annotations

@@ -28,8 +28,9 @@ def lifetime_energy(
 
         E = T Σ_b p_b P_b,    P_b = (1/N_b) Σ_{c in b} E_c / t_c
 
-    with the lifetime T, the probability p_b of bin b, the energy E_c (`energy_mean`) of its N_b runs and the length t_c of
-    their windows. Time outside the bins of the study contributes nothing; `covered` says how much of all time the bins are.
+    with the lifetime T, the probability p_b of bin b, the energy E_c (`energy_mean`) of its N_b runs and the length t_c
+    of their windows. Time outside the bins of the study contributes nothing; `covered` says how much of all time the
+    bins are.
 
     Parameters
     ----------
@@ -44,9 +45,9 @@ def lifetime_energy(
     Returns
     -------
     xarray.Dataset
-        Over (group, row): `lifetime_energy` [J], NaN where a bin has no run to rest on. Over (group, bin, row): `power` [W],
-        `bin_energy` [J], the bin's part of the sum. Over (group, bin): `runs`, those it rests on, and `left_out`, those
-        that failed or are missing. Over bin: `probability`; and `covered`, their sum.
+        Over (group, row): `lifetime_energy` [J], NaN where a bin has no run to rest on. Over (group, bin, row): `power`
+        [W], `bin_energy` [J], the bin's part of the sum. Over (group, bin): `runs`, those it rests on, and `left_out`,
+        those that failed or are missing. Over bin: `probability`; and `covered`, their sum.
 
     Raises
     ------
@@ -81,8 +82,8 @@ def lifetime_energy(
         {
             "lifetime_energy": (("group", "row"), parts.sum(axis=1), _about(
                 "J", f"energy dissipated by a roller in {years:g} years, mean over the rollers of the row")),
-            "bin_energy": (("group", "bin", "row"), parts, _about("J", "part of the bin in the energy of the lifetime")),
-            "power": (("group", "bin", "row"), power, _about("W", "energy dissipated by a roller per time, mean over runs")),
+            "bin_energy": (("group", "bin", "row"), parts, _about("J", "part of the bin in it")),
+            "power": (("group", "bin", "row"), power, _about("W", "energy of a roller per time, mean over runs")),
             "runs": (("group", "bin"), used, _about("1", "runs that the means rest on")),
             "left_out": (("group", "bin"), left_out, _about("1", "runs without a result for all rollers")),
             "probability": ("bin", probability, _about("1", "share of time in the bin")),
@@ -115,9 +116,9 @@ def percentiles(
     Returns
     -------
     xarray.Dataset
-        Over (group, bin, row, quantile), linear between runs (`numpy.quantile`): `power` [W], energy of a roller per time,
-        `orbit_energy_mean` [J], `peak_power_mean` and `peak_power_max` [W], `lowest_spin_ratio` [1]; and `runs`, over (group,
-        bin). Runs without a value are left out.
+        Over (group, bin, row, quantile), linear between runs (`numpy.quantile`): `power` [W], energy of a roller per
+        time, `orbit_energy_mean` [J], `peak_power_mean` and `peak_power_max` [W], `lowest_spin_ratio` [1]; and `runs`,
+        over (group, bin). Runs without a value are left out.
 
     Raises
     ------
@@ -150,7 +151,9 @@ def percentiles(
     return xr.Dataset(data, bins.coordinates(study) | coordinates, title)
 
 
-def worst(study: xr.Dataset, variable: str = "peak_power_max", *, count: int = 10, smallest: bool = False) -> xr.Dataset:
+def worst(
+    study: xr.Dataset, variable: str = "peak_power_max", *, count: int = 10, smallest: bool = False
+) -> xr.Dataset:
     """The runs and rows with the largest values of a variable of the summary.
 
     Parameters
@@ -167,8 +170,8 @@ def worst(study: xr.Dataset, variable: str = "peak_power_max", *, count: int = 1
     Returns
     -------
     xarray.Dataset
-        The variables of the summary and all labels, over `rank` from 1; `row` is a coordinate of it. Runs without a value
-        are left out.
+        The variables of the summary and all labels, over `rank` from 1; `row` is a coordinate of it. Runs without a
+        value are left out.
 
     Raises
     ------
@@ -181,7 +184,9 @@ def worst(study: xr.Dataset, variable: str = "peak_power_max", *, count: int = 1
     if count < 1:
         raise InputError(f"the count is {count}", allowed="a whole number above 0")
     summary = study[[name for name, one in study.data_vars.items() if set(one.dims) <= {"case", "row"}]]
-    summary = summary.drop_vars([name for name in study.coords if not set(study[name].dims) <= {"case", "row"}], errors="ignore")
+    summary = summary.drop_vars(
+        [name for name in study.coords if not set(study[name].dims) <= {"case", "row"}], errors="ignore"
+    )
     values = study[variable].transpose("case", "row").values
     order = np.argsort(values if smallest else -values, axis=None, kind="stable")
     order = order[np.isfinite(values.ravel()[order])][:count]

@@ -16,8 +16,8 @@ from macroslip.loads import bundled_cases
 
 #: Names that labels of the user's own would hide.
 RESERVED = (
-    "case", "row", "roller", "interface", "orbit", "sample", "time", "run", "key", "loads", "file", "bearing", "lubricant",
-    "model", "outcome", "reason",
+    "case", "row", "roller", "interface", "orbit", "sample", "time", "run", "key", "loads", "file", "bearing",
+    "lubricant", "model", "outcome", "reason",
 )  # fmt: skip
 _BUNDLED_UNITS = {"wind_speed": "m/s", "turbulence": "1"}
 
@@ -123,7 +123,11 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
             raise InputError(
                 f"no file fits the pattern '{pattern.text}'",
                 remedy=f"Relative paths start at {folder.resolve()}."
-                + (f" The fields of {len(unread)} files could not be read, {printable(unread[0])} first." if unread else ""),
+                + (
+                    f" The fields of {len(unread)} files could not be read, {printable(unread[0])} first."
+                    if unread
+                    else ""
+                ),
             )
         loads |= {name: Load(name, fields) for name, fields in found}
         if unread:
@@ -158,7 +162,9 @@ def _from_table(path: Path) -> list[Load]:
             raise InputError(f"row {number} has no file", where=where, remedy="Fill or remove it.")
         empty = [name for name, value in row.items() if value is None]
         if empty:
-            raise InputError(f"row {number} has no {', '.join(empty)}", where=where, remedy="Fill it, or remove the column.")
+            raise InputError(
+                f"row {number} has no {', '.join(empty)}", where=where, remedy="Fill it, or remove the column."
+            )
         odd = [name for name, value in row.items() if not isinstance(value, (str, int, float))]
         if odd:
             what = f"row {number} has {row[odd[0]]!r} in column {odd[0]}"

@@ -39,7 +39,7 @@ def locked(directory: Path) -> Iterator[None]:
             raise InputError(
                 f"another process is at work in this folder{_holder(path)}",
                 where=str(directory),
-                remedy="Wait for it or stop it, or choose another folder. To look at the results meanwhile, use open_study.",
+                remedy="Wait for it or stop it, or choose another folder. open_study may look at it meanwhile.",
             )
         file.truncate(0)
         started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())

@@ -14,8 +14,7 @@ def printable(text: object) -> str:
     'run\\\\x1b[2J\\\\n7.outb'
     """
     return "".join(
-        character if character.isprintable() else character.encode("unicode_escape").decode()
-        for character in str(text)
+        character if character.isprintable() else character.encode("unicode_escape").decode() for character in str(text)
     )
 
 

@@ -67,11 +67,19 @@ class Progress:
             self._marks.append((now, self.done))
 
     @property
+    def short(self) -> str:
+        """What fits beside a bar."""
+        left = self.time_left
+        rest = "-" if left is None else duration(left)
+        return f"{self.done} of {self.total}, {self.failed} failed, {self.rate:.3g} a second, {rest} left"
+
+    @property
     def line(self) -> str:
         """Everything in one line."""
         left = self.time_left
         return (
-            f"{self.done} of {self.total} done ({self.computed} computed, {self.unchanged} unchanged, {self.failed} failed), "
+            f"{self.done} of {self.total} done "
+            f"({self.computed} computed, {self.unchanged} unchanged, {self.failed} failed), "
             f"{self.rate:.3g} a second, {'-' if left is None else duration(left)} left"
         )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import uuid
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
@@ -54,9 +55,9 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
         Over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`. Coordinates
         over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters that vary
         under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.campaign.summary`, over
-        case and row, and the variables of `simulate`, all of them as floats. What a run does not have is NaN: a run that
-        failed or is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time` over
-        (case, sample).
+        case and row, and the variables of `simulate`, all of them as floats. What a run does not have is NaN: a run
+        that failed or is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time`
+        over (case, sample).
 
     Raises
     ------
@@ -70,7 +71,9 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     manifest, _ = read_manifest(directory)
     runs = pq.read_table(directory / RUNS)
     found = list(Latest(directory).of(runs["run"].to_pylist()))
-    coordinates: dict[str, Any] = {"run": ("case", np.array(runs["run"].to_pylist(), dtype=object), _about("1", "name of the run"))}
+    coordinates: dict[str, Any] = {
+        "run": ("case", np.array(runs["run"].to_pylist(), dtype=object), _about("1", "name of the run"))
+    }
     for name, (units, meaning) in manifest["labels"].items():
         coordinates[name] = ("case", _column(runs[name]), _about(units, meaning))
     for name, empty in (("outcome", str(Outcome.MISSING)), ("reason", ""), ("key", "")):
@@ -80,9 +83,14 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     return xr.Dataset(
         _summary(found) | details,
         {"case": ("case", np.arange(len(found)), _about("1", "number of the run in its study")), "row": list(ROWS)}
-        | coordinates | more,
-        {"title": manifest["title"], "source": manifest["source"], **attributes,
-         "study": json.dumps(manifest["study"], ensure_ascii=False)},
+        | coordinates
+        | more,
+        {
+            "title": manifest["title"],
+            "source": manifest["source"],
+            **attributes,
+            "study": json.dumps(manifest["study"], ensure_ascii=False),
+        },
     )
 
 
@@ -103,8 +111,11 @@ def _summary(found: list[dict[str, Any] | None]) -> dict[str, Any]:
     values = [(record or {}).get("values", {}) for record in found]
     nothing = [float("nan")] * len(ROWS)
     return {
-        name: (("case", "row"), np.array([one.get(name, nothing) for one in values], dtype=float).reshape(-1, len(ROWS)),
-               _about(*about))
+        name: (
+            ("case", "row"),
+            np.array([one.get(name, nothing) for one in values], dtype=float).reshape(-1, len(ROWS)),
+            _about(*about),
+        )
         for name, about in ROW_VARIABLES.items()
     } | {
         name: ("case", np.array([one.get(name, np.nan) for one in values], dtype=float), _about(*about))
@@ -112,7 +123,9 @@ def _summary(found: list[dict[str, Any] | None]) -> dict[str, Any]:
     }
 
 
-def _details(directory: Path, found: list[dict[str, Any] | None]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+def _details(
+    directory: Path, found: list[dict[str, Any] | None]
+) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """Variables, coordinates and attributes of the results, opened as far as is needed to know what there is."""
     import xarray as xr
 
@@ -128,8 +141,10 @@ def _details(directory: Path, found: list[dict[str, Any] | None]) -> tuple[dict[
         for name, size in layout["sizes"].items():
             sizes[name] = max(size, sizes.get(name, 0))
     sizes["roller"] = len(rollers)
-    cases = [_Result(stored[n]["key"], stored[n]["detail"], numbers[n]) if n in stored else None for n in range(len(found))]
-    shared = _Shared(directory, tuple(cases), rollers, sizes)
+    cases = [
+        _Result(stored[n]["key"], stored[n]["detail"], numbers[n]) if n in stored else None for n in range(len(found))
+    ]
+    shared = _Shared(uuid.uuid4().hex, directory, tuple(cases), rollers, sizes)
     variables, coordinates = {}, {}
     for name, one in {name: one for example in examples for name, one in example.variables.items()}.items():
         is_coordinate = any(name in example.coords for example in examples)
@@ -156,6 +171,7 @@ def _rollers(layout: Mapping[str, Any]) -> tuple[int, ...]:
 class _Shared:
     """What all variables of a study have in common."""
 
+    opened: str
     directory: Path
     cases: tuple[_Result | None, ...]
     rollers: tuple[int, ...]
@@ -185,7 +201,7 @@ class _Stacked(BackendArray):
         whole = np.full(self.shape[1:], np.nan)
         result = self._shared.cases[number]
         if result is not None:
-            variables = _read(self._shared.directory, result.key, result.checksum).variables
+            variables = _read(self._shared.opened, self._shared.directory, result.key, result.checksum).variables
             if self._name in variables:
                 values = variables[self._name].transpose(*self._dims).values
                 places = [
@@ -203,6 +219,6 @@ class _Stacked(BackendArray):
 
 
 @functools.lru_cache(maxsize=8)
-def _read(directory: Path, key: str, checksum: str) -> xr.Dataset:
-    """A result; the last few are kept, because several variables of a case are often wanted one after the other."""
+def _read(opened: str, directory: Path, key: str, checksum: str) -> xr.Dataset:
+    """A result; the last few of an opened study are kept: several variables of a case are often wanted in turn."""
     return read_result(directory, key, checksum)

@@ -82,7 +82,9 @@ class Setting:
         problems = []
         for kind in kinds:
             if self.unit and not isinstance(kind, Quantity):
-                problems.append(place.problem(f"it has the unit '{self.unit}'", "a value without unit", "Remove the unit."))
+                problems.append(
+                    place.problem(f"it has the unit '{self.unit}'", "a value without unit", "Remove the unit.")
+                )
                 continue
             try:
                 kind.read(self.text, place)
@@ -144,7 +146,9 @@ def _kinds(kind: Any, keys: list[str]) -> list[Any]:
     if isinstance(kind, Variants):
         return [found for section in kind.sections.values() for found in _kinds(section, keys)]
     if not keys:
-        return [] if isinstance(kind, Section) and not kind.word else [_Word(kind) if isinstance(kind, Section) else kind]
+        return (
+            [] if isinstance(kind, Section) and not kind.word else [_Word(kind) if isinstance(kind, Section) else kind]
+        )
     return _kinds(kind.keys[keys[0]], keys[1:]) if isinstance(kind, Section) and keys[0] in kind.keys else []
 
 

@@ -1,7 +1,7 @@
 """The folder of a study: `manifest.json`, `runs.parquet`, `journal.jsonl`, `cases/`, `summary.parquet`, `log.txt`.
 
-Results lie in `cases/`, each in a netCDF file named by the key of its case. They are there for good once the journal has
-their line. The summary is made from the journal.
+Results lie in `cases/`, each in a netCDF file named by the key of its case. They are there for good once the journal
+has their line. The summary is made from the journal.
 """
 
 from __future__ import annotations
@@ -51,7 +51,9 @@ def to_bytes(result: xr.Dataset) -> bytes:
     result = result.assign(large)
     # A dimension of length zero would be taken for one that can grow: a window without a complete orbit.
     empty = {str(name): one for name, one in result.variables.items() if one.size == 0}
-    about = {name: [one.dims, one.shape, one.dtype.str, one.attrs, name in result.coords] for name, one in empty.items()}
+    about = {
+        name: [one.dims, one.shape, one.dtype.str, one.attrs, name in result.coords] for name, one in empty.items()
+    }
     kept = result.drop_vars(list(empty)).assign_attrs({_EMPTY: json.dumps(about)} if empty else {})
     return bytes(kept.to_netcdf(engine="scipy", format="NETCDF3_64BIT"))
 
@@ -80,8 +82,8 @@ def layout(result: xr.Dataset) -> dict[str, Any]:
     Returns
     -------
     dict
-        `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and `variables`, a hash of names,
-        dimensions and types.
+        `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and `variables`, a hash of
+        names, dimensions and types.
     """
     variables = sorted((str(name), *map(str, one.dims), one.dtype.str) for name, one in result.variables.items())
     numbers = [int(number) for number in result.roller.values]
@@ -147,8 +149,12 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
         remedy = "Write it again with macroslip study STUDY.yaml -o DIR --resume; results are kept."
         raise InputError(f"the manifest cannot be read ({error})", where=str(path), remedy=remedy) from None
     if found != FORMAT:
-        raise InputError(f"the study has format {found!r}", where=str(path), allowed=str(FORMAT),
-                         remedy="It was written by another version of macroslip; use that one, or another folder.")
+        raise InputError(
+            f"the study has format {found!r}",
+            where=str(path),
+            allowed=str(FORMAT),
+            remedy="It was written by another version of macroslip; use that one, or another folder.",
+        )
     return manifest, checksum(content)
 
 
@@ -173,8 +179,11 @@ def check_folder(directory: Path, *, resume: bool) -> None:
         return
     foreign = sorted(name for name in names if name not in OURS and not name.endswith(UNFINISHED))
     if foreign:
-        raise InputError(f"the folder holds other things, {foreign[0]!r} first", where=where,
-                         remedy="Name a folder that is new or empty.")
+        raise InputError(
+            f"the folder holds other things, {foreign[0]!r} first",
+            where=where,
+            remedy="Name a folder that is new or empty.",
+        )
 
 
 def remove_unfinished(directory: Path) -> int:

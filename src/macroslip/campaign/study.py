@@ -91,7 +91,9 @@ class Study:
     def __len__(self) -> int:
         """Number of runs."""
         choices = (self.loads.loads, self.bearings, self.lubricants, self.models, self.variations)
-        return int(all(choices)) and len(choices[0]) * len(choices[1]) * len(choices[2]) * len(choices[3]) * len(choices[4])
+        return int(all(choices)) and len(choices[0]) * len(choices[1]) * len(choices[2]) * len(choices[3]) * len(
+            choices[4]
+        )
 
     def runs(self) -> Iterator[Run]:
         """Yield the runs in a fixed order, those with the same loads together."""
@@ -104,6 +106,8 @@ class Study:
         """Units and meaning of every label of a run, by name."""
         choices = {name: ("1", f"{name} of the case") for name in ("bearing", "lubricant", "model")}
         fields = {name: (units, "label of the loads") for name, units in self.loads.units.items()}
-        parameters = {key: (units or "1", "value of the case; NaN: that of the base case") for key, units in
-                      self.parameters.items()}
+        parameters = {
+            key: (units or "1", "value of the case; NaN: that of the base case")
+            for key, units in self.parameters.items()
+        }
         return {"loads": ("1", "loads of the case"), **choices, **fields, **parameters}

@@ -118,7 +118,8 @@ class SettingsList:
         units: dict[str, str] = {}
         for setting in (setting for item in items for setting in item):
             if units.setdefault(setting.key, setting.unit) != setting.unit:
-                what = f"{setting.key} stands there in {setting.unit or 'no unit'} and in {units[setting.key] or 'no unit'}"
+                both = f"{setting.unit or 'no unit'} and in {units[setting.key] or 'no unit'}"
+                what = f"{setting.key} stands there in {both}"
                 raise place.problem(what, "one unit for all values of a key")
         return items
 

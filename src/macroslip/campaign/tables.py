@@ -63,8 +63,12 @@ def flat(record: dict[str, Any] | None) -> dict[str, Any]:
     values = record.get("values", {})
     return {
         **{name: record.get(name, "") for name in ("outcome", "reason", "key", "detail")},
-        **{f"{name}_{row}": value for name in ROW_VARIABLES if name in values
-           for row, value in zip(ROWS, values[name], strict=True)},
+        **{
+            f"{name}_{row}": value
+            for name in ROW_VARIABLES
+            if name in values
+            for row, value in zip(ROWS, values[name], strict=True)
+        },
         **{name: values[name] for name in CASE_VARIABLES if name in values},
     }
 

@@ -36,8 +36,8 @@ class Weibull:
 
     Notes
     -----
-    F(v) = 1 − exp(−(v/A)^k), and a bin from a to b has the probability F(b) − F(a): IEC 61400-12-1 and every handbook of
-    wind energy.
+    F(v) = 1 − exp(−(v/A)^k), and a bin from a to b has the probability F(b) − F(a): IEC 61400-12-1 and every handbook
+    of wind energy.
 
     Examples
     --------
@@ -93,8 +93,11 @@ class Given:
             if abs(given - centre) < 1e-6 * width:
                 return probability
         known = ", ".join(f"{given:g}" for given in self.probabilities)
-        raise InputError(f"no probability is given for the bin at {centre:g}", allowed=known,
-                         remedy="Add it, with 0 if it is to be left out, or choose another width.")
+        raise InputError(
+            f"no probability is given for the bin at {centre:g}",
+            allowed=known,
+            remedy="Add it, with 0 if it is to be left out, or choose another width.",
+        )
 
 
 Weights = Weibull | Given
@@ -174,7 +177,9 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
         if name not in labels:
             raise InputError(f"the study has no label '{name}'", allowed=", ".join(map(str, labels)))
     if study[field].dtype.kind not in "if":
-        raise InputError(f"the label '{field}' is not a number", remedy="Read it as one: {" + field + ":g} in the pattern.")
+        raise InputError(
+            f"the label '{field}' is not a number", remedy="Read it as one: {" + field + ":g} in the pattern."
+        )
     if not (math.isfinite(width) and width > 0.0):
         raise InputError(f"the width of the bins is {width!r}", allowed="a number above 0")
     parameters = [name for name in labels if "." in str(name)]

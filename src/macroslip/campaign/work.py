@@ -31,15 +31,16 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     task : dict
-        Plain data: `directory`, `setup` (checksum of its manifest), `campaign` (a name no other one has), `run` (name), `load`, `bearing`, `lubricant`,
-        `settings` (list of key, value, unit), `threads`, and `again`: whether to compute even if a result is there.
+        Plain data: `directory`, `setup` (checksum of its manifest), `campaign` (a name no other one has), `run` (name),
+        `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
+        compute even if a result is there.
 
     Returns
     -------
     dict
         The record for the journal: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `size`,
-        `layout`, `values`; and `program`, by which the campaign tells that a worker runs the same version. With `found` true
-        nothing was computed: a result of that key is there, and the journal has to tell whether it is sound.
+        `layout`, `values`; and `program`, by which the campaign tells that a worker runs the same version. With `found`
+        true nothing was computed: a result of that key is there, and the journal has to tell whether it is sound.
 
     Raises
     ------
@@ -124,13 +125,14 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> tuple[Case, HubLoads |
     try:
         return replace(case, loads=loads), loads
     except InputError as problem:
-        raise InputError(problem.what, where=f"{loads.source}, {problem.where}", allowed=problem.allowed,
-                         remedy=problem.remedy) from None
+        raise InputError(
+            problem.what, where=f"{loads.source}, {problem.where}", allowed=problem.allowed, remedy=problem.remedy
+        ) from None
 
 
 @functools.lru_cache(maxsize=1)
 def _loads(campaign: str, source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
-    """Read a load history; runs with the same one follow each other, and a campaign takes a file as it first finds it."""
+    """Read a load history; runs with the same one follow each other. A campaign takes a file as it finds it."""
     return read_loads(source, path, dict(cut))
 
 
@@ -165,6 +167,6 @@ def _failed_rollers(result: Any) -> str:
     first = failed[0]
     ended = float(result.end_time.sel(row=first.row, roller=first.roller))
     return (
-        f"{len(failed)} of {result.status.size} rollers failed; roller {int(first.roller)} of the {first.row.item()} row at "
-        f"t = {ended:.6g} s: {Status(int(first)).sentence}"
+        f"{len(failed)} of {result.status.size} rollers failed; "
+        f"roller {int(first.roller)} of the {first.row.item()} row at t = {ended:.6g} s: {Status(int(first)).sentence}"
     )

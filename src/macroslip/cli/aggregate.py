@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 def aggregate(
     directory: Annotated[Path, typer.Argument(help="The folder that macroslip study has written.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="The folder for the tables; those of the same names are replaced.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="The folder for the tables; those of the same names are replaced.")
+    ],
     weibull: Annotated[
         tuple[float, float] | None, typer.Option(help="Scale [m/s] and shape of the distribution of the wind speed.")
     ] = None,
@@ -27,7 +29,9 @@ def aggregate(
     years: Annotated[float, typer.Option(help="The lifetime [years].")] = 20.0,
     field: Annotated[str, typer.Option(help="The label to sort into bins.")] = "wind_speed",
     width: Annotated[float, typer.Option(help="Width of a bin [unit of the label].")] = 2.0,
-    by: Annotated[list[str] | None, typer.Option(help="A further label to keep apart; may be given several times.")] = None,
+    by: Annotated[
+        list[str] | None, typer.Option(help="A further label to keep apart; may be given several times.")
+    ] = None,
     form: Annotated[str, typer.Option("--format", help="csv or parquet.")] = "csv",
     quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
 ) -> None:
@@ -65,8 +69,11 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
     except InputError:
         raise
     except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"the probabilities cannot be read ({error})", where=str(probabilities),
-                         allowed="a CSV table with the columns bin and probability") from None
+        raise InputError(
+            f"the probabilities cannot be read ({error})",
+            where=str(probabilities),
+            allowed="a CSV table with the columns bin and probability",
+        ) from None
 
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
@@ -74,6 +81,12 @@ def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
     from macroslip.cli.printing import number, table
 
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
-    rows = [[number(value) if name in numbers else printable(value) for name, value in zip(lifetime, line, strict=True)]
-            for line in lifetime.itertuples(index=False)]
-    table(f"energy of a roller in {years:g} years, mean over the row", [(name, name in numbers) for name in lifetime], rows)
+    rows = [
+        [number(value) if name in numbers else printable(value) for name, value in zip(lifetime, line, strict=True)]
+        for line in lifetime.itertuples(index=False)
+    ]
+    table(
+        f"energy of a roller in {years:g} years, mean over the row",
+        [(name, name in numbers) for name in lifetime],
+        rows,
+    )

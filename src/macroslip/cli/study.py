@@ -16,7 +16,7 @@ from macroslip.errors import InputError
 
 if TYPE_CHECKING:
     from macroslip.campaign.progress import Progress
-    from macroslip.campaign.run import Ended
+    from macroslip.campaign.session import Ended
     from macroslip.campaign.study import Study
 
 #: Failures that are listed; the log and the summary have all.
@@ -46,12 +46,22 @@ def study(
         _dry_run(checked, workers, threads)
         return
     if output is None:
-        raise InputError("there is no folder for the results", where="--output", remedy="Name one, new or empty, with -o.")
+        raise InputError(
+            "there is no folder for the results", where="--output", remedy="Name one, new or empty, with -o."
+        )
     from macroslip.campaign.run import run_campaign
 
     with _shown(quiet=quiet) as report:
-        ended = run_campaign(checked, output, workers=workers, scheduler=scheduler, threads=threads, resume=resume,
-                             strict=strict, progress=report)
+        ended = run_campaign(
+            checked,
+            output,
+            workers=workers,
+            scheduler=scheduler,
+            threads=threads,
+            resume=resume,
+            strict=strict,
+            progress=report,
+        )
     if not quiet:
         _summary(ended, output)
     if ended.failures:
@@ -82,8 +92,11 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None) -> None:
             ["disk", size(found.bytes)],
         ]
     table(printable(checked.title) or "study", [("", False), ("", True)], rows)
-    typer.echo(f"Time and disk are estimated from {found.looked_at} runs of the study, begun here and now."
-               if found.looked_at else "Time and disk cannot be estimated.")
+    typer.echo(
+        f"Time and disk are estimated from {found.looked_at} runs of the study, begun here and now."
+        if found.looked_at
+        else "Time and disk cannot be estimated."
+    )
     for problem in found.problems:
         tell(f"note: {printable(problem)}")
 
@@ -125,9 +138,11 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
 
         yield line
         return
-    with Bar(BarColumn(), TextColumn("{task.description}"), console=console, transient=True) as bar:
+    with Bar(BarColumn(20), TextColumn("{task.description}"), console=console, transient=True) as bar:
         task = bar.add_task("beginning (the first run of all compiles)", total=None)
-        yield lambda progress: bar.update(task, description=progress.line, total=progress.total, completed=progress.done)
+        yield lambda progress: bar.update(
+            task, description=progress.short, total=progress.total, completed=progress.done
+        )
 
 
 def _summary(ended: Ended, output: Path) -> None:
@@ -135,8 +150,11 @@ def _summary(ended: Ended, output: Path) -> None:
 
     counts = ended.progress
     left = counts.total - counts.done
-    typer.echo(f"{counts.total} runs: {counts.computed} computed, {counts.unchanged} unchanged, {counts.failed} failed"
-               + (f", {left} left" if left else "") + f", in {duration(counts.seconds)}")
+    typer.echo(
+        f"{counts.total} runs: {counts.computed} computed, {counts.unchanged} unchanged, {counts.failed} failed"
+        + (f", {left} left" if left else "")
+        + f", in {duration(counts.seconds)}"
+    )
     typer.echo(f"written: {output}")
 
 
@@ -152,7 +170,9 @@ def _failures(ended: Ended, output: Path) -> None:
     for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):
         shown.add_column(heading, overflow="fold")
     for labels, outcome, reason in ended.failures[:_LISTED]:
-        shown.add_row(*(printable(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split()))))
+        shown.add_row(
+            *(printable(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split())))
+        )
     out = Console(stderr=True, markup=False, highlight=False)
     (out if out.is_terminal else Console(stderr=True, markup=False, highlight=False, width=PIPE_WIDTH)).print(shown)
     total = ended.progress.failed
@@ -160,9 +180,14 @@ def _failures(ended: Ended, output: Path) -> None:
         tell(f"... and {total - _LISTED} more, in {output}/summary.parquet and {output}/log.txt.")
     counts = Counter(outcome for _, outcome, _ in ended.failures)
     kinds = ", ".join(f"{outcome}: {count}" for outcome, count in counts.items())
-    tell(f"failed: {total} of {ended.progress.total} runs ({kinds}). "
-         + ("Stopped there, as --strict says; go on with --resume." if ended.stopped else
-            "Runs that failed are tried again by --resume."))
+    tell(
+        f"failed: {total} of {ended.progress.total} runs ({kinds}). "
+        + (
+            "Stopped there, as --strict says; go on with --resume."
+            if ended.stopped
+            else "Runs that failed are tried again by --resume."
+        )
+    )
 
 
 def _others(labels: dict[str, Any]) -> str:

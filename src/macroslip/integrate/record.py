@@ -59,8 +59,8 @@ class Record(NamedTuple):
         Largest flash temperature [K], power per area [W/m²] and slide-roll ratio, and least Λ, in each complete orbit.
     quadrature : ndarray, shape (2, 2)
         Of states looked at: energy by a finer quadrature, and what the one in use is off by [J].
-    station_work : ndarray, shape (stations,)
-        Work space.
+    station_work : ndarray, shape (2, stations + 1)
+        Work space: power at each station when the raceway last had load [W], and energy not yet given to them [J].
     """
 
     edges: np.ndarray
@@ -106,7 +106,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
         station_energy=np.zeros((2, STATIONS)),
         extreme=extreme,
         quadrature=np.zeros((2, 2)),
-        station_work=np.zeros(STATIONS),
+        station_work=np.zeros((2, STATIONS + 1)),
     )
 
 

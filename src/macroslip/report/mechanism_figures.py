@@ -59,7 +59,9 @@ def plot_stations(axes: Axes, along: xr.DataArray, row: str, cases: tuple[str, .
     return finish(axes, "place along the roller [mm]", "energy per orbit and length [J/m]", f"{row} row")
 
 
-def plot_models(axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, label: str, row: str | None = None) -> Axes:
+def plot_models(
+    axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, label: str, row: str | None = None
+) -> Axes:
     """One quantity of figure 4 or 5 under every model over mean wind speed, mean and range of the turbulence classes.
 
     Parameters
@@ -85,8 +87,9 @@ def plot_models(axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, la
                 key: ROW[which][key] for key in ("color", "marker")
             }
             name = model if len(rows) == 1 else f"{model}, {which}"
-            axes.plot(mean.wind_speed.values, mean.values, linestyle=line, markersize=4, label=name, **style)
-            axes.fill_between(mean.wind_speed.values, low.values, high.values, alpha=0.15, linewidth=0.0, color=style["color"])
+            speeds = mean.wind_speed.values
+            axes.plot(speeds, mean.values, linestyle=line, markersize=4, label=name, **style)
+            axes.fill_between(speeds, low.values, high.values, alpha=0.15, linewidth=0.0, color=style["color"])
     axes.set_xticks(mean.wind_speed.values)
     return finish(axes, "mean wind speed [m/s]", label)
 
@@ -96,7 +99,7 @@ def mechanisms_figure(parts: xr.Dataset) -> Figure:
     figure, axes = new_figure(8.6, 3.9, 1, 3)
     for one, row in zip(axes, ("downwind", "upwind"), strict=False):
         plot_parts(one, parts.part_energy, row)
-    plot_stations(axes[2], parts.station_energy, "downwind", _shown(parts))
+    plot_stations(axes[2], parts.station_energy, "downwind", shown(parts))
     axes[2].legend(frameon=False, fontsize=7, loc="upper center", ncols=2)
     axes[2].margins(y=0.35)
     axes[2].set_ylim(bottom=0.0)
@@ -116,7 +119,7 @@ def models_figure(numbers: Mapping[str, xr.Dataset]) -> Figure:
     return figure
 
 
-def _shown(parts: xr.Dataset) -> tuple[str, ...]:
+def shown(parts: xr.Dataset) -> tuple[str, ...]:
     """A case of the lowest, the middle and the highest wind speed, of turbulence B where there is one."""
     speeds = np.unique(parts.wind_speed.values)
     chosen = dict.fromkeys(float(speeds[k]) for k in (0, speeds.size // 2, -1))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from macroslip.report import paper_comparison
 from macroslip.report.bearing_section import further_blocks, orbit_blocks, result_blocks, view_section
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Statements, Table, render
+from macroslip.report.physical_section import physical_sections
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
 from macroslip.report.sensitivity_figures import plot_tornado
@@ -50,6 +51,7 @@ def reproduction_page(
     sections = [
         _answer(judged, summary),
         *paper_comparison.sections(runs, experiments),
+        *physical_sections(runs),
         view_section({_titled("case 14B", name, runs): run.profile for name, run in runs.items()}),
         *(_beyond(name, run, runs) for name, run in runs.items()),
         _sensitivity(runs),

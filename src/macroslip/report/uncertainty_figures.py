@@ -57,13 +57,14 @@ def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
             axes.scatter(p, place, s=330.0 * abs(value), marker="s", facecolor=color if sure else "none",
                          edgecolor=color, linewidth=0.8)
             if sure:
-                axes.annotate("+" if value > 0.0 else "−", (p, place), ha="center", va="center", color="white", fontsize=9)
+                sign = "+" if value > 0.0 else "−"
+                axes.annotate(sign, (p, place), ha="center", va="center", color="white", fontsize=9)
     axes.set_xticks(np.arange(rank.shape[1]), [str(name) for name in summary.parameter.values], rotation=60, ha="right",
                     rotation_mode="anchor")
     axes.set_yticks([])
     axes.set_xlim(-0.6, rank.shape[1] - 0.4)
     axes.set_ylim(-0.6, rank.shape[0] - 0.4)
-    return finish(axes, "", "", "rank correlation with")
+    return finish(axes, "varied value", "", "rank correlation")
 
 
 def uncertainty_figure(summary: xr.Dataset) -> Figure:

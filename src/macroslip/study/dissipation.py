@@ -135,8 +135,9 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
             "the upwind row under load much more often"
         ),
         "peaks": (
-            f"downwind the largest power of an orbit follows the roller's load and no snap back, {ends(peak.sel(row='downwind'))} "
-            f"W {span}; upwind it is that of the moments under load, {ends(1e3 * peak.sel(row='upwind'))} mW"
+            "downwind the largest power of an orbit is microslip's at the inner raceway under the largest load, not a "
+            f"snap's, {ends(peak.sel(row='downwind'))} W {span}; upwind it is that of the moments under load, "
+            f"{ends(1e3 * peak.sel(row='upwind'))} mW"
         ),
         "peak ratio": (
             f"the downwind row's power hardly changes, and the upwind row's rises from {ends(1e3 * peak.sel(row='upwind'))} "

@@ -24,7 +24,8 @@ from macroslip.study.simulate import simulate, usable_processors
 from macroslip.study.single_roller import inflexion_angle, peak_turn, static_turn, typical_turn
 from macroslip.study.uncertain_values import VALUES
 from macroslip.study.uncertainty import CASES, END, ROLLERS, SAMPLES, SEED, uncertainty
-from macroslip.torque import computed_torque
+from macroslip.study.uncertainty_summary import uncertainty_summary, with_uncertainty
+from macroslip.torque import TorqueHistory, computed_torque, torque_histories
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,6 +63,8 @@ PAPER = "paper"
 #: The case shown in detail, whose means are the static load.
 DETAILED_CASE = "14B"
 STATIC_LOADS = {"downward": False, "downward and thrust": True}
+#: Part of the detailed case whose friction torque is drawn [s].
+TORQUE_WINDOW = (300.0, 360.0)
 #: Time between the samples of the traces [s]; that of the loads.
 TRACE_STEP = 0.05
 
@@ -174,6 +177,13 @@ def varying_load() -> BearingLoads:
     return main_bearing_load(HubLoads.bundled(DETAILED_CASE), Drivetrain())
 
 
+def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
+    """Friction torque of the bearing in the detailed case under every model, and by handbooks."""
+    case = Case(loads=HubLoads.bundled(DETAILED_CASE))
+    computed = {name: run.profile["torque"] for name, run in runs.items()}
+    return torque_histories(computed, varying_load(), case.bearing, case.lubricant)
+
+
 def _detail(result: xr.Dataset) -> dict[str, xr.Dataset]:
     return orbit_profile(result) | {"torque": computed_torque(result)}
 
@@ -227,7 +237,9 @@ def statements(run: ModelRun, experiments: Mapping[str, xr.Dataset]) -> list[ver
         found.append(verdicts.euler_stability(experiments["A1"]))
     else:
         found.append(verdicts.not_computed(verdicts.EULER))
-    return explained(found, run.study, run.numbers) if knows_mechanisms(run.study) else found
+    if knows_mechanisms(run.study):
+        found = explained(found, run.study, run.numbers)
+    return with_uncertainty(found, uncertainty_summary(run.uncertainty)) if run.uncertainty is not None else found
 
 
 def failures(run: ModelRun) -> dict[str, int]:

@@ -12,13 +12,17 @@ import macroslip
 from macroslip.errors import MacroslipError
 from macroslip.study import verdicts
 from macroslip.study.case import Case
+from macroslip.study.dissipation import dissipation, knows_mechanisms
 from macroslip.study.headline import failure_line, numerical_line, statement_lines
 from macroslip.study.model_run import (
     MODEL_STAGES,
     MODELS,
     PAPER,
+    STATIC_LOADS,
+    TORQUE_WINDOW,
     ModelRun,
     Progress,
+    bearing_torques,
     compute_model,
     failures,
     stage_label,
@@ -31,6 +35,7 @@ from macroslip.study.single_roller import largest_peak, static_load
 from macroslip.study.solver_experiments import STEPS, TOLERANCES, nonlinear_tolerance, step_size
 from macroslip.study.stability import compare_stability
 from macroslip.study.summary import CONVENTIONS, as_json, failed_by_case, of_model, plain, plotted, told_statements
+from macroslip.study.uncertainty_summary import uncertainty_summary
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -159,21 +164,27 @@ def _figures(
     runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]
 ) -> dict[str, Callable[[], Figure]]:
     """How each figure is drawn, by file name."""
-    from macroslip.report import bearing_sets, paper_figures as draw
-    from macroslip.study.model_run import STATIC_LOADS
+    from macroslip.report import bearing_sets, mechanism_figures, uncertainty_figures
+    from macroslip.report import paper_figures as draw
+    from macroslip.report.torque_figures import torque_figure
 
-    turns = runs[PAPER].turns
-    static = {f"{name} load": turns["static"][f"{name}, downwind"] for name in STATIC_LOADS}
     found: dict[str, Callable[[], Figure]] = {
-        "figure_3a": lambda: draw.turns_figure(static),
-        "figure_3b": lambda: draw.turns_figure(turns["typical"]),
-        "figure_3b_peak": lambda: draw.turns_figure(turns["peak"]),
         "figure_A1": lambda: draw.stability_figure(experiments["A1"]),
         "nonlinear_tolerance": lambda: draw.nonlinear_tolerance_figure(experiments["nonlinear_tolerance"]),
         "step_size": lambda: draw.step_size_figure(experiments["step_size"]),
     }
+    if len(runs) > 1:
+        found["figures_4_5_models"] = lambda: mechanism_figures.models_figure(
+            {name: run.numbers for name, run in runs.items()}
+        )
+    histories = bearing_torques(runs)
+    found["friction_torque"] = lambda: torque_figure(histories, *TORQUE_WINDOW)
     for name, run in runs.items():
+        static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
         of_run = {
+            "figure_3a": lambda static=static: draw.turns_figure(static),
+            "figure_3b": lambda run=run: draw.turns_figure(run.turns["typical"]),
+            "figure_3b_peak": lambda run=run: draw.turns_figure(run.turns["peak"]),
             "figure_4a": lambda run=run: draw.energy_figure(run.numbers),
             "figure_4b": lambda run=run: draw.energy_ratio_figure(run.numbers),
             "figure_5a": lambda run=run: draw.peak_power_figure(run.numbers),
@@ -185,6 +196,12 @@ def _figures(
             "outside_film_range": lambda run=run: bearing_sets.outside_film_range_figure(run.profile),
             "sensitivity": lambda run=run: bearing_sets.sensitivity_figure(run.sensitivity),
         }
+        if knows_mechanisms(run.study):
+            of_run["mechanisms"] = lambda run=run: mechanism_figures.mechanisms_figure(dissipation(run.study))
+        if run.uncertainty is not None:
+            of_run["uncertainty"] = lambda run=run: uncertainty_figures.uncertainty_figure(
+                uncertainty_summary(run.uncertainty)
+            )
         found |= {of_model(title, name): figure for title, figure in of_run.items()}
     return found
 

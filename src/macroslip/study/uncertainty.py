@@ -12,6 +12,7 @@ from macroslip.errors import InputError, MacroslipError
 from macroslip.laws import Laws
 from macroslip.loads import HubLoads
 from macroslip.study.case import Case, Window
+from macroslip.study.run_input import run_input
 from macroslip.study.simulate import simulate, usable_processors
 from macroslip.study.uncertain_values import VALUES, with_values
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 #: Size of the sample, a power of two as Sobol's sequence asks for, and the seed of its scrambling.
 SAMPLES, SEED = 64, 20240613
 #: Cases that stand for the study, the rollers of each row that stand for the row, and the end of the window [s].
-CASES, ROLLERS, END = ("12B", "18B", "24B"), (0, 14), 150.0
+CASES, ROLLERS, END = ("12B", "18B", "24B"), (0,), 200.0
 #: Meaning of the variable `outcome`.
 OUTCOMES = ("completed", "a roller failed", "refused")
 
@@ -134,8 +135,7 @@ def _case_values(result: xr.Dataset) -> dict[str, Any]:
         raise InputError("the window holds no complete orbit", where="uncertainty", allowed="one orbit or more")
     energy = result.orbit_energy.mean(("roller", "orbit"), skipna=False)
     peak = result.peak_power.max("interface", skipna=False).mean(("roller", "orbit"), skipna=False)
-    from macroslip.study.run_input import run_input
-
+    window = result.energy.sum("interface", skipna=False).mean("roller", skipna=False)
     bearing, models, _ = run_input(result)
     # In an orbit the shaft turns by 2π over the ratio of the speeds.
     turned = 2.0 * np.pi / next(iter(models.values())).orbit_ratio
@@ -143,7 +143,7 @@ def _case_values(result: xr.Dataset) -> dict[str, Any]:
         "failed": int((result.status != 0).sum()),
         "orbit_energy": energy.values,
         "peak_power": peak.values,
-        "window_energy": float(result.energy.sum("interface", skipna=False).mean("roller", skipna=False).sum("row", skipna=False)),
+        "window_energy": float(window.sum("row", skipna=False)),
         "torque": bearing.rollers_per_row * float(energy.sum(skipna=False)) / turned,
     }
 
@@ -151,8 +151,8 @@ def _case_values(result: xr.Dataset) -> dict[str, Any]:
 def _as_dataset(results: list, values: np.ndarray, cases: Sequence[str], laws: Laws, xr: Any) -> xr.Dataset:
     rows, interfaces = ("downwind", "upwind"), ("inner", "outer", "cage")
     shapes = {
-        "orbit_energy": ((2, 3), ("row", "interface"), "J", "energy per orbit of a roller, mean over rollers and orbits"),
-        "peak_power": ((2,), ("row",), "W", "mean over rollers and orbits of the largest power at any interface per orbit"),
+        "orbit_energy": ((2, 3), ("row", "interface"), "J", "energy per orbit, mean over rollers and orbits"),
+        "peak_power": ((2,), ("row",), "W", "largest power per orbit at any interface, mean over rollers and orbits"),
         "window_energy": ((), (), "J", "energy in the window of a mean downwind and a mean upwind roller together"),
         "torque": ((), (), "N m", "friction torque of all contacts, mean over the turns of the shaft"),
     }
@@ -172,14 +172,17 @@ def _as_dataset(results: list, values: np.ndarray, cases: Sequence[str], laws: L
         {"units": "1", "long_name": "what became of the sample", "flag_values": np.arange(len(OUTCOMES), dtype=np.int8),
          "flag_meanings": " ".join(one.replace(" ", "_") for one in OUTCOMES)},
     )
-    data["reason"] = ("sample", [reason for _, reason, _ in results], {"units": "1", "long_name": "why it did not complete"})
+    reasons = [reason for _, reason, _ in results]
+    data["reason"] = ("sample", reasons, {"units": "1", "long_name": "why it did not complete"})
     return xr.Dataset(
         data,
         {
             "sample": ("sample", np.arange(len(results)), {"units": "1", "long_name": "number; 0 are the base values"}),
             "case": list(cases), "row": list(rows), "interface": list(interfaces),
             "parameter": [one.name for one in VALUES], "unit": ("parameter", [one.unit for one in VALUES]),
-            "wind_speed": ("case", [float(name[:-1]) for name in cases], {"units": "m/s", "long_name": "mean wind speed"}),
+            "wind_speed": (
+                "case", [float(name[:-1]) for name in cases], {"units": "m/s", "long_name": "mean wind speed"}
+            ),
         },
         {"title": "Study under values drawn from their ranges", "model": laws.name, "seed": SEED},
     )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.study.verdicts import ABOUT, DOMINANT
+from macroslip.study.verdicts import ABOUT, DOMINANT, Statement
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,7 +43,8 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
     found: dict[str, tuple[xr.DataArray, str]] = {}
     for name in (first, last):
         found[f"energy per orbit, downwind, {name}"] = down.sel(case=name), "J"
-    found[f"energy in {first} / {last}"] = sample.window_energy.sel(case=first) / sample.window_energy.sel(case=last), "1"
+    window = sample.window_energy
+    found[f"energy in {first} / {last}"] = window.sel(case=first) / window.sel(case=last), "1"
     for name in names:
         found[f"energy, downwind / upwind, {name}"] = (down / up).sel(case=name), "1"
     found[f"share of the inner raceway, downwind, {first}"] = inner.sel(case=first), "1"
@@ -51,8 +53,8 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
     found[f"friction torque of the contacts, {first}"] = sample.torque.sel(case=first), "N m"
     values = np.stack([one.values for one, _ in found.values()], axis=1)
     return xr.Dataset(
-        {"result": (("sample", "quantity"), values, {"units": "1", "long_name": "result, in the unit of its quantity"})},
-        {"sample": sample.sample, "quantity": list(found), "units": ("quantity", [unit for _, unit in found.values()])},
+        {"result": (("sample", "quantity"), values, {"units": "1", "long_name": "result, in its quantity's unit"})},
+        {"sample": sample.sample, "quantity": list(found), "units": ("quantity", [one for _, one in found.values()])},
     )
 
 
@@ -82,7 +84,9 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
     if len(result) > 2:
         for q in range(ranks.shape[0]):
             for p in range(ranks.shape[1]):
-                ranks[q, p], chance[q, p] = spearmanr(values[:, p], result[:, q])
+                # What does not change has no rank.
+                if np.ptp(result[:, q]) > 0.0 and np.ptp(values[:, p]) > 0.0:
+                    ranks[q, p], chance[q, p] = spearmanr(values[:, p], result[:, q])
     trends = {name: flags.values for name, flags in _trends(sample).items()}
     shares = [float(flags[good].mean()) if good.any() else np.nan for flags in trends.values()]
     quantile = np.quantile(result, QUANTILES, axis=0).T if len(result) else np.full((ranks.shape[0], 3), np.nan)
@@ -120,15 +124,18 @@ def _trends(sample: xr.Dataset) -> dict[str, xr.DataArray]:
     ratio = energy.sel(row="downwind") / energy.sel(row="upwind")
     peak = sample.peak_power.sel(row="downwind") / sample.peak_power.sel(row="upwind")
     cage = sample.orbit_energy.sel(interface="cage").sum("row") / energy.sum("row")
-    others = names[1:]
-    cases = ", ".join(names)
+    others, cases, window = names[1:], ", ".join(names), sample.window_energy
+
+    def about(values: xr.DataArray, stated: float) -> xr.DataArray:
+        return ((values >= stated / ABOUT) & (values <= stated * ABOUT)).any("case")
+
     return {
-        f"energy highest in {first} of {cases}": (sample.window_energy.sel(case=first) > sample.window_energy.sel(case=others)).all("case"),
+        f"energy highest in {first} of {cases}": (window.sel(case=first) > window.sel(case=others)).all("case"),
         "downwind row spends more than the upwind row, every case": (ratio > 1.0).all("case"),
-        "energy ratio within a factor of 2 of 10, any case": ((ratio >= 10.0 / ABOUT) & (ratio <= 10.0 * ABOUT)).any("case"),
+        "energy ratio within a factor of 2 of 10, any case": about(ratio, 10.0),
         f"ratio of peak powers highest in {first}": (peak.sel(case=first) > peak.sel(case=others)).all("case"),
         f"ratio of peak powers falls from case to case of {cases}": (peak.diff("case") < 0.0).all("case"),
-        "ratio of peak powers within a factor of 2 of 5, any case": ((peak >= 5.0 / ABOUT) & (peak <= 5.0 * ABOUT)).any("case"),
+        "ratio of peak powers within a factor of 2 of 5, any case": about(peak, 5.0),
         "cage takes at least half of the energy of both rows, any case": (cage >= DOMINANT).any("case"),
     }
 
@@ -148,18 +155,40 @@ def told(value: float) -> str:
     return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
 
 
-def uncertainty_line(summary: xr.Dataset) -> str:
-    """The sample in one line: its size, the first quantities' ranges, and how often the first trend holds."""
-    words = [
-        f"{name} {told(low)} to {told(high)}" + (f" {unit}" if unit != "1" else "") + f" (median {told(middle)})"
-        for name, unit, (low, middle, high) in zip(
-            summary.quantity.values, summary.units.values, summary.range.values, strict=True
-        )
+def sample_size(summary: xr.Dataset) -> str:
+    """How many samples there are and what became of them, in words."""
+    completed, failed, refused = (summary.attrs[name] for name in ("completed", "failed", "refused"))
+    return f"{completed} of {completed + failed + refused} samples completed, {failed} failed, {refused} were refused"
+
+
+def with_uncertainty(statements: list[Statement], summary: xr.Dataset) -> list[Statement]:
+    """The statements on energy and peak power over wind speed and between rows, with what the sample says of them.
+
+    Parameters
+    ----------
+    statements : list of Statement
+        In the order of `macroslip.study.model_run.statements`.
+    summary : xarray.Dataset
+        From `uncertainty_summary`.
+    """
+    shares = dict(zip(summary.trend.values.tolist(), summary.trend_share.values.tolist(), strict=True))
+
+    def held(trend: str) -> str:
+        return f"{100.0 * next(share for name, share in shares.items() if name.startswith(trend)):.0f} %"
+
+    def reach(quantity: str) -> str:
+        rows = [k for k, name in enumerate(summary.quantity.values.tolist()) if name.startswith(quantity)]
+        ends = summary.range.isel(quantity=rows)
+        low, high = float(ends.isel(quantile=0).min()), float(ends.isel(quantile=-1).max())
+        return f"{told(low)} to {told(high)}"
+
+    words = {
+        0: f"with the estimated values anywhere in their ranges, {held('energy highest')} of the samples agree on the "
+        "lowest wind speed",
+        1: f"{reach('energy, downwind / upwind')} times with the estimated values anywhere in their ranges",
+        3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most at "
+        f"the lowest wind speed in {held('ratio of peak powers highest')} of the samples",
+    }
+    return [
+        replace(one, found=f"{one.found}; {words[k]}") if k in words else one for k, one in enumerate(statements)
     ]
-    total = sum(summary.attrs[name] for name in ("completed", "failed", "refused"))
-    held = [f"{one}: {100.0 * share:.0f} %" for one, share in zip(summary.trend.values, summary.trend_share.values, strict=True)]
-    return (
-        f"Over the ranges of the estimated values ({summary.attrs['completed']} of {total} samples completed, "
-        f"{summary.attrs['failed']} failed, {summary.attrs['refused']} refused), 5 to 95 %: {'; '.join(words)}. "
-        f"Share of the samples that show it: {'; '.join(held)}."
-    )

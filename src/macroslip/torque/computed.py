@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def computed_torque(result: xr.Dataset) -> xr.Dataset:
-    """Torque with which friction in the contacts and drag of the lubricant hold the shaft, at every time of the traces.
+    """Torque with which friction in the contacts and drag of the lubricant hold the shaft, at the times of the traces.
 
         T = (Σ P + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
 
@@ -71,6 +71,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         per_power = np.where(shaft != 0.0, 1.0 / np.abs(shaft), np.nan)
     contacts = result.power.sum("roller", skipna=False).transpose("row", "interface", "time")
     contacts = contacts.drop_vars("start_angle", errors="ignore") * per_power
+    # In the order in which files hold it: sums over what was stored and read give the same digits.
+    contacts = contacts.copy(data=np.ascontiguousarray(contacts.values))
     drag_force = model.drag * orbital**2
     drag = 2 * bearing.rollers_per_row * drag_force * bearing.pitch_radius * np.abs(orbital) * per_power
 
