@@ -53,7 +53,7 @@ def traction(law, load, film_thickness, slip):
 
 
 @jit
-def rising_slip(law, load):
+def rising_slip(law, load, film_thickness):
     """Slip up to which traction surely rises with slip: without heating, any."""
     return math.inf
 

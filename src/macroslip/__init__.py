@@ -17,6 +17,7 @@ _HOMES = {
     "main_bearing_load": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
     "Laws": "macroslip.laws",
+    "load_laws": "macroslip.law_file",
     "Case": "macroslip.study.case",
     "Radau": "macroslip.study.case",
     "ExplicitEuler": "macroslip.study.case",
@@ -24,6 +25,9 @@ _HOMES = {
     "Window": "macroslip.study.case",
     "Traces": "macroslip.study.case",
     "simulate": "macroslip.study.simulate",
+    "read_study": "macroslip.campaign.study_file",
+    "run_campaign": "macroslip.campaign.run",
+    "open_study": "macroslip.campaign.reader",
     "InputError": "macroslip.errors",
     "MacroslipError": "macroslip.errors",
 }

@@ -19,7 +19,7 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 _extra_sources: list[str] = []
 #: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
-_ROOMS_ABOVE_THE_KERNELS = ("bench", "cli", "report", "study", "torque")
+_ROOMS_ABOVE_THE_KERNELS = ("bench", "campaign", "cli", "report", "study", "torque")
 
 
 @functools.cache
@@ -37,7 +37,9 @@ def _package_hash() -> str:
 def depend_on(*functions: Callable) -> None:
     """Make kernels depend on the files that hold these compiled functions: a law of the user's own, say.
 
-    A function typed at a prompt has no file; then its bytecode and constants stand for it.
+    A function typed at a prompt has no file; then its bytecode and constants stand for it. The module's name counts
+    too: kernels are stored with the names of their types, and a process that gave the module another name would not
+    find them.
     """
     for function in functions:
         plain = getattr(function, "py_func", function)
@@ -45,8 +47,19 @@ def depend_on(*functions: Callable) -> None:
         if path.is_relative_to(Path(__file__).parent):
             continue
         text = path.read_text(encoding="utf-8") if path.is_file() else repr((plain.__code__.co_code, plain.__code__.co_consts))
-        if text not in _extra_sources:
-            _extra_sources.append(text)
+        source = f"{plain.__module__}\n{text}"
+        if source not in _extra_sources:
+            _extra_sources.append(source)
+
+
+class _IndexFile(IndexDataCacheFile):
+    """Index of one function's kernels. One that names classes this version no longer has is as good as none."""
+
+    def _load_index(self):
+        try:
+            return super()._load_index()
+        except (AttributeError, ImportError):
+            return {}
 
 
 class _PackageCache(FunctionCache):
@@ -60,13 +73,13 @@ class _PackageCache(FunctionCache):
         super().__init__(function)
         # The stamp outdates the whole index, so that kernels of older sources are overwritten and do not pile up.
         self._stamp = (self._cache_file._source_stamp, _package_hash())
-        self._files: dict[str, IndexDataCacheFile] = {}
+        self._files: dict[str, _IndexFile] = {}
 
     def _use_file(self) -> None:
         laws = hashlib.sha256("\0".join(sorted(_extra_sources)).encode()).hexdigest()[:12] if _extra_sources else ""
         if laws not in self._files:
             base = self._impl.filename_base + (f"-{laws}" if laws else "")
-            self._files[laws] = IndexDataCacheFile(self._cache_path, base, self._stamp)
+            self._files[laws] = _IndexFile(self._cache_path, base, self._stamp)
         self._cache_file = self._files[laws]
 
     def load_overload(self, sig, target_context):

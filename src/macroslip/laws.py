@@ -9,9 +9,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from macroslip.errors import InputError
-from macroslip.traction.rheology import RHEOLOGIES
 
-VISCOSITIES = ("barus", "roelands")
 #: The traction that is built from viscosity, rheology, heating, microslip and asperities.
 MECHANISMS = "mechanisms"
 
@@ -67,29 +65,26 @@ class Laws:
     traction: str = MECHANISMS
 
     def __post_init__(self) -> None:
-        from macroslip.film import asperity_load
-
-        for name, allowed in (
-            ("viscosity", VISCOSITIES),
-            ("rheology", tuple(RHEOLOGIES)),
-            ("asperities", tuple(asperity_load.names())),
-        ):
+        for name, choices in (("viscosity", viscosities), ("rheology", rheologies), ("asperities", asperity_laws)):
             value = getattr(self, name)
-            if value not in allowed:
-                raise InputError(f"'{value}' does not exist", where=f"laws.{name}", allowed=", ".join(allowed))
+            # Names are asked for when one is not the default, so that kernels need not be imported to read a case.
+            if value != _DEFAULTS[name] and value not in choices():
+                raise InputError(f"'{value}' does not exist", where=f"laws.{name}", allowed=", ".join(choices()))
         for name in ("starvation", "inlet_heating", "heating", "microslip"):
             if not isinstance(getattr(self, name), bool):
                 raise InputError(f"it is {getattr(self, name)!r}", where=f"laws.{name}", allowed="true or false")
         if self.traction != MECHANISMS:
-            void = [
-                name for name in ("viscosity", "rheology", "heating", "microslip") if getattr(self, name) != _DEFAULTS[name]
-            ]
+            void = [name for name in _REPLACED if getattr(self, name) != _DEFAULTS[name]]
             if void:
+                chosen = " and ".join(f"{name} ({_word(getattr(self, name))})" for name in void)
+                beside = ", ".join(f"{name}: {_written(_DEFAULTS[name])}" for name in void)
                 raise InputError(
-                    f"the traction law '{self.traction}' replaces {', '.join(void)}, chosen beside it",
+                    f"the traction law '{self.traction}' has no {chosen}, which stand beside it: a traction law of one's own "
+                    "takes the place of these mechanisms",
                     where="laws.traction",
                     allowed=f"{MECHANISMS}, or a law of one's own without these",
-                    remedy="Leave them out, or base the case on the paper model",
+                    remedy=f"With your law, set model: paper and name the mechanisms you want to add to it, or keep the "
+                    f"model and set {beside}",
                 )
 
     @classmethod
@@ -142,18 +137,41 @@ class Laws:
     @property
     def is_closed_form(self) -> bool:
         """Whether traction is the paper's, for which there is a closed form."""
-        return all(
-            getattr(self, name) == _DEFAULTS[name] for name in ("viscosity", "rheology", "heating", "microslip", "traction")
-        )
+        return all(getattr(self, name) == _DEFAULTS[name] for name in (*_REPLACED, "traction"))
 
 
+#: Mechanisms that a traction law of one's own replaces.
+_REPLACED = ("viscosity", "rheology", "heating", "microslip")
 _DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
 #: Named sets.
 MODELS = ("paper", "physical")
 
 
+def viscosities() -> list[str]:
+    """Names of the laws for viscosity under pressure."""
+    return ["barus", "roelands"]
+
+
+def rheologies() -> list[str]:
+    """Names of the film's rheologies."""
+    from macroslip.traction.rheology import RHEOLOGIES
+
+    return list(RHEOLOGIES)
+
+
+def asperity_laws() -> list[str]:
+    """Names of the laws for the share of the load that asperities carry."""
+    from macroslip.film import asperity_load
+
+    return asperity_load.names()
+
+
 def _word(value: Any) -> str:
     return ("on" if value else "off") if isinstance(value, bool) else str(value)
+
+
+def _written(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _differs(one: Laws, other: Laws, name: str) -> bool:

@@ -46,7 +46,7 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
     found = json.loads(text)
     assert set(found) == {
         "machine", "quick", "asked_accuracy", "default_tolerance", "reference", "targets", "methods", "evaluation",
-        "quadrature", "real_time", "threads", "linearity",
+        "quadrature", "real_time", "threads", "linearity", "mechanisms",
     }
     methods = found["methods"]
     assert list(methods) == ["own", "scipy_bdf", "lsoda", rivals.EULER]

@@ -33,7 +33,7 @@ def traction(law, load, film_thickness, slip):
 FACTOR = {factor}
 
 @jit
-def rising_slip(law, load):
+def rising_slip(law, load, film_thickness):
     return 1e30
 
 register("linear", Linear, reference="a test", prepare=prepare, traction=traction, rising_slip=rising_slip)
@@ -42,13 +42,13 @@ register("linear", Linear, reference="a test", prepare=prepare, traction=tractio
 RUN = """
 import sys
 sys.path.insert(0, sys.argv[1])
-name = "barus-crook"
+name = "mechanisms"
 if sys.argv[2] == "law":
     import own_law
     name = "linear"
-from macroslip import BearingLoads, Case, Window, simulate
+from macroslip import BearingLoads, Case, Laws, Window, simulate
 loads = BearingLoads.constant([0.0, 0.0, -1e3], 2.0, 1.0)
-found = simulate(Case(loads=loads, rollers=[0], traction=name, window=Window(start=0.0)))
+found = simulate(Case(loads=loads, rollers=[0], laws=Laws(traction=name), window=Window(start=0.0)))
 print(repr(float(found.end_slip.sel(row="downwind").item())))
 """
 

@@ -10,8 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from macroslip import BearingLoads, Case, Traces, bundled_cases, simulate
+from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_campaign, simulate
+from macroslip.campaign.export import tables
+from macroslip.campaign.outcome import Outcome
+from macroslip.campaign.study_file import study_of
+from macroslip.campaign.study_keys import KINDS, METHODS, SCALES, STUDY
+from macroslip.campaign.summary import CASE_VARIABLES, ROW_VARIABLES
+from macroslip.campaign.weights import Weibull
 from macroslip.integrate.status import Status
+from macroslip.study.case_form import Choice
 from macroslip.study.case_keys import CASE
 from macroslip.study.case_section import Section, Variants
 
@@ -121,11 +128,54 @@ def test_input_page_names_every_key_of_a_case():
     assert [name for name in names if name not in quoted] == []
 
 
+def test_campaigns_page_names_every_key_of_a_study():
+    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8"))
+    names = [key for key in keys(STUDY) if key != "variations"]
+    assert [name for name in names if name not in quoted] == []
+    choices = [*METHODS, *SCALES, *KINDS, "values", "low", "high", "unit", "scale"]
+    assert [name for name in choices if name not in quoted] == []
+
+
+def test_campaigns_page_has_the_sentence_of_every_outcome():
+    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+    assert [outcome for outcome in Outcome if f"| `{outcome}` | {outcome.sentence} |" not in text] == []
+
+
+def test_campaigns_page_names_every_file_every_table_and_every_variable(tmp_path):
+    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+    study = {"case": {"rollers": [0], "loads": {"end": "8 s"}}, "loads": {"bundled": ["14B"]}, "cycles": True}
+    run_campaign(study_of(study), tmp_path / "out")
+    opened = open_study(tmp_path / "out")
+    found = tables(opened, Weibull(9.0, 2.0))
+    files = [f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()]
+    labels = [name for name, one in opened.coords.items() if one.dims == ("case",)]
+    names = [*files, *found, *ROW_VARIABLES, *CASE_VARIABLES, *labels, "load_cycles", *opened.load_cycles.dims]
+    assert [name for name in names if f"`{name}`" not in text] == []
+
+
+def test_campaigns_page_gives_the_units_of_the_summary():
+    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8"), re.MULTILINE)
+    cells = [[cell.strip() for cell in row.split("|")] for row in rows]
+    for name, (units, _) in (ROW_VARIABLES | CASE_VARIABLES).items():
+        assert any(units in re.split(", ", row[1]) for row in cells if f"`{name}`" in row[0]), name
+
+
+def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
+    assert len(read_study(ROOT / "examples" / "study.yaml")) == 96
+    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    (tmp_path / "dlc12").mkdir()
+    shutil.copy(SAMPLE, tmp_path / "dlc12" / "14mps_seed1.outb")
+    shutil.copy(ROOT / "src/macroslip/bearing/catalogue/skf-240-600-bc.yaml", tmp_path / "other-bearing.yaml")
+    (tmp_path / "study.yaml").write_text(block, encoding="utf-8")
+    assert len(read_study(tmp_path / "study.yaml")) == 2 * 2 * 3 * 16
+
+
 def test_input_page_names_every_law_and_method():
     text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
     laws, integrator = CASE.keys["laws"].keys, CASE.keys["integrator"].sections
-    laws = {*laws["film"].names(), *laws["traction"].names()}
-    names = [*laws, *integrator, bundled_cases()[0], bundled_cases()[-1]]
+    choices = [name for choice in laws.values() if isinstance(choice, Choice) for name in choice.names()]
+    names = [*choices, *integrator, bundled_cases()[0], bundled_cases()[-1]]
     missing = [name for name in names if f"`{name}`" not in text]
     assert missing == []
 
@@ -140,13 +190,15 @@ def test_input_page_shows_the_lines_that_the_program_asks_for():
 
 @pytest.fixture(scope="module")
 def dataset():
+    """A result of the physical model, which has all variables of the paper's and more."""
     loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.2)
-    return simulate(Case(loads=loads, rollers=[0], traces=Traces(step=0.1)))
+    return simulate(Case(loads=loads, rollers=[0], traces=Traces(step=0.1), laws=Laws.physical()))
 
 
 def test_results_page_names_every_variable_coordinate_and_attribute(dataset):
     text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-    names = [*dataset.variables, *dataset.attrs, *dataset.interface.values, *dataset.row.values]
+    labels = [*dataset.interface.values, *dataset.row.values, *dataset.mechanism.values]
+    names = [*dataset.variables, *dataset.attrs, *labels]
     assert [name for name in names if f"`{name}`" not in text] == []
 
 

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from macroslip.bearing import Bearing
+from macroslip.report.page import Beside, Pictures, Points, Section, Statements, Table, Verbatim, render
+from macroslip.report.pictures import picture
 from macroslip.report.results_page import results_page
 from macroslip.study.orbit_scene import scene
 
@@ -220,3 +222,28 @@ def test_print_leaves_the_controls_out(opened):
     assert page.locator(".controls").is_hidden()
     assert page.locator("nav").is_hidden()
     assert page.locator("h1").is_visible()
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+def test_no_kind_of_block_makes_the_page_scroll_sideways(browser, tmp_path, width):
+    drawn = [picture(lambda axes: axes.plot([0.0, 1.0]), "a line", wide=size > 5.0, width=size) for size in (4.2, 9.0)]
+    long = "word " * 40 + "a" * 80
+    found = (("differs", long, long), ("not computed", "nothing", ""))
+    blocks = (
+        Statements(("paper", "physical"), ((long, found),)), Beside(long, (long,), (drawn[0],) * 3, long),
+        Pictures(tuple(drawn), long), Points((long,)), Verbatim(f"@misc{{a, note = {{{long}}}}}"),
+        Table(tuple("abcdefgh"), (("a long cell of text",) * 8,), long),
+    )
+    path = tmp_path / "page.html"
+    path.write_text(render("Title", long, (Section("one", long, blocks),)), encoding="utf-8")
+    context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
+    try:
+        page = context.new_page()
+        page.goto(path.as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        # A wide picture keeps its letters, in a frame of its own.
+        assert page.locator("img.wide").bounding_box()["width"] == pytest.approx(9.0 * 96.0, abs=1.0)
+        shown = page.evaluate("getComputedStyle(document.querySelector('.statements td'), '::before').content")
+        assert ("Under" in shown) == (width == 390)
+    finally:
+        context.close()

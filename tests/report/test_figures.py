@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from macroslip.report import paper_figures
-from macroslip.report.orbit_figures import plot_cumulative_energy, plot_spin
+from macroslip.report.orbit_figures import plot_cumulative_energy, plot_spin, plot_varying_over_static
 from macroslip.report.solver_figures import plot_deviation, plot_nonlinear_tolerance, plot_stability, plot_step_size
 from macroslip.report.style import new_figure, save
 from macroslip.report.wind_speed_figures import plot_energy, plot_energy_ratio, plot_peak_power, plot_peak_power_ratio
@@ -155,6 +155,14 @@ def test_cumulative_energy(axes, turn):
     plot_cumulative_energy(axes, turn)
     np.testing.assert_allclose(axes.lines[0].get_ydata(), turn.energy_fraction)
     assert "165 mJ" in axes.texts[0].get_text()
+
+
+def test_varying_over_static(axes):
+    plot_varying_over_static(axes, {"downward": {"downwind": 1.07, "upwind": 0.86}, "thrust": {"downwind": 1.0}})
+    assert [float(one.get_ydata()[0]) for one in axes.lines] == [1.07, 0.86, 1.0]
+    assert [text.get_text() for text in axes.texts] == ["1.07", "0.86", "1.00"]
+    assert axes.get_legend_handles_labels()[1] == ["downwind row", "upwind row"]
+    assert "[–]" in axes.get_ylabel()
 
 
 def test_stability(axes, stability):

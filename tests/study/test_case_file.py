@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from macroslip import BackwardEuler, BearingLoads, Case, Drivetrain, ExplicitEuler, HubLoads, InputError, Radau
+from macroslip import BackwardEuler, BearingLoads, Case, Drivetrain, ExplicitEuler, HubLoads, InputError, Laws, Radau
 from macroslip.study.case_file import case_schema, read_case
 
 DATA = Path(__file__).parents[1] / "data"
@@ -44,7 +44,8 @@ loads: {{file: {DATA / "sample14B.outb"}, start: 61 s, end: 71 s}}
 drivetrain: {{hub_to_bearing: 1300 mm, bearing_to_gearbox: 2.1 m, tilt: 6 deg,
              shaft_mass: 9000 kg, shaft_mass_station: 2 m}}
 forces: {{gravity: false, drag: true}}
-laws: {{film: masjedi-khonsari, traction: barus-crook}}
+laws: {{model: physical, film: moes, starvation: false, inlet_heating: false, viscosity: barus, rheology: eyring,
+       heating: false, microslip: false, asperities: film-ratio, traction: mechanisms}}
 integrator: {{method: radau, tolerance: 1e-5, max_steps: 1000}}
 window: {{start: 62 s, end: 70.5 s}}
 rollers: [0, 7]
@@ -56,6 +57,10 @@ traces: {{step: 10 ms, start: 63 s, end: 64 s}}
         hub_to_bearing=1.3, bearing_to_gearbox=2.1, tilt=6 * math.pi / 180, shaft_mass=9000.0, shaft_mass_station=2.0
     )
     assert (case.gravity, case.drag, case.rollers) == (False, True, (0, 7))
+    assert case.laws == Laws(
+        film="moes", starvation=False, inlet_heating=False, viscosity="barus", rheology="eyring", heating=False,
+        microslip=False, asperities="film-ratio", traction="mechanisms",
+    )  # fmt: skip
     assert case.integrator == Radau(tolerance=1e-5, max_steps=1000)
     assert (case.window.start, case.window.end) == (62.0, 70.5)
     assert (case.traces.step, case.traces.start, case.traces.end) == (0.01, 63.0, 64.0)
@@ -64,6 +69,19 @@ traces: {{step: 10 ms, start: 63 s, end: 64 s}}
 def test_words_stand_for_the_defaults(write):
     case = read_case(write(LOADS + "window: {start: auto}\nrollers: all\ntraces: none\nforces:\n"))
     assert case.as_dict() == Case(loads=HubLoads.bundled("14B").window(0.0, 10.0)).as_dict()
+
+
+@pytest.mark.parametrize(
+    ("text", "laws"),
+    [
+        ("{model: paper}", Laws.paper()),
+        ("{model: physical}", Laws.physical()),
+        ("{microslip: true}", Laws.paper().but(microslip=True)),
+        ("{model: physical, asperities: none}", Laws.physical().but(asperities="none")),
+    ],
+)
+def test_a_model_and_what_differs_from_it(write, text, laws):
+    assert read_case(write(f"{LOADS}laws: {text}\n")).laws == laws
 
 
 @pytest.mark.parametrize(
@@ -184,6 +202,10 @@ CONSTANT = {"force": ["1 kN", "2 N", "0 N"], "shaft_speed": "20 rpm", "duration"
         ({"forces": {"gravity": "true"}}, False),
         ({"laws": {"film": "masjedi-khonsari"}}, True),
         ({"laws": {"film": "other"}}, False),
+        ({"laws": {"model": "physical", "rheology": "eyring", "microslip": False}}, True),
+        ({"laws": {"model": "real"}}, False),
+        ({"laws": {"microslip": "on"}}, False),
+        ({"laws": {"traction": "barus-crook"}}, False),
         ({"integrator": {"tolerance": 1e-4}}, True),
         ({"integrator": {"method": "radau", "tolerance": 1e-4, "max_steps": 10}}, True),
         ({"integrator": {"method": "radau", "step": "1 ms"}}, False),

@@ -117,8 +117,15 @@ def told(tmp_path):
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1260 m\n  tilt: 50 deg\n  shaft_mass_station: 4 m\n",
             "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m. "
-            "Check value and unit. (2) case.yaml, line 4, drivetrain.tilt: it is 50 deg. Allowed: -0.3 to 0.3 "
-            "rad. Check value and unit.",
+            "Check value and unit. (2) case.yaml, line 4, drivetrain.tilt: it is 50 deg. Allowed: -17.1887 to 17.1887 "
+            "deg. Check value and unit.",
+        ),
+        (
+            LOADS + "drivetrain: {tilt: 5 rad, bearing_to_gearbox: 0mm, shaft_mass: -1 kg}\n",
+            "3 problems: (1) case.yaml, line 2, drivetrain.bearing_to_gearbox: it is 0mm. Allowed: above 0, up to 20000 "
+            "mm. Check value and unit. (2) case.yaml, line 2, drivetrain.tilt: it is 5 rad. Allowed: -0.3 to 0.3 rad. "
+            "Check value and unit. (3) case.yaml, line 2, drivetrain.shaft_mass: it is -1 kg. Allowed: 0 to 1e6 kg. "
+            "Check value and unit.",
         ),
         (
             LOADS + "drivetrain:\n  shaft_mass_station: 4 m\n",
@@ -127,11 +134,18 @@ def told(tmp_path):
         ),
         (LOADS + "forces: {gravity: yes}\n", "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false."),
         (
-            LOADS + "laws: {film: dowson, traction: baruss-crook}\n",
+            LOADS + "laws: {film: dowson, traction: barus-crook}\n",
             "2 problems: (1) case.yaml, line 2, laws.film: 'dowson' does not exist. Allowed: masjedi-khonsari, "
-            "masjedi-khonsari-moes, moes. Choose one of these. (2) case.yaml, line 2, laws.traction: 'baruss-crook' "
-            "does not exist. Allowed: "
-            "barus-crook. Did you mean barus-crook?",
+            "masjedi-khonsari-moes, moes. Choose one of these. A law of your own needs its file: macroslip run CASE "
+            "--laws FILE. (2) case.yaml, line 2, laws.traction: 'barus-crook' does not exist. Allowed: mechanisms. "
+            "Choose one of these. A law of your own needs its file: macroslip run CASE --laws FILE.",
+        ),
+        (
+            LOADS + "laws: {model: real, rheology: limiting_shear, microslip: on}\n",
+            "3 problems: (1) case.yaml, line 2, laws.model: 'real' does not exist. Allowed: paper, physical. Choose one "
+            "of these. (2) case.yaml, line 2, laws.rheology: 'limiting_shear' does not exist. Allowed: newtonian, "
+            "limiting-shear, eyring. Did you mean limiting-shear? (3) case.yaml, line 2, laws.microslip: it is 'on'. "
+            "Allowed: true or false.",
         ),
         (
             LOADS + "integrator: {method: euler}\n",

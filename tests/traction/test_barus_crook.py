@@ -10,7 +10,7 @@ from macroslip.bearing import Bearing
 from macroslip.film import law as film_law
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import interfaces
-from macroslip.traction import law
+from macroslip.traction import barus_crook, law
 
 RATED_SURFACE_SPEED = 0.39594  # Ω r~_out at 20.463 rpm [m/s]
 FILM = 1.2e-6
@@ -26,7 +26,7 @@ def base():
 
 @pytest.fixture(scope="module")
 def laws(base):
-    return [law.prepare("barus-crook", interface) for interface in base]
+    return [barus_crook.prepare(interface) for interface in base]
 
 
 def stress_integral(interface, load, film, slip):
@@ -100,7 +100,7 @@ def test_no_slip_no_force(base, laws, load):
 
 def slip_of_peak(prepared, load):
     """Slip at which traction peaks at fixed film, as the root of its slope in ln Δu by golden section."""
-    floor = math.log(law.rising_slip(prepared, load)) - 3.0
+    floor = math.log(law.rising_slip(prepared, load, FILM)) - 3.0
     found = minimize_scalar(
         lambda x: -law.patch_traction(prepared, load, FILM, math.exp(x))[0],
         bounds=(floor, floor + 8.0), method="bounded", options={"xatol": 1e-8},
@@ -112,7 +112,7 @@ def slip_of_peak(prepared, load):
 @pytest.mark.parametrize("load", [1e-6, 1e-2, 1.0, 100.0, 1e3, 1e4, 1e5, 2e5])
 def test_traction_rises_up_to_rising_slip(laws, number, load):
     prepared = laws[number]
-    limit = law.rising_slip(prepared, load)
+    limit = law.rising_slip(prepared, load, FILM)
     slopes = [law.patch_traction(prepared, load, FILM, share * limit)[1] for share in np.linspace(0.0, 1.0, 101)]
     assert min(slopes) > 0.0
     peak, _ = slip_of_peak(prepared, load)
@@ -122,7 +122,7 @@ def test_traction_rises_up_to_rising_slip(laws, number, load):
 
 def test_rising_slip_at_vanishing_load_is_the_peak_of_the_unpressed_film(base, laws):
     oil = base[0].lubricant
-    slip = law.rising_slip(laws[0], 1e-12)
+    slip = law.rising_slip(laws[0], 1e-12, FILM)
     heating = oil.temperature_viscosity * oil.viscosity * slip**2 / (8 * oil.thermal_conductivity)
     assert heating == pytest.approx(2.2767, abs=1e-3)
     assert heating < 2.27672

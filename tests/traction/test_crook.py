@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp, solve_ivp
 
+from macroslip.laws import Laws
+from macroslip.roller.contacts import references
 from macroslip.traction import heating_number, shear_stress, shear_stress_slope
 from macroslip.traction import law as traction_law
 from macroslip.traction.crook import thermal_reduction
@@ -129,6 +131,11 @@ def test_functions_broadcast():
 
 
 def test_unknown_law_is_told_with_the_choices():
-    with pytest.raises(ValueError, match="^laws.traction: there is no traction law 'coulomb'. Allowed: .*barus-crook"):
+    with pytest.raises(ValueError, match="^laws.traction: there is no traction law 'coulomb'. Allowed: .*mechanisms"):
         traction_law.prepare("coulomb", None)
-    assert "10.1098/rsta.1961.0014" in traction_law.reference("barus-crook")
+
+
+def test_crook_is_cited_where_shear_heats_the_film():
+    cited = "10.1098/rsta.1961.0014"
+    assert any(cited in one for one in references(Laws.paper()))
+    assert not any(cited in one for one in references(Laws.paper().but(heating=False)))

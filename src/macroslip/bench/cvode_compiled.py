@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import importlib
 import importlib.metadata
 
 import numba
@@ -25,7 +26,7 @@ _NUMBERS = ctypes.POINTER(ctypes.c_double)
 def _library() -> ctypes.CDLL | None:
     """All of CVODE's functions that are used, as attributes of one object; None if the wheel does not hold them."""
     try:
-        from sksundae.cvode import CVODE  # noqa: F401  loads the libraries
+        importlib.import_module("sksundae.cvode")  # loads the libraries
         files = [file for file in importlib.metadata.files("scikit-sundae") or [] if "libsundials" in file.name]
         wanted = ("core", "nvecserial", "sunmatrixdense", "sunlinsoldense", "cvode")
         found = {part: ctypes.CDLL(str(file.locate())) for part in wanted for file in files if f"_{part}" in file.name}

@@ -10,9 +10,10 @@ import numpy as np
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.contact.ring_motion import ring_motion
 from macroslip.integrate.radau import Limits
+from macroslip.laws import Laws
 from macroslip.loads import HubLoads, bundled_cases, main_bearing_load
 from macroslip.roller.load_zone import EDGE, classify, edge_time, empty_classes, interference_at
-from macroslip.roller.model import RollerModel, roller_model, truncation_load
+from macroslip.roller.model import RollerModel, highest_load, roller_model
 from macroslip.roller.orbit import Motion
 from macroslip.study.case import Case
 from macroslip.study.simulate import radau_limits
@@ -78,7 +79,9 @@ def long_histories(*, quick: bool) -> list[History]:
     return [history for number, name in chosen for history in histories_of(name, None, None, [7 * number % 28])]
 
 
-def histories_of(name: str, start: float | None, end: float | None, rollers: Sequence[int]) -> list[History]:
+def histories_of(
+    name: str, start: float | None, end: float | None, rollers: Sequence[int], laws: Laws = Laws.paper()
+) -> list[History]:
     """Some rollers of each row under part of a bundled case.
 
     Parameters
@@ -89,6 +92,8 @@ def histories_of(name: str, start: float | None, end: float | None, rollers: Seq
         First and last time [s]; None is the history's own.
     rollers : sequence of int
         Numbers in the row.
+    laws : Laws
+        Mechanisms in the contacts.
 
     Returns
     -------
@@ -100,11 +105,12 @@ def histories_of(name: str, start: float | None, end: float | None, rollers: Seq
     InputError
         If there is no such case, or the times lie outside it.
     """
-    case = Case(loads=HubLoads.bundled(name).window(start, end))
+    case = Case(loads=HubLoads.bundled(name).window(start, end), laws=laws)
     bearing, lubricant = case.bearing, case.lubricant
     loads = main_bearing_load(case.loads, case.drivetrain)
-    models = {row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=case.drivetrain.tilt) for row in ROWS}
-    motion, largest = ring_motion(loads, bearing, models["downwind"], truncation_load(bearing, lubricant))
+    tilt = case.drivetrain.tilt
+    models = {row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, laws=laws) for row in ROWS}
+    motion, largest = ring_motion(loads, bearing, models["downwind"], highest_load(bearing, lubricant, laws))
     limits = radau_limits(case, motion, models["downwind"], largest)
     found = []
     length = motion.time[-1] - motion.time[0]

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 import macroslip
+from macroslip.cli.aggregate import aggregate
 from macroslip.cli.bench import bench
 from macroslip.cli.catalogue import bearing, lubricant
 from macroslip.cli.failure import command
@@ -15,6 +16,7 @@ from macroslip.cli.loads import loads
 from macroslip.cli.report import report
 from macroslip.cli.reproduce import reproduce
 from macroslip.cli.run import run
+from macroslip.cli.study import study
 
 app = typer.Typer(
     name="macroslip",
@@ -22,10 +24,12 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
-    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, 130 interrupted.",
+    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, or some cases of a study, 130 interrupted.",
 )
 command(app, init)
 command(app, run)
+command(app, study)
+command(app, aggregate)
 command(app, report)
 command(app, reproduce)
 command(app, bench)

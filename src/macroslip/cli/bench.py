@@ -28,6 +28,7 @@ def bench(
         return
     _rivals(summary)
     _limits(summary)
+    _mechanisms(summary)
     typer.echo(f"written: {output}")
 
 
@@ -92,6 +93,27 @@ def _limits(summary: dict[str, Any]) -> None:
         rows.append([f"growth with {kind}, exponent", number(growth["exponent"]), "1", "", ""])
     headings = [("", False), ("measured", True), ("target", True), ("reached", False), ("", False)]
     table("against the limit", headings, rows)
+
+
+def _mechanisms(summary: dict[str, Any]) -> None:
+    from macroslip.cli.printing import number, table
+
+    rows = []
+    for name, row in summary["mechanisms"].items():
+        loaded, unloaded = row["downwind"], row["upwind"]
+        rows.append(
+            [
+                name,
+                number(loaded["real_time_factor"]),
+                number(loaded["force_evaluations"]),
+                number(loaded["evaluation_us"]),
+                number(unloaded["real_time_factor"]),
+            ]
+        )
+    headings = [("model", False), ("downwind roller, simulated over CPU time", True), ("force evaluations", True)]
+    headings += [("time of one [us]", True), ("upwind roller", True)]
+    asked = number(summary["targets"]["physical_real_time_factor"])
+    table(f"cost of mechanisms; at least {asked} times real time is asked of the physical model", headings, rows)
 
 
 def _line(name: str, value: float, target: float, note: str, *, least: bool = True) -> list[str]:

@@ -11,6 +11,7 @@ import typer
 from macroslip.errors import MacroslipError
 
 INTERNAL_ERROR, BAD_INPUT, ROLLERS_FAILED, INTERRUPTED = 1, 2, 3, 130
+CASES_FAILED = ROLLERS_FAILED
 
 
 def tell(text: str) -> None:

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 def run(
     case: Annotated[Path, typer.Argument(help="The case file; `macroslip init` writes one.")],
     output: Annotated[Path, typer.Option("--output", "-o", help="The netCDF file to write.")],
+    laws: Annotated[
+        list[Path] | None,
+        typer.Option(help="Python file that registers film or traction laws of your own; it is run. Repeatable."),
+    ] = None,
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; all processors if not given.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
@@ -26,6 +30,10 @@ def run(
     from macroslip.study.case_file import read_case
 
     check_new_file(output, force=force)
+    for path in laws or ():
+        from macroslip.law_file import load_laws
+
+        load_laws(path)
     checked = read_case(case)
     from macroslip.study.simulate import simulate
 

@@ -16,15 +16,37 @@ class LawList:
     ----------
     kind : str
         `film` or `traction`, the key in case files.
+    reserved : tuple of str
+        Names that mean something else under that key.
     """
 
-    def __init__(self, kind: str):
+    def __init__(self, kind: str, reserved: tuple[str, ...] = ()):
         self.kind = kind
+        self._reserved = reserved
         self._entries: dict[str, tuple[Callable[[Interface], Any], str]] = {}
 
     def add(self, name: str, prepare: Callable[[Interface], Any], reference: str) -> None:
-        """Add a law with what prepares it for an interface and what to cite for it."""
+        """Add a law with what prepares it for an interface and what to cite for it.
+
+        The module that registered a name may register it again, so that a law can be mended at a prompt.
+
+        Raises
+        ------
+        InputError
+            If the name is that of another module's law, or means something else.
+        """
+        owner = getattr(self._entries[name][0], "__module__", None) if name in self._entries else None
+        if name in self._reserved or owner not in (None, getattr(prepare, "__module__", None)):
+            raise InputError(
+                f"the {self.kind} law '{name}' cannot be registered: the name is taken",
+                allowed=f"a name other than {', '.join(sorted([*self.names(), *self._reserved]))}",
+                remedy="Choose another name; a law that was changed in its file needs a new Python process",
+            )
         self._entries[name] = (prepare, reference)
+
+    def remove(self, name: str) -> None:
+        """Take a law away again."""
+        del self._entries[name]
 
     def names(self) -> list[str]:
         """Names of the laws."""
@@ -46,7 +68,7 @@ class LawList:
             raise InputError(
                 f"there is no {self.kind} law '{name}'",
                 where=f"laws.{self.kind}",
-                allowed=", ".join(self.names()),
-                remedy="Choose one of these",
+                allowed=", ".join([*self._reserved, *self.names()]),
+                remedy="Choose one of these, or register your own first: macroslip.load_laws(path of its file)",
             )
         return self._entries[name][0](interface)

@@ -56,7 +56,7 @@ def largest_load(ring, angle, displacement):
 
 
 def ring_motion(
-    loads: BearingLoads, bearing: Bearing, model: RollerModel, truncation_load: float
+    loads: BearingLoads, bearing: Bearing, model: RollerModel, highest_load: float
 ) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
@@ -67,7 +67,7 @@ def ring_motion(
     bearing : Bearing
     model : RollerModel
         Of the downwind row.
-    truncation_load : float
+    highest_load : float
         Roller load [N] that must not be exceeded.
 
     Returns
@@ -79,7 +79,7 @@ def ring_motion(
     Raises
     ------
     InputError
-        If a roller load exceeds `truncation_load`, or a bearing without contact angle gets an axial load.
+        If a roller load exceeds `highest_load`, or a bearing without contact angle gets an axial load.
     MacroslipError
         If a balance did not converge.
     """
@@ -105,12 +105,12 @@ def ring_motion(
             "load."
         )
     largest, sample = largest_load(ring, angle, displacement)
-    if largest > truncation_load:
+    if largest > highest_load:
         raise InputError(
             f"a roller carries {largest / 1e3:.4g} kN, at which its contact ellipse would reach beyond the roller's "
             "ends",
             where=f"{loads.source}, t = {time[sample]:g} s",
-            allowed=f"roller loads up to {truncation_load / 1e3:.4g} kN for {bearing.name}",
+            allowed=f"roller loads up to {highest_load / 1e3:.4g} kN for {bearing.name}",
             remedy="Check units and signs of the loads, the bearing's size and its osculation; a truncated contact has "
             "pressures and films these formulas do not describe",
         )

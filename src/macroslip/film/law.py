@@ -16,7 +16,7 @@ from macroslip.contact.interface import Interface
 from macroslip.contact.law_list import LawList
 
 _laws = LawList("film")
-names, reference, prepare = _laws.names, _laws.reference, _laws.prepare
+names, reference, prepare, remove = _laws.names, _laws.reference, _laws.prepare, _laws.remove
 _thickness: dict[type, Callable] = {}
 _in_range: dict[type, Callable] = {}
 _range_notes: dict[str, Callable[[Interface], list[str]]] = {}
@@ -50,6 +50,11 @@ def register(
         Compiled `in_range(law, load, entrainment_speed) -> bool`.
     range_notes : callable
         `range_notes(interface) -> list of str`: what is outside the range whatever load and speed.
+
+    Raises
+    ------
+    InputError
+        If the name is taken by a law of another module.
     """
     _laws.add(name, prepare, reference)
     _range_notes[name] = range_notes

@@ -17,6 +17,7 @@ RANGES = {
     "roughness": (0.0, 5e-5),
     "hardness": (0.005, 0.03),
 }
+_LEAST_LOAD_CUBED, _MOST_LOAD_CUBED = (limit**3 for limit in RANGES["load"])
 
 
 @jit
@@ -104,9 +105,10 @@ def thickness(law, load, entrainment_speed):
 @jit
 def in_range(law, load, entrainment_speed):
     """Whether W and U are in `RANGES`; the groups that do not change with load and speed are not judged here."""
-    w = law.load_group * load ** (2.0 / 3.0)
+    # W goes with Q^(2/3); its cube needs no root.
+    cube = law.load_group * law.load_group * law.load_group * load * load
     u = law.speed_group * entrainment_speed
-    return 2e-5 <= w <= 5e-4 and 1e-12 <= u <= 1e-10
+    return _LEAST_LOAD_CUBED <= cube <= _MOST_LOAD_CUBED and 1e-12 <= u <= 1e-10
 
 
 def range_notes(interface: Interface) -> list[str]:

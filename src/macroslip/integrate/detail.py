@@ -58,9 +58,27 @@ def _raise(record, orbit, interface, flash, density, ratio, film_ratio):
 
 
 @jit
+def _spread(station_energy, powers):
+    """Give the stations the energy in the last place of `powers` in proportion to the powers before it."""
+    total = 0.0
+    for k in range(STATIONS):
+        total += powers[k]
+    if total > 0.0:
+        for k in range(STATIONS):
+            station_energy[k] += powers[STATIONS] * powers[k] / total
+        powers[STATIONS] = 0.0
+
+
+@jit
 def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, energy):
-    """Spread the step's energy over the stations as the power at its end, and raise the orbit's extremes."""
+    """Spread the step's energy over the stations as the power at its end, and raise the orbit's extremes.
+
+    A step that ends without load spreads it as the last one with load; before that it is kept for the first one.
+    """
+    powers = record.station_work[interface]
     if load <= 0.0:
+        powers[STATIONS] += energy
+        _spread(record.station_energy[interface], powers)
         return
     entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
     film, _, _ = film_thickness(contact.film, load, entrainment)
@@ -70,22 +88,21 @@ def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, ene
     across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
     width = 2.0 * contact.shape.half_length / STATIONS
     boundary = 0.75 * contact.asperity_friction.coefficient * share * load / across
-    powers = record.station_work
-    total, flash, density, fastest = 0.0, 0.0, 0.0, 0.0
+    flash, density, fastest = 0.0, 0.0, 0.0
     for k in range(STATIONS):
-        station = (k + 0.5) * width - contact.shape.half_length
-        height = 1.0 - station * station / (across * across)
-        # The station at the end of the ellipse is covered in part.
-        covered = min(max((across - abs(station)) / width + 0.5, 0.0), 1.0)
-        if height <= 0.0:
+        left = k * width - contact.shape.half_length
+        # What the ellipse covers of the station, so that the lightest contact too lies in the two middle ones.
+        first, last = max(left, -across), min(left + width, across)
+        if last - first < 1e-6 * width:
             powers[k] = 0.0
             continue
+        station, covered = 0.5 * (first + last), (last - first) / width
+        height = 1.0 - station * station / (across * across)
         speed = abs(slip_at(field, contact.shape.contour_radius, station))
         chord = math.sqrt(height)
         pull = (1.0 - share) * chord_traction(contact.traction, load, film, across, chord, speed)
         pull += boundary * height * min(speed / contact.asperity_friction.full_slip, 1.0)
         powers[k] = pull * speed * covered
-        total += powers[k]
         half_width = along * chord
         roller, ring = ring_speed - slip, ring_speed
         flash = max(
@@ -93,9 +110,8 @@ def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, ene
         )
         density = max(density, pull * speed / (2.0 * half_width))
         fastest = max(fastest, speed)
-    if total > 0.0:
-        for k in range(STATIONS):
-            record.station_energy[interface, k] += energy * powers[k] / total
+    powers[STATIONS] += energy
+    _spread(record.station_energy[interface], powers)
     _raise(record, orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 

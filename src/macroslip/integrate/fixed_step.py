@@ -52,7 +52,7 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
     """
     start = motion.time[0]
     time, interval, steps, evaluations, next_trace = start, 0, 0, 1, 0
-    status = COMPLETED
+    status, orbit = COMPLETED, -1
     at = station(model, start_angle, instant(motion, 0, time))
     spin = (at.ring_speed - slip) / model.radius
     forces = slip_forces(model, at, slip)
@@ -87,7 +87,7 @@ def integrate_fixed_step(model, motion, start_angle, slip, end, step, implicit, 
         if implicit:
             inner, outer, cage = powers(model, reached, forces, slip)
         if time >= record.edges[0]:
-            orbit = orbit_at(record, 0.5 * (time + after))
+            orbit = orbit_at(record, 0.5 * (time + after), orbit)
             add_energy(record, orbit, span * inner, span * outer, span * cage)
             raise_peak(record, orbit, 0, inner)
             raise_peak(record, orbit, 1, outer)

@@ -316,7 +316,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         # may be off by what is allowed in that part.
         share = max(h, _SHORT_PART * sample_step)
         error = max(error, abs(energy_off) / (_ENERGY_SHARE * limits.tolerance * max(mean_power * share, e_step) + 1e-300))
-        factor = _SAFETY * max(error, 1e-8) ** -0.25
+        factor = _SAFETY / math.sqrt(math.sqrt(max(error, 1e-8)))
         if error > 1.0:
             rejections += 1
             failed_before = True
@@ -326,7 +326,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         steps += 1
         spent += e_step
         if time >= record.edges[0]:
-            orbit = orbit_at(record, 0.5 * (time + t3))
+            orbit = orbit_at(record, 0.5 * (time + t3), last_orbit)
             add_energy(record, orbit, e_inner, e_outer, e_cage)
             raceways = max(i1, i2, i3, o1, o2, o3)
             if orbit != last_orbit:

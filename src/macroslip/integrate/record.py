@@ -59,8 +59,8 @@ class Record(NamedTuple):
         Largest flash temperature [K], power per area [W/m²] and slide-roll ratio, and least Λ, in each complete orbit.
     quadrature : ndarray, shape (2, 2)
         Of states looked at: energy by a finer quadrature, and what the one in use is off by [J].
-    station_work : ndarray, shape (stations,)
-        Work space.
+    station_work : ndarray, shape (2, stations + 1)
+        Work space: power at each station when the raceway last had load [W], and energy not yet given to them [J].
     """
 
     edges: np.ndarray
@@ -106,7 +106,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
         station_energy=np.zeros((2, STATIONS)),
         extreme=extreme,
         quadrature=np.zeros((2, 2)),
-        station_work=np.zeros(STATIONS),
+        station_work=np.zeros((2, STATIONS + 1)),
     )
 
 
@@ -121,9 +121,11 @@ def powers(model, at, forces, slip):
 
 
 @jit
-def orbit_at(record, time):
-    """Index of the complete orbit that holds `time`, or −1 outside all of them."""
+def orbit_at(record, time, likely):
+    """Index of the complete orbit that holds `time`, or −1 outside all of them; `likely` is looked at first."""
     edges = record.edges
+    if likely >= 0 and edges[likely] <= time < edges[likely + 1]:
+        return likely
     if time < edges[0] or time >= edges[-1]:
         return -1
     low, high = 0, edges.size - 1

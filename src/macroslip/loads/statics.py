@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import numbers
 from dataclasses import dataclass, fields
+from typing import NamedTuple
 
 import numpy as np
 
+from macroslip.catalogue.units import ANGLE, LENGTH, MASS, Dimension
 from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
 from macroslip.loads.bearing_loads import BearingLoads
@@ -53,22 +55,59 @@ class Drivetrain:
             value = getattr(self, field.name)
             if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
                 raise InputError(f"{field.name} is {value!r}", where="drivetrain", allowed="a finite number")
-        length = "lengths are in metres"
-        _check("hub_to_bearing", self.hub_to_bearing, 0.0 <= self.hub_to_bearing <= 20.0, "0 to 20 m", length)
-        _check("bearing_to_gearbox", self.bearing_to_gearbox, 0.0 < self.bearing_to_gearbox <= 20.0,
-               "above 0, up to 20 m", length)
-        _check("tilt", self.tilt, abs(self.tilt) <= 0.3, "-0.3 to 0.3 rad",
-               "angles are in radians: math.radians(5.0) for 5 degrees")
-        _check("shaft_mass", self.shaft_mass, 0.0 <= self.shaft_mass <= 1e6, "0 to 1e6 kg", "the mass is in kilograms")
-        end = self.hub_to_bearing + self.bearing_to_gearbox
-        _check("shaft_mass_station", self.shaft_mass_station, 0.0 <= self.shaft_mass_station <= end,
-               f"0 to {end:.6g} m, from the hub to the gearbox's support", length)
+        for name, reminder in _REMINDERS.items():
+            value, allowed = getattr(self, name), allowed_range(name, self.hub_to_bearing, self.bearing_to_gearbox)
+            if not allowed.holds(value):
+                raise InputError(f"{name} is {value!r}", where="drivetrain", allowed=allowed.text(),
+                                 remedy=f"Note that {reminder}.")
 
 
-def _check(name: str, value: float, good: bool, allowed: str, reminder: str) -> None:
-    if not good:
-        raise InputError(f"{name} is {value!r}", where="drivetrain", allowed=allowed,
-                         remedy=f"Note that {reminder}.")
+_LENGTH = "lengths are in metres"
+_REMINDERS = {
+    "hub_to_bearing": _LENGTH,
+    "bearing_to_gearbox": _LENGTH,
+    "tilt": "angles are in radians: math.radians(5.0) for 5 degrees",
+    "shaft_mass": "the mass is in kilograms",
+    "shaft_mass_station": _LENGTH,
+}
+
+
+class Range(NamedTuple):
+    """Values a quantity of the drivetrain may have, in SI units; `above` leaves the lowest one out."""
+
+    lowest: float
+    highest: float
+    dimension: Dimension
+    above: bool = False
+    note: str = ""
+
+    def holds(self, value: float) -> bool:
+        """Whether a value is inside."""
+        return (self.lowest < value if self.above else self.lowest <= value) and value <= self.highest
+
+    def text(self, unit: str | None = None) -> str:
+        """The range in words, in a unit of the dimension; in SI if none is named."""
+        low, high = (self.dimension.text(end, unit or self.dimension.si_unit) for end in (self.lowest, self.highest))
+        low, high = low.partition(" ")[0], high.replace("e+0", "e")
+        return f"above {low}, up to {high}{self.note}" if self.above else f"{low} to {high}{self.note}"
+
+
+def allowed_range(name: str, hub_to_bearing: float, bearing_to_gearbox: float) -> Range:
+    """Range of a quantity of the drivetrain; where the shaft's mass may be depends on the lengths [m].
+
+    Examples
+    --------
+    >>> allowed_range("tilt", 1.26, 2.2).text("deg")
+    '-17.1887 to 17.1887 deg'
+    """
+    station = Range(0.0, hub_to_bearing + bearing_to_gearbox, LENGTH, note=", from the hub to the gearbox's support")
+    return {
+        "hub_to_bearing": Range(0.0, 20.0, LENGTH),
+        "bearing_to_gearbox": Range(0.0, 20.0, LENGTH, above=True),
+        "tilt": Range(-0.3, 0.3, ANGLE),
+        "shaft_mass": Range(0.0, 1e6, MASS),
+        "shaft_mass_station": station,
+    }[name]
 
 
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:

@@ -232,9 +232,10 @@ def plot_over_station(axes: Axes, values: xr.DataArray, title: str = "") -> Axes
 
 
 def mark_wind_speeds(axes: Axes, speeds: tuple[float, ...], words: str) -> Axes:
-    """Shade the wind speeds [m/s] at which a statement puts something, and write its words at the top."""
+    """Shade the wind speeds [m/s] at which a statement puts something, and write its words at the foot."""
     axes.axvspan(min(speeds) - 0.8, max(speeds) + 0.8, color=BLUE, alpha=0.10, linewidth=0.0, zorder=-1)
-    axes.text(min(speeds) - 0.6, 0.98, words, transform=axes.get_xaxis_transform(), va="top", fontsize=9, color=BLUE)
+    place = axes.get_xaxis_transform()
+    axes.text(min(speeds) - 0.6, 0.02, words, transform=place, va="bottom", fontsize=9, color=BLUE)
     return axes
 
 

@@ -31,6 +31,8 @@ _COLOURS = 16
 def quantise(values: NDArray, low: float, high: float) -> bytes:
     """Values between `low` and `high` as little-endian numbers of 16 bits, 0 to 65534; 65535 for NaN.
 
+    Only what is not above `low` becomes 0, so that a load of zero is told from a small one.
+
     Examples
     --------
     >>> list(np.frombuffer(quantise(np.array([0.0, 0.5, 1.0, np.nan]), 0.0, 1.0), "<u2"))
@@ -38,6 +40,7 @@ def quantise(values: NDArray, low: float, high: float) -> bytes:
     """
     span = high - low or 1.0
     codes = np.round((np.clip(np.nan_to_num(values, nan=low), low, high) - low) / span * _TOP)
+    codes = np.where(values > low, np.maximum(codes, 1), codes)
     return np.where(np.isnan(values), MISSING, codes).astype("<u2").tobytes()
 
 

@@ -5,9 +5,10 @@ All functions take a turn from `macroslip.study.single_roller.trace_turn`; its l
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from macroslip.report.style import BLACK, BLUE, ORANGE, finish
+from macroslip.report.style import BLACK, BLUE, ORANGE, ROW, finish
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -36,6 +37,24 @@ def plot_cumulative_energy(axes: Axes, turn: xr.Dataset, title: str = "") -> Axe
     energy = f"whole turn: {1e3 * turn.attrs['energy_J']:.0f} mJ"
     axes.text(0.97, 0.05, energy, transform=axes.transAxes, ha="right", fontsize=9)
     return _finish(axes, "energy so far / whole turn [–]", title)
+
+
+def plot_varying_over_static(axes: Axes, ratios: Mapping[str, Mapping[str, float]]) -> Axes:
+    """Energy per orbit under time-varying over that under static load, on a logarithmic axis.
+
+    Takes ratios [-] by the name of the static load and by row.
+    """
+    for place, (name, rows) in enumerate(ratios.items()):
+        for k, (row, ratio) in enumerate(rows.items()):
+            x = place + 0.34 * (k - 0.5)
+            style = {"color": ROW[row]["color"], "marker": ROW[row]["marker"], "linestyle": "none"}
+            axes.plot([x], [ratio], markersize=7, label="" if place else f"{row} row", **style)
+            axes.annotate(f"{ratio:.2f}", (x, ratio), xytext=(0, 8), textcoords="offset points", ha="center", fontsize=9)
+    axes.set_xticks(range(len(ratios)), [f"static: {name}" for name in ratios])
+    axes.set_xlim(-0.5, len(ratios) - 0.5)
+    axes.set_yscale("log")
+    axes.yaxis.set_major_formatter("{x:g}")
+    return finish(axes, "", "energy, time-varying / static [–]")
 
 
 def shade_loaded(axes: Axes, turn: xr.Dataset) -> Axes:

@@ -17,6 +17,7 @@ from macroslip.report.bearing_figures import mark_level, mark_wind_speeds
 from macroslip.report.page import Beside, Block, Paragraph, Pictures, Section
 from macroslip.report.pictures import Picture, picture
 from macroslip.study.headline import step_line, tolerance_line
+from macroslip.study.model_run import DETAILED_CASE, STATIC_LOADS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,7 +57,7 @@ def sections(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]
 
 def _turns(run: ModelRun, of: str) -> list[Block]:
     blocks: list[Block] = []
-    static = {f"{name} load": run.turns["static"][f"{name}, downwind"] for name in ("downward", "downward and thrust")}
+    static = {f"{name} load": run.turns["static"][f"{name}, downwind"] for name in STATIC_LOADS}
     groups = (
         (f"Figure 3a: constant load and speed{of}", static,
          ("An unloaded roller is slowed by friction at the cage, with an inflexion at the top.",
@@ -84,7 +85,26 @@ def _turns(run: ModelRun, of: str) -> list[Block]:
             for name, turn in turns.items()
         )
         blocks.append(Beside(title, stated, tuple(pictures), f"{caption} Whole turn: {energies}."))
-    return blocks
+    return [*blocks, _over_static(run, of)]
+
+
+def _over_static(run: ModelRun, of: str) -> Beside:
+    rows = run.study.row.values.tolist()
+    varying = run.numbers.orbit_energy.sel(case=DETAILED_CASE)
+    ratios = {
+        name: {row: float(varying.sel(row=row)) / run.turns["static"][f"{name}, {row}"].attrs["energy_J"] for row in rows}
+        for name in STATIC_LOADS
+    }
+
+    def draw(axes):
+        return mark_level(orbit_figures.plot_varying_over_static(axes, ratios), 50.0, 200.0, "paper: about 100")
+
+    return Beside(
+        f"Time-varying over static load{of}",
+        ("Time-varying loads give about 100 times the energy of the static ones.",),
+        (picture(draw, "Energy per orbit under time-varying over that under static load, by row", legend="above"),),
+        f"Energy per orbit in case {DETAILED_CASE}, mean over rollers and orbits, over that of a turn under its mean load.",
+    )
 
 
 def _over_wind_speed(run: ModelRun, of: str) -> list[Block]:
@@ -166,7 +186,7 @@ def _numerical(tolerances: xr.Dataset, steps: xr.Dataset) -> Section:
                 ),
                 "Left: energy at the cage per orbit, time-varying load of case 14B, one roller of each row. Right: "
                 f"mean largest power per orbit, {steps.attrs['start_s']:.4g} s to {steps.attrs['end_s']:.4g} s of case 14B, "
-                "four rollers of each row. Lines: converged.",
+                f"four rollers of each row. Lines: converged (Radau at {tolerances.attrs['converged_tolerance']:g}).",
             ),
             Paragraph(f"{tolerance_line(tolerances)} {step_line(steps)}"),
             Paragraph(

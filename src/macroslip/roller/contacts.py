@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import macroslip.film.masjedi_khonsari
-import macroslip.film.masjedi_khonsari_moes  # noqa: F401  these register their laws
 from macroslip.bearing import geometry
 from macroslip.contact.flash_temperature import effusivity
 from macroslip.contact.shape import ContactShape, common_contour_radius, slipless

@@ -15,7 +15,7 @@ import numpy as np
 from macroslip.compiled import jit
 from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.forces import interference
-from macroslip.roller.orbit import instant
+from macroslip.roller.orbit import Instant, instant
 
 FREE, EDGE, FIRM = 0, 1, 2
 #: Relaxation rate of slip [1/s] from which on a roller counts as firmly held. Accelerations of a shaft are far below
@@ -77,6 +77,14 @@ def interference_at(model, motion, start_angle, interval, time):
 
 
 @jit
+def _interference_at_sample(model, motion, start_angle, sample):
+    angle = start_angle + model.orbit_ratio * motion.shaft_angle[sample]
+    place = motion.displacement[sample]
+    now = Instant(motion.shaft_speed[sample], motion.shaft_angle[sample], place[0], place[1], place[2])
+    return interference(model, math.cos(angle), math.sin(angle), now)
+
+
+@jit
 def classify(model, motion, start_angle, firm, classes):
     """Write the class of every sample interval into `classes`, shape (n − 1,).
 
@@ -95,15 +103,15 @@ def classify(model, motion, start_angle, firm, classes):
         Filled with `FREE`, `EDGE` and `FIRM`.
     """
     last = motion.time.size - 1
-    before = interference_at(model, motion, start_angle, 0, motion.time[0])
+    before = _interference_at_sample(model, motion, start_angle, 0)
     for k in range(last):
-        after = interference_at(model, motion, start_angle, k, motion.time[k + 1])
+        after = _interference_at_sample(model, motion, start_angle, k + 1)
         near, far = motion.displacement[k], motion.displacement[k + 1]
         span = abs(model.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
         turn = span * max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
         quickening = span * abs(motion.shaft_speed[k + 1] - motion.shaft_speed[k])
-        reach = max(math.hypot(near[0], near[1]), math.hypot(far[0], far[1]))
-        shift = math.hypot(far[0] - near[0], far[1] - near[1])
+        reach = math.sqrt(max(near[0] * near[0] + near[1] * near[1], far[0] * far[0] + far[1] * far[1]))
+        shift = math.sqrt((far[0] - near[0]) ** 2 + (far[1] - near[1]) ** 2)
         margin = 0.125 * ((turn * turn + quickening) * reach + 2.0 * turn * shift) + 1e-15
         if before < -margin and after < -margin:
             classes[k] = FREE

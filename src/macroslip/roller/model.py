@@ -12,6 +12,9 @@ from macroslip.contact.interface import Interface
 from macroslip.laws import Laws
 from macroslip.roller.contacts import prepare_contact
 
+#: Share of a roller's load that may lie beyond its ends.
+HIGHEST_TRUNCATED_SHARE = 0.1
+
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.lubricant import Lubricant
@@ -102,6 +105,38 @@ def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
     inner, outer, _ = interfaces(bearing, lubricant)
     half = 0.5 * bearing.roller_length
     return min(contact.hertz.load_at_semi_axis_across(half) for contact in (inner, outer))
+
+
+def truncated_share(load: float, truncation: float) -> float:
+    """Share of a roller's load whose part of the Hertz ellipse lies beyond the roller's ends [-].
+
+    Parameters
+    ----------
+    load : float
+        Largest roller load [N].
+    truncation : float
+        From `truncation_load` [N].
+
+    Examples
+    --------
+    >>> truncated_share(1e5, 2e5), round(truncated_share(4e5, 2e5), 4)
+    (0.0, 0.0595)
+    """
+    if load <= truncation:
+        return 0.0
+    part = (truncation / load) ** (1.0 / 3.0)
+    return 1.0 - 0.5 * part * (3.0 - part * part)
+
+
+def highest_load(bearing: Bearing, lubricant: Lubricant, laws: Laws) -> float:
+    """Roller load [N] that a case may not exceed: where the ellipse reaches the roller's ends, or with microslip, which
+    cuts it off there, where a tenth of the load would lie beyond them."""
+    truncation = truncation_load(bearing, lubricant)
+    if not laws.microslip:
+        return truncation
+    # (3t − t³)/2 = 1 − share, with t the half length over the semi-axis.
+    part = 2.0 * math.sin(math.asin(1.0 - HIGHEST_TRUNCATED_SHARE) / 3.0)
+    return truncation / part**3
 
 
 def roller_model(

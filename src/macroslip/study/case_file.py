@@ -15,6 +15,7 @@ from macroslip.catalogue.source import Source, parse
 from macroslip.errors import InputError
 from macroslip.laws import Laws
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
+from macroslip.loads.statics import allowed_range
 from macroslip.lubricant import Lubricant
 from macroslip.study.case import BackwardEuler, Case, ExplicitEuler, Radau, Traces, Window
 from macroslip.study.case_form import Place
@@ -112,6 +113,8 @@ class _Builder:
 
     def check_lubricant(self, case: Case) -> None:
         """Find out now, not after the loads are computed, whether the lubricant has what the mechanisms need."""
+        if case.laws == Laws.paper():  # it asks for nothing that a lubricant may lack
+            return
         from macroslip.roller.contacts import check_lubricant
 
         check_lubricant(case.laws, case.lubricant)
@@ -186,7 +189,9 @@ class _Builder:
                 return Drivetrain(**good)
             except InputError as problem:
                 key = problem.what.partition(" ")[0]
-                what = f"it is {self.data['drivetrain'][key]}"
-                self.problems.append(place.inside(key).problem(what, problem.allowed, "Check value and unit."))
+                written = self.data["drivetrain"][key]
+                lengths = {name: good.get(name, getattr(Drivetrain(), name)) for name in ("hub_to_bearing", "bearing_to_gearbox")}
+                allowed = allowed_range(key, **lengths).text(CASE.keys["drivetrain"].keys[key].unit(written))
+                self.problems.append(place.inside(key).problem(f"it is {written}", allowed, "Check value and unit."))
                 # Where the shaft's mass may be depends on the lengths.
                 good = {other: good[other] for other in good if other not in (key, "shaft_mass_station")}

@@ -98,6 +98,10 @@ class Quantity:
             raise place.problem(f"{shown(value)} is too large for a number", self.form)
         return si_value
 
+    def unit(self, value: str) -> str:
+        """Unit of a text that `read` has accepted."""
+        return re.sub(rf"^\s*{_NUMBER}\s*", "", value).strip()
+
     def schema(self) -> dict[str, Any]:
         """Text of the form number and unit, or a word."""
         units = "|".join(re.escape(unit).replace("\\ ", " ") for unit in self.dimension.units)
@@ -166,16 +170,21 @@ class Plain:
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several names; they are asked for when they are needed, so that a law costs nothing until then."""
+    """One of several names; they are asked for when they are needed, so that a law costs nothing until then.
+
+    `more` says how a name that does not exist can come to exist.
+    """
 
     about: str
     names: Callable[[], Sequence[str]]
+    more: str = ""
 
     def read(self, value: Any, place: Place) -> str:
         """Check that the name exists."""
         names = self.names()
         if value not in names:
-            raise place.problem(f"{shown(value)} does not exist", ", ".join(names), _nearest(value, names))
+            remedy = " ".join(part for part in (_nearest(value, names), self.more) if part)
+            raise place.problem(f"{shown(value)} does not exist", ", ".join(names), remedy)
         return value
 
     def schema(self) -> dict[str, Any]:

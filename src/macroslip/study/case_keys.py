@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from macroslip.catalogue.units import ANGLE, FORCE, LENGTH, MASS, MOMENT, SPEED, TIME
-from macroslip.laws import MECHANISMS, MODELS, VISCOSITIES
+from macroslip.laws import MECHANISMS, MODELS, asperity_laws, rheologies, viscosities
 from macroslip.loads import bundled_cases
 from macroslip.study.case_form import Choice, Numbers, Plain, Quantity, Vector
 from macroslip.study.case_section import Section, Variants
-from macroslip.traction.rheology import RHEOLOGIES
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 
 
+_OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
+
+
 def _film_laws() -> list[str]:
-    import macroslip.roller.contacts  # noqa: F401  registers the laws
     from macroslip.film import law
 
     return law.names()
@@ -23,12 +24,6 @@ def _traction_laws() -> list[str]:
     from macroslip.traction import law
 
     return [MECHANISMS, *law.names()]
-
-
-def _asperity_laws() -> list[str]:
-    from macroslip.film import asperity_load
-
-    return asperity_load.names()
 
 
 _constant = {
@@ -75,15 +70,15 @@ CASE = Section(
             "physics in the contacts: a named set, and mechanisms that differ from it",
             {
                 "model": Choice("named set of mechanisms", lambda: list(MODELS)),
-                "film": Choice("film thickness", _film_laws),
+                "film": Choice("film thickness", _film_laws, _OWN_LAW),
                 "starvation": Plain("film thinned by the lubricant's starvation factor", bool),
                 "inlet_heating": Plain("film thinned by shear heating in the inlet", bool),
-                "viscosity": Choice("how viscosity rises with pressure", lambda: list(VISCOSITIES)),
-                "rheology": Choice("how the film's stress falls behind the Newtonian one", lambda: list(RHEOLOGIES)),
+                "viscosity": Choice("how viscosity rises with pressure", viscosities),
+                "rheology": Choice("how the film's stress falls behind the Newtonian one", rheologies),
                 "heating": Plain("shear heating of the film", bool),
                 "microslip": Plain("slip that varies along the roller", bool),
-                "asperities": Choice("share of the load that asperities carry", _asperity_laws),
-                "traction": Choice("mechanisms, or a traction law of your own in their place", _traction_laws),
+                "asperities": Choice("share of the load that asperities carry", asperity_laws),
+                "traction": Choice("mechanisms, or a traction law of your own in their place", _traction_laws, _OWN_LAW),
             },
         ),
         "integrator": Variants(

@@ -43,6 +43,7 @@ def to_dataset(
     end: float,
     results: dict[tuple[str, int], tuple[int, Record]],
     film_range_notes: list[str],
+    truncated_share: float,
 ) -> xr.Dataset:
     """Collect the records of all rollers.
 
@@ -59,6 +60,8 @@ def to_dataset(
         Status and record by row and roller number.
     film_range_notes : list of str
         What lies outside the film law's range whatever the load.
+    truncated_share : float
+        Largest share of a roller's load that lies beyond its ends [-].
 
     Returns
     -------
@@ -170,6 +173,7 @@ def to_dataset(
         "window_start": float(edges[0]),
         "window_end": end,
         "film_range_notes": "\n".join(film_range_notes),
+        "truncated_share": truncated_share,
         "input": json.dumps(case.as_dict(), ensure_ascii=False),
         "citations": "\n".join([*citations, _RADAU] if isinstance(case.integrator, Radau) else citations),
     }

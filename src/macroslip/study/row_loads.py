@@ -10,7 +10,7 @@ from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
 from macroslip.contact.ring_balance import roller_loads
 from macroslip.contact.ring_motion import ring_geometry, ring_motion
 from macroslip.loads import BearingLoads, main_bearing_load
-from macroslip.roller.model import roller_model, truncation_load
+from macroslip.roller.model import highest_load, roller_model
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,7 +52,7 @@ def row_loads(case: Case, start: float, end: float) -> xr.Dataset:
 
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
     model = roller_model(case.bearing, case.lubricant, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
-    motion, _ = ring_motion(loads, case.bearing, model, truncation_load(case.bearing, case.lubricant))
+    motion, _ = ring_motion(loads, case.bearing, model, highest_load(case.bearing, case.lubricant, case.laws))
     ring = ring_geometry(case.bearing, model)
     here = np.flatnonzero((motion.time >= start) & (motion.time <= end))[::_EVERY]
     found = np.empty((here.size, len(ROWS) * case.bearing.rollers_per_row))

@@ -17,7 +17,7 @@ from macroslip.integrate.radau import Limits, integrate_radau, longest_step, ris
 from macroslip.integrate.record import Record, new_record
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.roller.load_zone import empty_classes, firm_interference
-from macroslip.roller.model import RollerModel, interfaces, roller_model, truncation_load
+from macroslip.roller.model import RollerModel, highest_load, interfaces, roller_model, truncated_share, truncation_load
 from macroslip.roller.orbit import Motion
 from macroslip.roller.travel import orbit_times
 from macroslip.study.case import BackwardEuler, Case, Radau
@@ -69,7 +69,7 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
         for row in ROWS
     }
     model = models["downwind"]
-    motion, largest = ring_motion(loads, case.bearing, model, truncation_load(case.bearing, case.lubricant))
+    motion, largest = ring_motion(loads, case.bearing, model, highest_load(case.bearing, case.lubricant, case.laws))
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
@@ -104,7 +104,8 @@ def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int,
         # An interrupt waits for the rollers under way only.
         pool.shutdown(cancel_futures=True)
     notes = film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))
-    return to_dataset(case, model, edges, end, results, notes)
+    cut_off = truncated_share(largest, truncation_load(case.bearing, case.lubricant))
+    return to_dataset(case, model, edges, end, results, notes, cut_off)
 
 
 def usable_processors() -> int:

@@ -4,8 +4,8 @@ A contact needs the stress on some forty chords for every force evaluation, and 
 heat balance; the same numbers come back all the time, for every roller of every case. So they are computed once for a
 lubricant. The spline is twice continuously differentiable, and its derivatives are those of its own value.
 
-Coordinates are the fourth root of p1, the logarithm of slip over `characteristic_slip`, and the logarithm of film thickness. Below the first
-slip a film is Newtonian and cool, and stress is proportional to slip.
+Coordinates are the fourth root of p1, the logarithm of slip over `characteristic_slip`, and the logarithm of film
+thickness. Below the first slip a film is Newtonian and cool, and stress is proportional to slip.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _LOWEST_PRESSURE = 10.0
 _NO_HEATING = 1e-30
 _THINNEST, _THICKEST = 2e-8, 4e-4
 _FASTEST = 5.0
-_LOWEST_LOG_SLIP = -8.0
+_LOWEST_LOG_SLIP = -10.0
 _PRESSURES, _SLIP_SPACING, _FILM_SPACING = 52, 0.4, 0.5
 
 
@@ -77,13 +77,17 @@ def chord_table(fluid: Fluid) -> ChordTable:
 
     Notes
     -----
-    Relative error of the interpolated stress below 5e-4 up to `HIGHEST_PRESSURE`, for films of 20 nm to 0.4 mm and slips
-    up to 5 m/s.
+    With Roelands' viscosity the relative error of the interpolated stress is below 5e-4 up to 2 GPa and 0.05 m/s in films
+    of 0.1 to 2 µm. Where a contact above 1 GPa skids at 0.4 m/s and limited stress gives way to heating it reaches 1 %, in
+    less than one place in a hundred; with Barus' viscosity, 10 %. In films beyond 10 µm or slips beyond 0.5 m/s it may be
+    several per cent. The limiting stress itself is never exceeded.
     """
     roots = np.linspace(0.0, HIGHEST_PRESSURE**0.25, _PRESSURES)
     films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + _FILM_SPACING, _FILM_SPACING)
     slowest = min(_slip_scale(fluid, p, math.exp(films[0])) for p in np.maximum(roots**4, _LOWEST_PRESSURE)[1:])
-    slips = np.arange(_LOWEST_LOG_SLIP, math.log(_FASTEST / slowest) + _SLIP_SPACING, _SLIP_SPACING)
+    # A spline needs five nodes, even where stress is proportional to slip all through: Newtonian, without heating.
+    highest = max(math.log(_FASTEST / slowest) + _SLIP_SPACING, _LOWEST_LOG_SLIP + 4.5 * _SLIP_SPACING)
+    slips = np.arange(_LOWEST_LOG_SLIP, highest, _SLIP_SPACING)
     pressures = np.maximum(roots**4, _LOWEST_PRESSURE)
     values = _fill(fluid, pressures, slips, films)
     viscosities = _spline_coefficients(np.array([log_viscosity(fluid, p)[0] for p in pressures]), 0)
@@ -249,4 +253,8 @@ def interpolated_stress(table, place, pressure, slip, with_film):
         share = 1.0 if fluid.rheology == LIMITING_SHEAR else 0.0
         by_pressure += share + slope * (steepness - share)
         by_film -= slope
-    return ChordStress(unit * math.exp(value), slope, by_pressure, by_film)
+    stress = unit * math.exp(value)
+    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
+    if fluid.rheology == LIMITING_SHEAR and stress > 0.25 * math.pi * unit:
+        return ChordStress(0.25 * math.pi * unit, 0.0, 1.0, 0.0)
+    return ChordStress(stress, slope, by_pressure, by_film)

@@ -54,9 +54,9 @@ def heated_shear(rheology, viscous_stress, characteristic_stress, heat):
 
     Examples
     --------
-    >>> stress, by_viscosity, _ = heated_shear(1, 1e9, 5e7, 1e-8)
+    >>> stress, by_viscosity, _ = heated_shear(1, 1e8, 5e7, 2e-8)
     >>> round(stress / 5e7, 6), round(by_viscosity, 6)
-    (1.0, 5e-06)
+    (0.691124, 0.397545)
     """
     if viscous_stress == 0.0:
         return 0.0, 1.0, 0.0

@@ -82,12 +82,13 @@ def uniform_traction(law, load, film_thickness, slip):
         by_slip += part * chord.by_slip
         by_film += part * chord.by_film
         by_pressure += part * chord.by_pressure
-    force = math.copysign(area * total, slip)
+    signed = math.copysign(area, slip)
+    force = signed * total
     return (
         force,
         area * by_slip / speed,
-        math.copysign(area * by_film, slip) / film_thickness,
-        (2.0 * force + math.copysign(area * by_pressure, slip)) / (3.0 * load),
+        signed * by_film / film_thickness,
+        (2.0 * force + signed * by_pressure) / (3.0 * load),
     )
 
 

@@ -11,10 +11,11 @@ from numba.extending import overload
 
 from macroslip.compiled import depend_on
 from macroslip.contact.law_list import LawList
+from macroslip.laws import MECHANISMS
 from macroslip.traction.patch import Patch
 
-_laws = LawList("traction")
-names, reference, prepare = _laws.names, _laws.reference, _laws.prepare
+_laws = LawList("traction", reserved=(MECHANISMS,))
+names, reference, prepare, remove = _laws.names, _laws.reference, _laws.prepare, _laws.remove
 _traction: dict[type, Callable] = {}
 _rising_slip: dict[type, Callable] = {}
 _microslip: dict[type, Callable] = {}
@@ -42,6 +43,11 @@ def register(
     rising_slip : callable
         Compiled `rising_slip(law, load, film_thickness) -> |Δu|` [m/s] up to which traction surely rises with slip. The
         integrator needs it to know where an implicit step can have more than one root.
+
+    Raises
+    ------
+    InputError
+        If the name is taken by a law of another module.
     """
     _laws.add(name, prepare, reference)
     register_type(law, traction=traction, rising_slip=rising_slip)

@@ -42,9 +42,9 @@ def limited_stress(rheology, viscous_stress, characteristic_stress):
     Examples
     --------
     >>> [round(x, 6) for x in limited_stress(LIMITING_SHEAR, 2.0e7, 4.0e7)]
-    [15737.734101, 0.770747]
+    [15738773.611495, 0.770747]
     >>> [round(x, 6) for x in limited_stress(EYRING, 3.3e6, 3.3e6)]
-    [2908533.836665, 0.802288]
+    [2908532.837164, 0.802278]
     """
     if rheology == NEWTONIAN or viscous_stress == 0.0:
         return viscous_stress, 1.0

@@ -84,6 +84,7 @@
     function words(q, row, roller, k) {
       const code = q.codes[index(row, roller, k)];
       if (code === MISSING) return "not computed";
+      if (code === 0 && q.low === 0) return `0 ${q.unit}`;
       if (q.logarithmic && code === 0) return `below ${shown(10 ** q.low)} ${q.unit}`;
       const resolution = (q.high - q.low) / TOP;
       const plain = q.low + (q.high - q.low) * code / TOP;

@@ -1,0 +1,91 @@
+"""What the summary keeps of a case: a few numbers for each row of rollers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.integrate.status import Status
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from macroslip.loads import BearingLoads, HubLoads
+
+_OVER = "over all rollers and complete orbits"
+#: Units and meaning of the numbers of each row of rollers.
+ROW_VARIABLES = {
+    "energy_mean": ("J", "energy dissipated by a roller in the window, all interfaces: mean over rollers"),
+    "energy_min": ("J", "energy dissipated by a roller in the window, all interfaces: smallest roller"),
+    "energy_max": ("J", "energy dissipated by a roller in the window, all interfaces: largest roller"),
+    "energy_inner": ("J", "energy dissipated at the inner raceway in the window, mean over rollers"),
+    "energy_outer": ("J", "energy dissipated at the outer raceway in the window, mean over rollers"),
+    "energy_cage": ("J", "energy dissipated at the cage in the window, mean over rollers"),
+    "orbit_energy_mean": ("J", f"energy of a roller per orbit, all interfaces: mean {_OVER}"),
+    "orbit_energy_max": ("J", f"energy of a roller per orbit, all interfaces: largest {_OVER}"),
+    "peak_power_mean": ("W", f"largest power at any interface per orbit: mean {_OVER}"),
+    "peak_power_std": ("W", f"largest power at any interface per orbit: standard deviation {_OVER}"),
+    "peak_power_max": ("W", f"largest power at any interface per orbit: largest {_OVER}"),
+    "lowest_spin_ratio": ("1", "smallest ratio of spin to spin in pure rolling in the window, of all rollers"),
+    "failed_rollers": ("1", "number of rollers whose integration failed"),
+}
+#: The same of the case as a whole.
+CASE_VARIABLES = {
+    "window_length": ("s", "length of the window"),
+    "orbits": ("1", "complete orbits in the window"),
+    "loads_length": ("s", "length of the loads"),
+    "shaft_speed_mean": ("rad/s", "mean shaft speed of the loads"),
+    "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
+    "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
+}
+
+
+def row_values(result: xr.Dataset) -> dict[str, list[float]]:
+    """The numbers of each row of rollers, in the order of `row`.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        From `simulate`.
+
+    Returns
+    -------
+    dict
+        A list by name of `ROW_VARIABLES`. Values that a failed roller enters are NaN, and so are peaks and energies per
+        orbit without a complete orbit.
+    """
+    energy = result.energy.transpose("row", "roller", "interface").values
+    orbits = result.orbit_energy.transpose("row", "roller", "orbit", "interface").values.sum(axis=-1)
+    peaks = result.peak_power.transpose("row", "roller", "orbit", "interface").values.max(axis=-1)
+    orbits, peaks = (values.reshape(values.shape[0], -1) for values in (orbits, peaks))
+    total = energy.sum(axis=-1)
+    interfaces = list(result.interface.values)
+    found = {
+        "energy_mean": total.mean(axis=1),
+        "energy_min": total.min(axis=1),
+        "energy_max": total.max(axis=1),
+        **{f"energy_{name}": energy[..., interfaces.index(name)].mean(axis=1) for name in ("inner", "outer", "cage")},
+        "orbit_energy_mean": _over_samples(np.mean, orbits),
+        "orbit_energy_max": _over_samples(np.max, orbits),
+        "peak_power_mean": _over_samples(np.mean, peaks),
+        "peak_power_std": _over_samples(np.std, peaks),
+        "peak_power_max": _over_samples(np.max, peaks),
+        "lowest_spin_ratio": result.min_spin_ratio.transpose("row", "roller").values.min(axis=1),
+        "failed_rollers": (result.status.transpose("row", "roller").values != Status.COMPLETED).sum(axis=1),
+    }
+    return {name: [float(value) for value in values] for name, values in found.items()}
+
+
+def case_values(result: xr.Dataset, loads: HubLoads | BearingLoads) -> dict[str, float]:
+    """The numbers of the case as a whole, without times of computation."""
+    return {
+        "window_length": float(result.attrs["window_end"] - result.attrs["window_start"]),
+        "orbits": float(result.sizes["orbit"]),
+        "loads_length": loads.duration,
+        "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
+    }
+
+
+def _over_samples(function: Any, samples: np.ndarray) -> np.ndarray:
+    return function(samples, axis=1) if samples.shape[1] else np.full(samples.shape[0], np.nan)

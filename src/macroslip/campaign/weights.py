@@ -1,0 +1,209 @@
+"""How likely each wind speed is, and which runs of a study stand for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: A year [s], of 365.25 days.
+YEAR = 365.25 * 86400.0
+
+
+@dataclass(frozen=True)
+class Weibull:
+    """Weibull distribution of the wind speed.
+
+    Parameters
+    ----------
+    scale : float
+        A [m/s], above 0.
+    shape : float
+        k [1], above 0; 2 is a Rayleigh distribution.
+
+    Raises
+    ------
+    InputError
+        For values that are not above 0.
+
+    Notes
+    -----
+    F(v) = 1 − exp(−(v/A)^k), and a bin from a to b has the probability F(b) − F(a): IEC 61400-12-1 and every handbook
+    of wind energy.
+
+    Examples
+    --------
+    >>> round(Weibull(9.5, 2.0).probability(12.0, 1.0 * 2.0), 4)  # 11 to 13 m/s
+    0.1079
+    """
+
+    scale: float
+    shape: float
+
+    def __post_init__(self) -> None:
+        for name in ("scale", "shape"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise InputError(f"the {name} of the Weibull distribution is {value!r}", allowed="a number above 0")
+
+    def probability(self, centre: float, width: float) -> float:
+        """Probability of the bin of this centre and width [m/s]."""
+        low, high = max(centre - 0.5 * width, 0.0), max(centre + 0.5 * width, 0.0)
+        return math.exp(-((low / self.scale) ** self.shape)) - math.exp(-((high / self.scale) ** self.shape))
+
+
+@dataclass(frozen=True)
+class Given:
+    """Probability of each bin.
+
+    Parameters
+    ----------
+    probabilities : mapping of float to float
+        By the centre of the bin [unit of the field]; 0 or above, together at most 1.
+
+    Raises
+    ------
+    InputError
+    """
+
+    probabilities: Mapping[float, float]
+
+    def __post_init__(self) -> None:
+        values = list(self.probabilities.values())
+        if not values or not all(math.isfinite(value) and value >= 0.0 for value in values) or sum(values) > 1.0 + 1e-6:
+            raise InputError(f"the probabilities are {values!r:.200}", allowed="numbers from 0, together at most 1")
+
+    def probability(self, centre: float, width: float) -> float:
+        """Probability of the bin of this centre.
+
+        Raises
+        ------
+        InputError
+            If none is given for it.
+        """
+        for given, probability in self.probabilities.items():
+            if abs(given - centre) < 1e-6 * width:
+                return probability
+        known = ", ".join(f"{given:g}" for given in self.probabilities)
+        raise InputError(
+            f"no probability is given for the bin at {centre:g}",
+            allowed=known,
+            remedy="Add it, with 0 if it is to be left out, or choose another width.",
+        )
+
+
+Weights = Weibull | Given
+
+
+@dataclass(frozen=True)
+class Binning:
+    """The runs of a study by group and bin.
+
+    Parameters
+    ----------
+    groups : list of dict
+        Labels of each group: runs that differ in more than loads and seeds are not thrown together.
+    group : ndarray of int, shape (runs,)
+        Group of each run.
+    centres : ndarray, shape (bins,)
+        [unit of the field].
+    bin : ndarray of int, shape (runs,)
+        Bin of each run.
+    width : float
+        [unit of the field].
+    field : str
+    """
+
+    groups: list[dict[str, Any]]
+    group: np.ndarray
+    centres: np.ndarray
+    bin: np.ndarray
+    width: float
+    field: str
+
+    def coordinates(self, study: xr.Dataset, *, bins: bool = True) -> dict[str, Any]:
+        """Coordinates of a dataset over `group` and `bin`."""
+        import pandas as pd
+
+        found: dict[str, Any] = {}
+        for name in self.groups[0] if self.groups else ():
+            values = [group[name] for group in self.groups]
+            texts = any(isinstance(value, str) for value in values)
+            array = pd.Series(values, dtype=object if texts else None).to_numpy()
+            found[name] = ("group", array, dict(study[name].attrs))
+        if bins:
+            units = study[self.field].attrs["units"]
+            about = {"units": units, "long_name": f"centre of the bin of {self.field}, {self.width:g} {units} wide"}
+            found["bin"] = ("bin", self.centres, about)
+        return found
+
+    def probabilities(self, weights: Weights) -> np.ndarray:
+        """Probability of each bin, shape (bins,)."""
+        return np.array([weights.probability(float(centre), self.width) for centre in self.centres])
+
+
+def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) -> Binning:
+    """Sort the runs of a study into groups and bins.
+
+    A bin is centred on a multiple of its width. A group has one bearing, lubricant, model and set of parameters; other
+    labels, as seeds, are thrown together unless they are named in `by`.
+
+    Parameters
+    ----------
+    study : xarray.Dataset
+        From `open_study`.
+    field : str
+        Label to sort by, a number: `wind_speed`.
+    width : float
+        Of a bin [unit of the field], above 0.
+    by : sequence of str
+        Further labels that separate groups: `turbulence`.
+
+    Raises
+    ------
+    InputError
+        If there is no such label, or it is no number.
+    """
+    labels = [name for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
+    for name in (field, *by):
+        if name not in labels:
+            raise InputError(f"the study has no label '{name}'", allowed=", ".join(map(str, labels)))
+    if study[field].dtype.kind not in "if":
+        raise InputError(
+            f"the label '{field}' is not a number", remedy="Read it as one: {" + field + ":g} in the pattern."
+        )
+    if not (math.isfinite(width) and width > 0.0):
+        raise InputError(f"the width of the bins is {width!r}", allowed="a number above 0")
+    parameters = [name for name in labels if "." in str(name)]
+    separate = [*_CHOICES, *parameters, *(name for name in by if name not in _CHOICES)]
+    keys = list(zip(*(study[name].values.tolist() for name in separate), strict=True))
+    distinct = list(dict.fromkeys(map(_same, keys)))
+    first = {_same(key): key for key in reversed(keys)}
+    numbers = {key: number for number, key in enumerate(distinct)}
+    values = np.floor(study[field].values / width + 0.5)
+    found = np.unique(values)
+    return Binning(
+        groups=[dict(zip(separate, first[key], strict=True)) for key in distinct],
+        group=np.array([numbers[_same(key)] for key in keys], dtype=int),
+        centres=found * width,
+        bin=np.searchsorted(found, values),
+        width=width,
+        field=field,
+    )
+
+
+_CHOICES = ("bearing", "lubricant", "model")
+_NO_LABELS = ("case", "run", "loads", "outcome", "reason", "key")
+
+
+def _same(key: tuple[Any, ...]) -> tuple[Any, ...]:
+    """NaN, which is not equal to itself, stands for the base case's value, which is."""
+    return tuple("base" if isinstance(value, float) and math.isnan(value) else value for value in key)

@@ -1,0 +1,92 @@
+"""`macroslip aggregate`: from the results of a study to the tables a load team works with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from macroslip.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from macroslip.campaign.weights import Weights
+
+
+def aggregate(
+    directory: Annotated[Path, typer.Argument(help="The folder that macroslip study has written.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="The folder for the tables; those of the same names are replaced.")
+    ],
+    weibull: Annotated[
+        tuple[float, float] | None, typer.Option(help="Scale [m/s] and shape of the distribution of the wind speed.")
+    ] = None,
+    probabilities: Annotated[
+        Path | None, typer.Option(help="CSV table with the columns bin and probability, instead of --weibull.")
+    ] = None,
+    years: Annotated[float, typer.Option(help="The lifetime [years].")] = 20.0,
+    field: Annotated[str, typer.Option(help="The label to sort into bins.")] = "wind_speed",
+    width: Annotated[float, typer.Option(help="Width of a bin [unit of the label].")] = 2.0,
+    by: Annotated[
+        list[str] | None, typer.Option(help="A further label to keep apart; may be given several times.")
+    ] = None,
+    form: Annotated[str, typer.Option("--format", help="csv or parquet.")] = "csv",
+    quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
+) -> None:
+    """Write lifetime energy, percentiles, worst cases and exceedance curves."""
+    from macroslip.campaign.export import FORMATS, tables, write_tables
+    from macroslip.campaign.reader import open_study
+
+    if form not in FORMATS:
+        raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
+    study = open_study(directory)
+    found = tables(study, _weights(weibull, probabilities), years=years, field=field, width=width, by=by or ())
+    written = write_tables(found, output, form)
+    if quiet:
+        return
+    if "lifetime" in found:
+        _lifetime(found["lifetime"], years)
+    for path in written:
+        typer.echo(f"written: {path}")
+
+
+def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) -> Weights | None:
+    from macroslip.campaign.weights import Given, Weibull
+
+    if weibull is not None and probabilities is not None:
+        raise InputError("--weibull and --probabilities are given together", remedy="Give one of them.")
+    if weibull is not None:
+        return Weibull(*weibull)
+    if probabilities is None:
+        return None
+    import pandas as pd
+
+    try:
+        given = pd.read_csv(probabilities)
+        return Given(dict(zip(given["bin"].astype(float), given["probability"].astype(float), strict=True)))
+    except InputError:
+        raise
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(
+            f"the probabilities cannot be read ({error})",
+            where=str(probabilities),
+            allowed="a CSV table with the columns bin and probability",
+        ) from None
+
+
+def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
+    from macroslip.campaign.printable import printable
+    from macroslip.cli.printing import number, table
+
+    numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
+    rows = [
+        [number(value) if name in numbers else printable(value) for name, value in zip(lifetime, line, strict=True)]
+        for line in lifetime.itertuples(index=False)
+    ]
+    table(
+        f"energy of a roller in {years:g} years, mean over the row",
+        [(name, name in numbers) for name in lifetime],
+        rows,
+    )

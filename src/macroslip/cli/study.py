@@ -1,0 +1,196 @@
+"""`macroslip study`: thousands of cases from one file, stopped and resumed at will."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from macroslip.cli.failure import CASES_FAILED, tell
+from macroslip.errors import InputError
+
+if TYPE_CHECKING:
+    from macroslip.campaign.progress import Progress
+    from macroslip.campaign.session import Ended
+    from macroslip.campaign.study import Study
+
+#: Failures that are listed; the log and the summary have all.
+_LISTED = 30
+#: Time between lines about progress where there is no terminal [s].
+_LINE_EVERY = 60.0
+
+
+def study(
+    study: Annotated[Path, typer.Argument(help="The study file; docs/campaigns.md explains its keys.")],
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="The folder for the results.")] = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="Start so many worker processes here.")] = None,
+    scheduler: Annotated[str | None, typer.Option(help="Use the workers of this Dask scheduler.")] = None,
+    threads: Annotated[int | None, typer.Option(min=1, help="Threads over the rollers of a case.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on where an earlier run ended.")] = False,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show runs, time and disk; compute nothing.")] = False,
+    strict: Annotated[bool, typer.Option("--strict", help="Stop at the first failure.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
+) -> None:
+    """Compute all cases of a study; a failed one does not stop it."""
+    from macroslip.campaign.study_file import read_study
+
+    checked = read_study(study)
+    for remark in checked.loads.remarks:
+        tell(f"note: {remark}")
+    if dry_run:
+        _dry_run(checked, workers, threads)
+        return
+    if output is None:
+        raise InputError(
+            "there is no folder for the results", where="--output", remedy="Name one, new or empty, with -o."
+        )
+    from macroslip.campaign.run import run_campaign
+
+    with _shown(quiet=quiet) as report:
+        ended = run_campaign(
+            checked,
+            output,
+            workers=workers,
+            scheduler=scheduler,
+            threads=threads,
+            resume=resume,
+            strict=strict,
+            progress=report,
+        )
+    if not quiet:
+        _summary(ended, output)
+    if ended.failures:
+        _failures(ended, output)
+        raise typer.Exit(CASES_FAILED)
+
+
+def _dry_run(checked: Study, workers: int | None, threads: int | None) -> None:
+    from macroslip.campaign.estimate import estimate
+    from macroslip.campaign.printable import printable
+    from macroslip.campaign.progress import duration
+    from macroslip.cli.printing import table
+    from macroslip.study.simulate import usable_processors
+
+    found = estimate(checked)
+    parts = [
+        (len(checked.loads.loads), "load histories"), (len(checked.bearings), "bearings"),
+        (len(checked.lubricants), "lubricants"), (len(checked.models), "models"),
+        (len(checked.variations), "combinations of parameters"),
+    ]  # fmt: skip
+    rows = [[name, str(count)] for count, name in parts] + [["runs", str(found.runs)]]
+    if found.looked_at:
+        processors = min(usable_processors(), (workers or 1) * (threads or usable_processors()))
+        rows += [
+            ["length of a load history, mean", f"{found.simulated_seconds:.6g} s"],
+            ["time on one processor", duration(found.seconds)],
+            [f"time here, on {processors} processors", duration(found.seconds / processors)],
+            ["disk", size(found.bytes)],
+        ]
+    table(printable(checked.title) or "study", [("", False), ("", True)], rows)
+    typer.echo(
+        f"Time and disk are estimated from {found.looked_at} runs of the study, begun here and now."
+        if found.looked_at
+        else "Time and disk cannot be estimated."
+    )
+    for problem in found.problems:
+        tell(f"note: {printable(problem)}")
+
+
+def size(count: float) -> str:
+    """Write a number of bytes.
+
+    Examples
+    --------
+    >>> size(1234.0), size(2.5e11)
+    ('1.23 kB', '250 GB')
+    """
+    units = ["B", "kB", "MB", "GB", "TB", "PB"]
+    power = 0
+    while count >= 999.5 and power < len(units) - 1:
+        count, power = count / 1000.0, power + 1
+    return f"{count:.3g} {units[power]}"
+
+
+@contextmanager
+def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
+    """Progress on standard error: a bar on a terminal, a line a minute elsewhere."""
+    if quiet:
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, TextColumn
+    from rich.progress import Progress as Bar
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        last = time.monotonic()
+
+        def line(progress: Progress) -> None:
+            nonlocal last
+            if time.monotonic() - last >= _LINE_EVERY:
+                last = time.monotonic()
+                tell(progress.line)
+
+        yield line
+        return
+    with Bar(BarColumn(20), TextColumn("{task.description}"), console=console, transient=True) as bar:
+        task = bar.add_task("beginning (the first run of all compiles)", total=None)
+        yield lambda progress: bar.update(
+            task, description=progress.short, total=progress.total, completed=progress.done
+        )
+
+
+def _summary(ended: Ended, output: Path) -> None:
+    from macroslip.campaign.progress import duration
+
+    counts = ended.progress
+    left = counts.total - counts.done
+    typer.echo(
+        f"{counts.total} runs: {counts.computed} computed, {counts.unchanged} unchanged, {counts.failed} failed"
+        + (f", {left} left" if left else "")
+        + f", in {duration(counts.seconds)}"
+    )
+    typer.echo(f"written: {output}")
+
+
+def _failures(ended: Ended, output: Path) -> None:
+    """A table of failures on standard error, and how often each outcome came."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from macroslip.campaign.printable import printable
+    from macroslip.cli.printing import PIPE_WIDTH
+
+    shown = Table(box=None, padding=(0, 2, 0, 0))
+    for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):
+        shown.add_column(heading, overflow="fold")
+    for labels, outcome, reason in ended.failures[:_LISTED]:
+        shown.add_row(
+            *(printable(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split())))
+        )
+    out = Console(stderr=True, markup=False, highlight=False)
+    (out if out.is_terminal else Console(stderr=True, markup=False, highlight=False, width=PIPE_WIDTH)).print(shown)
+    total = ended.progress.failed
+    if total > _LISTED:
+        tell(f"... and {total - _LISTED} more, in {output}/summary.parquet and {output}/log.txt.")
+    counts = Counter(outcome for _, outcome, _ in ended.failures)
+    kinds = ", ".join(f"{outcome}: {count}" for outcome, count in counts.items())
+    tell(
+        f"failed: {total} of {ended.progress.total} runs ({kinds}). "
+        + (
+            "Stopped there, as --strict says; go on with --resume."
+            if ended.stopped
+            else "Runs that failed are tried again by --resume."
+        )
+    )
+
+
+def _others(labels: dict[str, Any]) -> str:
+    choices = [str(labels[name]) for name in ("bearing", "lubricant", "model")]
+    parameters = [f"{name} {value}" for name, value in labels.items() if "." in name and name != "loads"]
+    return ", ".join(choices + parameters)

@@ -1,0 +1,123 @@
+"""`macroslip study` and `macroslip aggregate` end to end: files, messages, exit codes."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+
+from macroslip import open_study
+
+DATA = Path(__file__).parents[1] / "data"
+STUDY = """
+title: two seeds
+case: {rollers: [0], loads: {end: 62 s}}
+loads: {files: "runs/{wind_speed:g}mps_seed{seed:d}.outb"}
+"""
+
+
+@pytest.fixture
+def study(folder):
+    """`study.yaml` with two genuine OpenFAST files, one after the other whole."""
+    (folder / "runs").mkdir()
+    for seed in (1, 2):
+        (folder / "runs" / f"14mps_seed{seed}.outb").write_bytes((DATA / "sample14B.outb").read_bytes())
+    (folder / "study.yaml").write_text(STUDY, encoding="utf-8")
+    return folder
+
+
+def test_from_a_study_file_to_tables(study, macroslip):
+    done = macroslip("study", "study.yaml", "-o", "out")
+    assert (done.code, done.err) == (0, "")
+    # Both seeds are copies of one file: one input, one result.
+    assert re.fullmatch(r"2 runs: 1 computed, 1 unchanged, 0 failed, in .*\nwritten: out\n", done.out)
+    assert len(list((study / "out").glob("cases/*/*.nc"))) == 1
+    assert (open_study(study / "out").outcome == "completed").all()
+    done = macroslip("aggregate", "out", "-o", "tables", "--weibull", "9", "2", "--years", "25")
+    assert (done.code, done.err) == (0, "")
+    assert "energy of a roller in 25 years" in done.out and "written: tables/lifetime.csv" in done.out
+    (study / "p.csv").write_text("bin,probability\n14,0.2\n")
+    assert macroslip("aggregate", "out", "-o", "tables", "--probabilities", "p.csv", "--format", "parquet").code == 0
+    assert pq.read_table("tables/bins.parquet")["probability"].to_pylist() == [0.2, 0.2]
+
+
+def test_dry_run_counts_and_estimates_and_writes_nothing(study, macroslip):
+    done = macroslip("study", "study.yaml", "--dry-run", "-o", "out")
+    assert done.code == 0 and not (study / "out").exists()
+    assert re.search(r"^runs +2 *$", done.out, re.MULTILINE)
+    assert re.search(r"^disk +[\d.]+ kB", done.out, re.MULTILINE) and "time on one processor" in done.out
+
+
+def test_the_estimate_of_the_disk_is_right(folder, macroslip):
+    (folder / "study.yaml").write_text(
+        "loads: {bundled: [14A, 14B, 14C]}\ncase: {rollers: [0, 5], loads: {end: 300 s}}\n"
+    )
+    done = macroslip("study", "study.yaml", "--dry-run")
+    estimated = float(re.search(r"^disk +([\d.]+) kB", done.out, re.MULTILINE)[1])
+    macroslip("study", "study.yaml", "-o", "out")
+    actual = sum(path.stat().st_size for path in (folder / "out").rglob("*") if path.is_file()) / 1000.0
+    assert estimated == pytest.approx(actual, rel=0.3)
+
+
+def test_failures_are_a_table_and_exit_code_3(study, macroslip):
+    whole = (study / "runs" / "14mps_seed1.outb").read_bytes()
+    (study / "runs" / "14mps_seed1.outb").write_bytes(whole[: len(whole) // 2])
+    done = macroslip("study", "study.yaml", "-o", "out")
+    assert done.code == 3 and "2 runs: 1 computed, 0 unchanged, 1 failed" in done.out
+    assert "runs/14mps_seed1.outb" in done.err and "failed: 1 of 2 runs (failed: 1)" in done.err
+    done = macroslip("study", "study.yaml", "-o", "out", "--resume", "--strict")
+    assert done.code == 3 and "1 left" in done.out and "as --strict says" in done.err
+    (study / "runs" / "14mps_seed1.outb").write_bytes(whole)
+    done = macroslip("study", "study.yaml", "-o", "out", "--resume", "--quiet")
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+def test_names_cannot_steer_the_terminal(study, macroslip):
+    (study / "runs" / "14mps_seed1.outb").rename(study / "runs" / "\x1b[31m[b]14mps_seed1.outb")
+    (study / "runs" / "\x1b[31m[b]14mps_seed1.outb").write_text("")
+    (study / "study.yaml").write_text('loads: {files: "runs/*.outb"}\ncase: {rollers: [0], loads: {end: 62 s}}\n')
+    done = macroslip("study", "study.yaml", "-o", "out")
+    assert done.code == 3 and "\x1b" not in done.out + done.err and "\\x1b[31m[b]14mps" in done.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["study", "none.yaml", "-o", "out"], "the study file cannot be read"),
+        (["study", "study.yaml"], "there is no folder for the results"),
+        (["study", "study.yaml", "-o", "runs"], "the folder holds other things"),
+        (["study", "study.yaml", "-o", "out", "--workers", "1", "--scheduler", "x"], "given together"),
+        (["aggregate", "runs", "-o", "tables"], "there is no study in this folder"),
+    ],
+)
+def test_wrong_use_is_one_paragraph_and_exit_code_2(study, macroslip, arguments, message):
+    done = macroslip(*arguments)
+    assert done.code == 2 and message in " ".join(done.err.replace("│", " ").split())
+    assert "Traceback" not in done.err
+
+
+@pytest.mark.parametrize("workers", [[], ["--workers", "1"]])
+def test_interrupted_and_resumed_as_a_user_does(folder, workers):
+    """Ctrl-C in a terminal goes to all processes of the command, its workers included."""
+    (folder / "study.yaml").write_text(
+        "loads: {bundled: [14B]}\ncase: {rollers: [0, 7], loads: {end: 60 s}}\n"
+        "variations: {sample: {count: 60, seed: 1, ranges: {drivetrain.tilt: {low: 3, high: 7, unit: deg}}}}\n"
+    )
+    command = [sys.executable, "-c", "from macroslip.cli import main; main()", "study", "study.yaml", "-o", "out"]
+    process = subprocess.Popen([*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    journal = folder / "out" / "journal.jsonl"
+    end = time.monotonic() + 120
+    while not journal.exists() or journal.stat().st_size == 0:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGINT)
+    assert process.communicate()[1] == "interrupted\n" and process.returncode == 130
+    done = subprocess.run([*command, "--resume"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    computed, unchanged = map(int, re.search(r"(\d+) computed, (\d+) unchanged, 0 failed", done.stdout).groups())
+    assert computed + unchanged == 60 and unchanged >= 1
