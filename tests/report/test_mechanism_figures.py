@@ -54,7 +54,8 @@ def numbers():
 @pytest.fixture
 def summary():
     return xr.Dataset(
-        {"base": ("quantity", [2.0, 100.0]), "range": (("quantity", "quantile"), [[1.0, 2.0, 4.0], [50.0, 80.0, 100.0]]),
+        {"base": ("quantity", [2.0, 100.0]),
+         "range": (("quantity", "quantile"), [[1.0, 2.0, 4.0], [50.0, 80.0, 100.0]]),
          "rank_correlation": (("quantity", "parameter"), [[0.9, -0.2], [np.nan, -0.8]]),
          "probability": (("quantity", "parameter"), [[1e-6, 0.4], [np.nan, 1e-4]])},
         {"quantity": ["energy", "ratio"], "units": ("quantity", ["J", "1"]), "quantile": [0.05, 0.5, 0.95],

@@ -43,7 +43,8 @@ def test_every_sample_is_a_run_of_its_own(sample):
         result = simulate(with_values(case, values) if k else case)
         found = sample.sel(case="24B").isel(sample=k)
         np.testing.assert_allclose(found.orbit_energy, result.orbit_energy.mean(("roller", "orbit")), rtol=1e-12)
-        np.testing.assert_allclose(found.peak_power, result.peak_power.max("interface").mean(("roller", "orbit")), rtol=1e-12)
+        peak = result.peak_power.max("interface").mean(("roller", "orbit"))
+        np.testing.assert_allclose(found.peak_power, peak, rtol=1e-12)
         assert float(found.window_energy) == pytest.approx(float(result.energy.sum()), rel=1e-12)
 
 
@@ -125,7 +126,8 @@ def test_ranges_drivers_and_trends_follow_the_numbers(sample):
     assert shares["energy ratio within a factor of 2 of 10, any case"] == 1.0
     assert shares["ratio of peak powers falls from case to case of 12B, 24B"] == 1.0
     assert shares["cage takes at least half of the energy of both rows, any case"] == 0.0
-    contrary = uncertainty_summary(made.assign(peak_power=made.peak_power.isel(case=[1, 0]).assign_coords(case=made.case)))
+    swapped = made.peak_power.isel(case=[1, 0]).assign_coords(case=made.case)
+    contrary = uncertainty_summary(made.assign(peak_power=swapped))
     assert float(contrary.trend_share.sel(trend="ratio of peak powers highest in 12B")) == 0.0
 
 
@@ -134,4 +136,4 @@ def test_statements_tell_what_the_sample_says(sample):
     told = with_uncertainty(statements, uncertainty_summary(synthetic(sample)))
     assert "100 % of the samples" in told[0].found
     assert told[1].found.startswith("found 1; 1 to ")
-    assert [one.found for k, one in enumerate(told) if k not in (0, 1, 3)] == ["found 2"] + [f"found {k}" for k in range(4, 8)]
+    assert [one.found for k, one in enumerate(told) if k not in (0, 1, 3)] == [f"found {k}" for k in (2, 4, 5, 6, 7)]

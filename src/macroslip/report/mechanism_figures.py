@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Colour and hatching of the parts of `macroslip.study.dissipation.PARTS`: colour for the mechanism, hatching for outer.
+#: Colour and hatching of the parts of `macroslip.study.dissipation.PARTS`: colour for mechanisms, hatching for outer.
 _PART = {
     "inner, curvature": (BLUE, ""),
     "outer, curvature": (BLUE, "///"),

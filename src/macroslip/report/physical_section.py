@@ -1,4 +1,4 @@
-"""The study under models with microslip: what changes, what the estimated values leave open, and the friction torque."""
+"""The study under models with microslip: what changes, what estimated values leave open, and the friction torque."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
             )
         )
         blocks += [
-            Pictures(tuple(shown), f"Energy per orbit of a mean roller under {name}, by what makes the surfaces slide."),
+            Pictures(tuple(shown), f"Energy per orbit of a mean roller under {name}, by what makes surfaces slide."),
             _part_table(parts, name),
         ]
     return Section("mechanisms", "What dissipates inside the contacts", tuple(blocks))
@@ -114,13 +114,13 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
         ),
         Pictures(
             (
-                picture(lambda axes: uncertainty_figures.plot_ranges(axes, summary), "Range of each result over its base",
-                        width=5.6, height=5.6),
+                picture(lambda axes: uncertainty_figures.plot_ranges(axes, summary),
+                        "Range of each result over its base", width=5.6, height=5.6),
                 picture(lambda axes: uncertainty_figures.plot_correlations(axes, summary),
                         "Rank correlation of each result with each value", width=4.6, height=5.6),
             ),
-            "Lines: 5 to 95 % of the samples; bar across: median. Squares, in the order of the lines: rank correlations, "
-            "filled where they are no chance (p < 0.01).",
+            "Lines: 5 to 95 % of the samples; bar across: median. Squares, in the order of the lines: rank "
+            "correlations, filled where they are no chance (p < 0.01).",
         ),
         Table(("result", "base", "median", "5 %", "95 %", "driven by (rank correlation)"), tuple(rows),
               "Results over the sample"),
@@ -139,9 +139,9 @@ def _torque(runs: Mapping[str, ModelRun]) -> Section:
     blocks: tuple[Block, ...] = (
         Paragraph(
             "Friction torque of the whole bearing in case 14B: dissipated power and drag of all 56 rollers over shaft "
-            "speed, beside handbook estimates. The models have no rolling resistance of the oil at the contacts' inlets, "
-            "which is most of SKF's torque, and no churning beyond drag; SKF's sliding part is what to compare microslip "
-            "with."
+            "speed, beside handbook estimates. The models have no rolling resistance of the oil at the contacts' "
+            "inlets, which is most of SKF's torque, and no churning beyond drag; SKF's sliding part is what to compare "
+            "microslip with."
         ),
         Pictures(
             (picture(lambda axes: plot_torque(axes, histories, start, end), "Friction torque over time", legend="below",

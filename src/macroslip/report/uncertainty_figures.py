@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
     """Range of 5 to 95 % and median of every quantity over its value with the base values, on a logarithmic axis.
 
-    Takes what `macroslip.study.uncertainty_summary.uncertainty_summary` gives. Beside the names stand the median and the
-    ends of the range in the quantity's own unit.
+    Takes what `macroslip.study.uncertainty_summary.uncertainty_summary` gives. Beside the names stand the median and
+    the ends of the range in the quantity's own unit.
     """
     places = np.arange(summary.sizes["quantity"])[::-1]
     for place, k in zip(places, range(places.size), strict=True):

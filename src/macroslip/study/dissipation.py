@@ -1,4 +1,4 @@
-"""Where inside the contacts a study's energy goes: by interface, mechanism and station, and what the loads say of it."""
+"""Where inside the contacts a study's energy goes: by interface, mechanism and station, and what loads say of it."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def dissipation(study: xr.Dataset) -> xr.Dataset:
         and contact angle are what makes stations slide against each other; the sliding of the middle, of which one
         raceway may take what the other gives, is that of both together. asperity_share [1] of the energy;
         station_energy [J/m] per orbit and length of roller over (raceway, station); load_exponent [1] over (row): slope
-        of log energy per orbit over log mean roller load, all cases. NaN wherever a roller failed, and the exponent where
-        a row carries no load.
+        of log energy per orbit over log mean roller load, all cases. NaN wherever a roller failed, and the exponent
+        where a row carries no load.
     """
     import xarray as xr
 
@@ -51,12 +51,14 @@ def dissipation(study: xr.Dataset) -> xr.Dataset:
     parts.append(raceways.sum("interface", skipna=False))
     energy = study.energy.mean("roller", skipna=False) / study.orbits
     parts.append(energy.sel(interface="cage", drop=True))
-    part_energy = xr.concat(parts, xr.DataArray(list(PARTS), dims="part", name="part"), coords="minimal", compat="override")
+    part = xr.DataArray(list(PARTS), dims="part", name="part")
+    part_energy = xr.concat(parts, part, coords="minimal", compat="override")
     total = energy.sum("interface", skipna=False)
     asperity = study.asperity_energy.sum("interface", skipna=False).mean("roller", skipna=False) / study.orbits
     length = float(np.diff(study.station.values).mean())
     along = study.station_energy.mean("roller", skipna=False) / study.orbits / length
-    exponents = [_exponent(study.roller_load.sel(row=row).values, total.sel(row=row).values) for row in study.row.values]
+    load = study.roller_load
+    exponents = [_exponent(load.sel(row=row).values, total.sel(row=row).values) for row in study.row.values]
     found = xr.Dataset(
         {
             "part_energy": part_energy.transpose("case", "row", "part"),
@@ -94,7 +96,7 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
     Returns
     -------
     dict
-        Text by subject: "energy", "rows", "peaks", "peak ratio", "static", "cage". Empty texts where a number is missing.
+        Text by subject: "energy", "rows", "peaks", "peak ratio", "static", "cage". Empty where a number is missing.
     """
     from scipy.stats import spearmanr
 
@@ -120,8 +122,8 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
     span = f"from {speed.min():g} to {speed.max():g} m/s"
     return {
         "energy": (
-            f"the downwind raceways dissipate by microslip, {curvature:.0f} % of the row's energy through the contact's "
-            f"curvature and {angle:.0f} % through the contact angle, and both grow with load: {span} mean thrust falls "
+            f"the downwind raceways dissipate by microslip, {curvature:.0f} % of the row's energy through the "
+            f"contact's curvature and {angle:.0f} % through the contact angle, and both grow with load: {span} mean thrust falls "
             f"from {ends(study.thrust, 1e-3)} kN, the row's mean roller load from "
             f"{ends(study.roller_load.sel(row='downwind'), 1e-3)} kN and its energy per orbit from "
             f"{ends(per_orbit.sel(row='downwind'))} J, as load to the power {float(down.load_exponent):.2g} (rank "
@@ -130,9 +132,9 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
         "rows": (
             "thrust takes the load off the upwind row: its rollers carry load during "
             f"{float(loaded.min()):.2g} to {float(loaded.max()):.2g} % of the time and spend "
-            f"{float(cage.sel(row='upwind').min()):.0f} to {float(cage.sel(row='upwind').max()):.0f} % of their energy at "
-            f"the cage, on average {ends(1e3 * per_orbit.sel(row='upwind'))} mJ an orbit {span}; a ratio of 10 would need "
-            "the upwind row under load much more often"
+            f"{float(cage.sel(row='upwind').min()):.0f} to {float(cage.sel(row='upwind').max()):.0f} % of their energy "
+            f"at the cage, on average {ends(1e3 * per_orbit.sel(row='upwind'))} mJ an orbit {span}; a ratio of 10 would "
+            "need the upwind row under load much more often"
         ),
         "peaks": (
             "downwind the largest power of an orbit is microslip's at the inner raceway under the largest load, not a "
@@ -140,16 +142,16 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
             f"{ends(1e3 * peak.sel(row='upwind'))} mW"
         ),
         "peak ratio": (
-            f"the downwind row's power hardly changes, and the upwind row's rises from {ends(1e3 * peak.sel(row='upwind'))} "
-            f"mW {span} because thrust lets go of it more often (under load {ends(loaded)} % of the time)"
+            "the downwind row's power hardly changes, and the upwind row's rises from "
+            f"{ends(1e3 * peak.sel(row='upwind'))} mW {span} because thrust lets go of it more often (under load {ends(loaded)} % of the time)"
         ),
         "static": (
-            "power at the raceways follows the load of the moment, and the energy of an orbit its mean: what the static "
-            "load lacks is thrust, not time"
+            "power at the raceways follows the load of the moment, and the energy of an orbit its mean: what the "
+            "static load lacks is thrust, not time"
         ),
         "cage": (
-            f"microslip at the raceways takes {100.0 - float(cage.sel(row='downwind').max()):.1f} % or more of the downwind "
-            "row's energy; the cage is left the unloaded row's"
+            f"microslip at the raceways takes {100.0 - float(cage.sel(row='downwind').max()):.1f} % or more of the "
+            "downwind row's energy; the cage is left the unloaded row's"
         ),
     }
 

@@ -98,7 +98,8 @@ def _case_values(result: xr.Dataset) -> xr.Dataset:
     import xarray as xr
 
     detail = ("mechanism_energy", "asperity_energy", "station_energy", "quadrature_error")
-    kept = result[["energy", "min_spin_ratio", "outside_film_range", "status", *(one for one in detail if one in result)]]
+    known = [name for name in detail if name in result]
+    kept = result[["energy", "min_spin_ratio", "outside_film_range", "status", *known]]
     for name, extreme in _EXTREMES.items():
         if name in result:
             # A contact without load in an orbit (NaN) has no extreme to compare.

@@ -69,7 +69,7 @@ def row_loads(case: Case, start: float, end: float) -> xr.Dataset:
         {
             "radial_load": value(float(np.hypot(x, y).mean()), "N", "mean radial load of the bearing"),
             "thrust": value(float(axial.mean()), "N", "mean thrust on the bearing, positive downwind"),
-            "roller_load": value(by_row.mean(axis=(0, 2)), "N", "elastic load, mean over all rollers and samples", "row"),
+            "roller_load": value(by_row.mean(axis=(0, 2)), "N", "elastic load, mean over rollers and samples", "row"),
             "loaded_share": value((by_row > 0.0).mean(axis=(0, 2)), "1", "share of rollers and time under load", "row"),
         },
         {"row": list(ROWS)},

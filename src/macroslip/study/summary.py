@@ -72,7 +72,7 @@ def told_statements(statements: Mapping[str, list[Statement]]) -> list[dict[str,
 
 
 def plotted(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, Any]:
-    """Every plotted number, by figure, as plain data with units; of load zone and friction torque none and the means."""
+    """Every plotted number, by figure, as plain data with units; none of the load zone, the means of the torque."""
     found: dict[str, Any] = {}
     for model, run in runs.items():
         numbers = _numbers(run.numbers)

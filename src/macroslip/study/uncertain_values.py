@@ -46,7 +46,7 @@ VALUES = (
     UncertainValue(name=CLEARANCE, unit="mm", low=0.0, high=0.4, tag="E",
                    reason="0.31 to 0.48 mm unmounted (catalogue); fit and warm inner ring take some or all of it"),
     UncertainValue(name=OSCULATION, unit="1", low=0.97, high=0.985, tag="E",
-                   reason="usual for spherical roller bearings; above 0.985 contacts reach the roller's ends in these loads"),
+                   reason="usual for spherical roller bearings; above 0.985 contacts reach the roller's ends here"),
     UncertainValue(name=DIAMETER, unit="mm", low=67.0, high=73.0, tag="E",
                    reason="back-calculated from the load ratings, which fix it within about 4 %; pitch radius and row "
                    "offset follow the sphere of the outer raceway"),
@@ -65,7 +65,7 @@ VALUES = (
     UncertainValue(name=STARVATION, unit="1", low=0.5, high=1.0, tag="R",
                    reason="0.7 is reported for a bearing of this size; 1 is flooded"),
     UncertainValue(name=TEMPERATURE, unit="°C", low=20.0, high=50.0, tag="P",
-                   reason="the paper's 35 °C and 15 K either way, from a cold start to a warm bearing; changes viscosity only"),
+                   reason="the paper's 35 °C and 15 K either way, cold to warm; changes viscosity only"),
     UncertainValue(name=HUB, unit="m", low=1.0, high=1.5, tag="E",
                    reason="the turbine's model gives no bearing position; about 20 % either way"),
     UncertainValue(name=GEARBOX, unit="m", low=1.8, high=2.6, tag="E",

@@ -30,7 +30,7 @@ def quantities(sample: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        `result` over (sample, quantity), with the coordinate `units` over quantity; NaN where a sample did not complete.
+        `result` over (sample, quantity), with the coordinate `units`; NaN where a sample did not complete.
     """
     import xarray as xr
 
@@ -70,8 +70,8 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
     -------
     xarray.Dataset
         base [unit of the quantity] over quantity; range over (quantity, quantile); rank_correlation and probability [1]
-        (Spearman) over (quantity, parameter); trend_share [1] over trend: how many of the completed samples show it, and
-        trend_base whether the base values do. Attributes: completed, failed, refused: numbers of samples.
+        (Spearman) over (quantity, parameter); trend_share [1] over trend: how many of the completed samples show it,
+        and trend_base whether the base values do. Attributes: completed, failed, refused: numbers of samples.
     """
     import xarray as xr
     from scipy.stats import spearmanr
@@ -186,8 +186,8 @@ def with_uncertainty(statements: list[Statement], summary: xr.Dataset) -> list[S
         0: f"with the estimated values anywhere in their ranges, {held('energy highest')} of the samples agree on the "
         "lowest wind speed",
         1: f"{reach('energy, downwind / upwind')} times with the estimated values anywhere in their ranges",
-        3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most at "
-        f"the lowest wind speed in {held('ratio of peak powers highest')} of the samples",
+        3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most "
+        f"at the lowest wind speed in {held('ratio of peak powers highest')} of the samples",
     }
     return [
         replace(one, found=f"{one.found}; {words[k]}") if k in words else one for k, one in enumerate(statements)

@@ -18,8 +18,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
 
         T = (Σ P + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
 
-    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without. It is
-    the torque a drive has to supply for what is dissipated at that moment. Kinetic energy of the rollers and the work
+    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without. It
+    is the torque a drive has to supply for what is dissipated at that moment. Kinetic energy of the rollers and the work
     of their weight, whose mean over an orbit vanishes, are left out, and so is what the model does not have: resistance
     of the oil squeezed at the contacts' inlets, churning beyond the rollers' drag, hysteresis of the steel, seals.
 
