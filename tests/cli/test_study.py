@@ -109,7 +109,7 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
         "variations: {sample: {count: 60, seed: 1, ranges: {drivetrain.tilt: {low: 3, high: 7, unit: deg}}}}\n"
     )
     # Where the tests run in the background, interrupts are ignored unless that is undone.
-    main = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); from macroslip.cli import main; main()"
+    main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
     command = [sys.executable, "-c", main, "study", "study.yaml", "-o", "out"]
     process = subprocess.Popen([*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True)
     journal = folder / "out" / "journal.jsonl"
