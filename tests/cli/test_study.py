@@ -108,7 +108,9 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
         "loads: {bundled: [14B]}\ncase: {rollers: [0, 7], loads: {end: 60 s}}\n"
         "variations: {sample: {count: 60, seed: 1, ranges: {drivetrain.tilt: {low: 3, high: 7, unit: deg}}}}\n"
     )
-    command = [sys.executable, "-c", "from macroslip.cli import main; main()", "study", "study.yaml", "-o", "out"]
+    # Where the tests run in the background, interrupts are ignored unless that is undone.
+    main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
+    command = [sys.executable, "-c", main, "study", "study.yaml", "-o", "out"]
     process = subprocess.Popen([*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True)
     journal = folder / "out" / "journal.jsonl"
     end = time.monotonic() + 120
