@@ -1,9 +1,9 @@
 """The table of chord stresses against adaptive integration, and its derivatives against its own differences.
 
-Measured with 3,000 random points each (films 0.1 to 2 µm, log-uniform): up to 2 GPa and 0.05 m/s all errors are below
-5e-4 with Roelands' viscosity; where a contact of more than 1 GPa skids at 0.4 m/s and limited stress gives way to
-heating, they reach 1 %, in fewer than one point in a hundred. With Barus' viscosity that turn is sharper and errors
-reach 10 % there.
+Measured with 4,000 random points each (films 0.1 to 2 µm, log-uniform): up to 2 GPa and 0.05 m/s all errors are below
+1e-3 with Roelands' viscosity, 99 % of them below 1e-4; where a contact of more than 1 GPa skids at 0.4 m/s and limited
+stress gives way to heating, they reach 1 %, in fewer than one point in a hundred. With Barus' viscosity that turn is
+sharper and errors reach 4 % there.
 """
 
 import math
@@ -25,13 +25,13 @@ OIL = Lubricant.read("vg460-pao")
 FULL = Laws.physical()
 #: Laws, and the errors promised: everywhere without skids, at the 99th percentile with skids, and at worst.
 CHOICES = {
-    "physical": (FULL, 5e-4, 1e-3, 2e-2),
+    "physical": (FULL, 1e-3, 2e-4, 1e-2),
     "cool": (FULL.but(heating=False), 1e-4, 1e-4, 1e-4),
     "eyring": (FULL.but(rheology="eyring"), 1e-4, 1e-4, 1e-3),
     "newtonian": (FULL.but(rheology="newtonian"), 1e-4, 1e-4, 2e-4),
     "barus": (FULL.but(rheology="newtonian", viscosity="barus"), 5e-4, 5e-4, 5e-4),
     "cool newtonian": (FULL.but(rheology="newtonian", heating=False), 2e-6, 2e-6, 2e-6),
-    "barus, limiting shear": (FULL.but(viscosity="barus"), 3e-2, 2e-2, 2e-1),
+    "barus, limiting shear": (FULL.but(viscosity="barus"), 1e-2, 5e-3, 5e-2),
 }
 choices = pytest.mark.parametrize("name", CHOICES)
 _t, _WEIGHTS = np.polynomial.legendre.leggauss(400)
@@ -80,10 +80,10 @@ def test_light_and_thick_films_of_the_cage(name):
     laws, *_ = CHOICES[name]
     table = chord_table(fluid(laws, OIL))
     rng = np.random.default_rng(5)
-    for _ in range(1500):
+    for _ in range(4000):
         pressure, film, slip = 10.0 ** rng.uniform([3.0, -6.0, -9.0], [7.5, -3.4, math.log10(0.6)])
         found = looked_up(table, pressure, film, slip).stress
-        assert found == pytest.approx(exact(table.fluid, pressure, film, slip), rel=2e-3), (pressure, film, slip)
+        assert found == pytest.approx(exact(table.fluid, pressure, film, slip), rel=1e-3), (pressure, film, slip)
 
 
 points = st.tuples(st.floats(4.0, 9.5), st.floats(-7.5, -3.5), st.floats(-13.0, 0.5)).map(lambda x: [10.0**y for y in x])

@@ -120,7 +120,7 @@ def truncated_share(load: float, truncation: float) -> float:
     Examples
     --------
     >>> truncated_share(1e5, 2e5), round(truncated_share(4e5, 2e5), 4)
-    (0.0, 0.0595)
+    (0.0, 0.0594)
     """
     if load <= truncation:
         return 0.0
