@@ -100,9 +100,7 @@ def mechanisms_figure(parts: xr.Dataset) -> Figure:
     for one, row in zip(axes, ("downwind", "upwind"), strict=False):
         plot_parts(one, parts.part_energy, row)
     plot_stations(axes[2], parts.station_energy, "downwind", shown(parts))
-    axes[2].legend(frameon=False, fontsize=7, loc="upper center", ncols=2)
-    axes[2].margins(y=0.35)
-    axes[2].set_ylim(bottom=0.0)
+    axes[2].legend(frameon=False, fontsize=7, loc="upper right")
     legend_above(figure, axes[0], ncols=3)
     return figure
 

@@ -94,6 +94,7 @@ def picture(
 
 
 def _shorter(svg: bytes) -> bytes:
-    """Without comments and metadata, which a page does not show."""
+    """Without comments and metadata, which a page does not show, and outlines to a hundredth of a point."""
     svg = re.sub(rb"<!--.*?-->|<metadata>.*?</metadata>", b"", svg, flags=re.DOTALL)
+    svg = re.sub(rb' d="[^"]*"', lambda outline: re.sub(rb"(\.\d\d)\d+", rb"\1", outline[0]), svg)
     return re.sub(rb"\n\s*", b"\n", svg)

@@ -69,14 +69,15 @@ def legend_above(figure: Figure, axes: Axes, **options: object) -> None:
     figure.legend(handles, labels, loc="outside upper center", **options)
 
 
-def log_ticks(axes: Axes) -> Axes:
-    """A logarithmic vertical axis with plain numbers at 1, 2 and 5 of every decade."""
+def log_ticks(axes: Axes, which: str = "y") -> Axes:
+    """A logarithmic axis, vertical or `which` is "x", with plain numbers at 1, 2 and 5 of every decade."""
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axes.yaxis.set_major_formatter("{x:g}")
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.set(**{f"{which}scale": "log"})
+    axis = axes.yaxis if which == "y" else axes.xaxis
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
     return axes
 
 

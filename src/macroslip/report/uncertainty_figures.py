@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.style import BLACK, BLUE, ORANGE, finish, new_figure
+from macroslip.report.style import BLACK, BLUE, ORANGE, finish, log_ticks, new_figure
 from macroslip.study.uncertainty_summary import DRIVER_LEVEL, told
 
 if TYPE_CHECKING:
@@ -36,9 +36,7 @@ def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
         names.append(f"{one.quantity.values}\n{middle}{unit} ({low} to {high})")
     axes.set_yticks(places, names, fontsize=8)
     axes.axvline(1.0, color=BLACK, linewidth=0.8)
-    axes.set_xscale("log")
-    axes.xaxis.set_major_formatter("{x:g}")
-    return finish(axes, "over the value with the base values [–]", "")
+    return finish(log_ticks(axes, "x"), "over the value with the base values [–]", "")
 
 
 def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
