@@ -8,6 +8,7 @@ away, they are the same within 2 %. The largest and the mean slip are those of t
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -166,6 +167,17 @@ def test_threads_change_no_bit(gusty):
     one, many = (simulate(Case(loads=loads, laws=FULL, rollers=[0, 9, 20]), threads=n) for n in (1, 3))
     for name in one.data_vars:
         assert np.array_equal(one[name], many[name], equal_nan=True), name
+
+
+def test_default_tolerance_keeps_its_promises():
+    """Wind that loads and unloads both rows: energies of every interface, spin in coasts, peaks of every orbit."""
+    case = Case(loads=HubLoads.bundled("24A").window(100.0, 140.0), laws=FULL, rollers=[3], traces=Traces(step=0.25))
+    found, exact = simulate(case), simulate(replace(case, integrator=Radau(tolerance=1e-7)))
+    assert float(abs(found.energy / exact.energy - 1).max()) < 1e-3
+    coasting = exact.roller_load == 0.0
+    assert int(coasting.sum()) > 20
+    assert float(abs(found.spin / exact.spin - 1).where(coasting).max()) < 1e-4
+    assert float(abs(found.peak_power.max("interface") / exact.peak_power.max("interface") - 1).max()) < 1e-2
 
 
 def test_error_of_energy_falls_with_the_tolerance(gusty):

@@ -9,10 +9,12 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from macroslip.film.law import film_thickness
+from macroslip.laws import Laws
 from macroslip.roller.load_zone import (
     EDGE,
     FIRM,
     FIRM_RATE,
+    FIRM_RATE_MICROSLIP,
     FREE,
     classify,
     edge_time,
@@ -21,7 +23,7 @@ from macroslip.roller.load_zone import (
     interference_at,
     relaxation_rate,
 )
-from macroslip.roller.model import interfaces
+from macroslip.roller.model import interfaces, roller_model
 from macroslip.roller.orbit import Motion, shaft_angle
 
 RATIO = 0.4539395888955974  # Ω/Ω_in
@@ -208,6 +210,14 @@ def test_firm_roller_relaxes_at_the_firm_rate(models, speed):
     for more in (1.01, 2.0, 30.0):
         assert relaxation_rate(models[1], more * load, speed) > FIRM_RATE
         assert relaxation_rate(models[1], load / more, speed) < FIRM_RATE
+
+
+def test_with_microslip_a_lower_rate_is_firm(bearing, lubricant):
+    model = roller_model(bearing, lubricant, axial_sign=1, tilt=0.0, laws=Laws.physical())
+    load = model.stiffness * firm_interference(model, RATED_SURFACE_SPEED) ** 1.5
+    rate = relaxation_rate(model, load, RATED_SURFACE_SPEED)
+    assert rate == pytest.approx(FIRM_RATE_MICROSLIP, rel=1e-9, abs=0.0)
+    assert relaxation_rate(model, 2.0 * load, RATED_SURFACE_SPEED) > rate
 
 
 def test_slower_rings_hold_no_less_firmly(models):

@@ -10,7 +10,7 @@ import math
 from numba import types
 from numba.extending import overload
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.contact.flash_temperature import flash_temperature
 from macroslip.film.asperity_load import asperity_share
 from macroslip.film.law import film_thickness
@@ -29,21 +29,22 @@ _LOOK_EVERY = 256
 
 
 @jit
-def _add_mechanisms(record, interface, contact, ring_speed, slip, spin_force, detail, span):
-    energy = record.mechanism_energy
-    energy[interface, 0] += span * slip * spin_force
+def _add_mechanisms(mechanisms, asperities, interface, contact, ring_speed, slip, spin_force, detail, span):
+    mechanisms[interface, 0] += span * slip * spin_force
     if contact.shape.microslip:
         curvature = contact.shape.curvature_ratio * contact.shape.roller_radius
-        energy[interface, 1] += span * ring_speed * curvature * detail.lag
-        energy[interface, 2] -= span * ring_speed * contact.shape.spin_ratio * detail.skew
-    record.asperity_energy[interface] += span * detail.asperity_power
+        mechanisms[interface, 1] += span * ring_speed * curvature * detail.lag
+        mechanisms[interface, 2] -= span * ring_speed * contact.shape.spin_ratio * detail.skew
+    asperities[interface] += span * detail.asperity_power
 
 
-@jit
+@jit_inline
 def _book_stage(record, model, at, forces, slip, span):
-    _add_mechanisms(record, 0, model.inner, at.ring_speed, slip, forces.inner, forces.inner_detail, span)
-    _add_mechanisms(record, 1, model.outer, at.ring_speed, slip, forces.outer, forces.outer_detail, span)
-    _add_mechanisms(record, 2, model.cage, 0.0, slip - at.ring_speed, forces.cage, forces.cage_detail, span)
+    # Passing a record costs more than this work: a count for every array in it.
+    energy, rough = record.mechanism_energy, record.asperity_energy
+    _add_mechanisms(energy, rough, 0, model.inner, at.ring_speed, slip, forces.inner, forces.inner_detail, span)
+    _add_mechanisms(energy, rough, 1, model.outer, at.ring_speed, slip, forces.outer, forces.outer_detail, span)
+    _add_mechanisms(energy, rough, 2, model.cage, 0.0, slip - at.ring_speed, forces.cage, forces.cage_detail, span)
 
 
 @jit

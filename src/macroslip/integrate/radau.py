@@ -22,7 +22,14 @@ from macroslip.integrate.radau_step import (
 )
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
 from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
-from macroslip.roller.contact_force import held_slip, slip_variation, slips_everywhere, steady_slip
+from macroslip.roller.contact_force import (
+    LIMIT_EXPONENT,
+    held_exponent,
+    held_slip,
+    slip_variation,
+    slips_everywhere,
+    steady_slip,
+)
 from macroslip.roller.forces import shifted, slip_forces, station
 from macroslip.roller.load_zone import EDGE, FIRM, FREE, classify, edge_time
 from macroslip.roller.orbit import instant, interval_of
@@ -34,8 +41,9 @@ _EDGE_STEP = 1e-3
 _NEWTON_ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage.
 _FORCE_TOLERANCE = 1e-9
-#: The same with microslip, whose power does not hang on the balance of two large forces.
-_MICROSLIP_FORCE_TOLERANCE = 1e-5
+#: The same with microslip, whose power does not hang on the balance of two large forces: half of the tolerance asked for,
+#: and at most this.
+_MICROSLIP_FORCE_SHARE, _MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
 #: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a coast and adds up;
 #: errors of energy are of either sign and its estimate is of low order, hence far too large.
 _SLIP_SHARE, _ENERGY_SHARE = 0.1, 10.0
@@ -55,6 +63,15 @@ _PEAK_PARTS, _RESOLVED = 10, 3.0
 _CUSP_PART = 0.03
 #: Largest relative change of slip in a step taken where traction may fall with slip.
 _HOT_CHANGE = 0.2
+#: Weight of the step over the relaxation time at its end by which an error of slip with microslip counts less.
+_FORGOTTEN = 1.0
+#: Part of the sum of force magnitudes that is unbalanced where a roller with microslip is not at its balance.
+_ASTRAY = 0.1
+#: Step over relaxation time from which on a roller with microslip is taken to follow its loads, for a first guess.
+_GRIPPED = 10.0
+#: Safety factor on the residual foreseen from the curvature of the forces in earlier steps, and what is left of that
+#: curvature when a newer one is smaller.
+_BEND_SAFETY, _FORGET = 10.0, 0.7
 
 
 class Limits(NamedTuple):
@@ -149,7 +166,10 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     sample_step = 0.0
     # With microslip the slip of a held roller hardly changes with the shaft's acceleration, and power does not jump.
     jumps = not slips_everywhere(model.inner)
-    force_tolerance = _FORCE_TOLERANCE if jumps else _MICROSLIP_FORCE_TOLERANCE
+    force_tolerance = _FORCE_TOLERANCE
+    if not jumps:
+        force_tolerance = max(force_tolerance, min(_MICROSLIP_FORCE_SHARE * limits.tolerance, _MICROSLIP_FORCE_TOLERANCE))
+    exponent, bend = LIMIT_EXPONENT, math.inf
     while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
         write_trace(record, model, next_trace, at, forces, slip)
         next_trace += 1
@@ -225,10 +245,10 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         v1 = slip + d1 + drift * NODES[0] * h if drift != 0.0 else slip
         v2 = slip + d2 + drift * NODES[1] * h if drift != 0.0 else slip
         v3 = slip + d3 + drift * h if drift != 0.0 else slip
-        if zone == FIRM:
-            v1 = held_slip(model.inner, v1, at, at1)
-            v2 = held_slip(model.inner, v2, at, at2)
-            v3 = held_slip(model.inner, v3, at, at3)
+        if zone == FIRM or (not jumps and model.mobility * forces.slope * h > _GRIPPED and at3.elastic_load > 0.0):
+            v1 = held_slip(model.inner, v1, at, at1, exponent)
+            v2 = held_slip(model.inner, v2, at, at2, exponent)
+            v3 = held_slip(model.inner, v3, at, at3, exponent)
         scale = 1.0 / (h * model.mobility)
         converged = False
         unbalanced = math.inf
@@ -256,7 +276,14 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 break
             # Newton's residuals shrink quadratically: the next one is foreseen from the last two, and where it is
             # small enough the forces follow to first order, without another evaluation.
-            foreseen = size * size / unbalanced if iteration > 0 else math.inf
+            # A held roller's forces bend from step to step in the same way, so the first residual is enough.
+            held = zone == FIRM and not jumps
+            if iteration > 0:
+                foreseen = size * size / unbalanced
+                if held and iteration == 1:
+                    bend = max(size / (unbalanced * unbalanced), _FORGET * bend if bend < math.inf else 0.0)
+            else:
+                foreseen = _BEND_SAFETY * bend * size * size if held else math.inf
             unbalanced = size
             u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
             v1 += u1
@@ -299,6 +326,9 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
                 grip = h * model.mobility * abs(push.slope)
                 slip_off = max(abs(slip_off), _DEFECT_WEIGHT * abs(defect) / (1.0 + grip))
                 evaluations += 1
+        if not jumps:
+            # Slip that the next step forgets need not be known so well.
+            slip_off /= 1.0 + _FORGOTTEN * h * model.mobility * max(f3.slope, 0.0)
         i1, o1, c1 = powers(model, at1, f1, v1)
         i2, o2, c2 = powers(model, at2, f2, v2)
         i3, o3, c3 = powers(model, at3, f3, v3)
@@ -329,14 +359,17 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             orbit = orbit_at(record, 0.5 * (time + t3), last_orbit)
             add_energy(record, orbit, e_inner, e_outer, e_cage)
             raceways = max(i1, i2, i3, o1, o2, o3)
+            sliding = max(_sliding(f1, v1), _sliding(f2, v2), _sliding(f3, v3))
             if orbit != last_orbit:
                 top_power, last_orbit = 0.0, orbit
                 raise_peak(record, orbit, 0, p_inner)
                 raise_peak(record, orbit, 1, p_outer)
                 raise_peak(record, orbit, 2, p_cage)
             resolved = _RESOLVED * _SLIP_SHARE * limits.tolerance * limits.speed_scale
-            snapping = abs(slip) > resolved and abs(v3) < 0.7 * abs(slip)
-            if zone == EDGE and (snapping or raceways > 0.5 * top_power):
+            # A gripped roller with microslip slips less where load decreases, without a snap.
+            astray = jumps or at.elastic_load <= 0.0 or abs(total) > _ASTRAY * _magnitude(forces)
+            snapping = astray and abs(slip) > resolved and abs(v3) < 0.7 * abs(slip)
+            if zone == EDGE and (snapping or sliding > 0.5 * top_power):
                 # A roller may just be snapping back; the peak lies between stages.
                 for part_of_peak in range(1, _PEAK_PARTS + 1):
                     when = time + h * part_of_peak / _PEAK_PARTS
@@ -367,6 +400,8 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         record.worst[0] = max(record.worst[0], unbalanced)
         time = barrier if h == left else t3
         interval = k3
+        if zone == FIRM:
+            exponent = held_exponent(at, slip, at3, v3, exponent)
         slip, at, forces = v3, at3, f3
         p_inner, p_outer, p_cage = i3, o3, c3
         step = h * min(1.0 if failed_before else _GROWTH, factor)
@@ -406,6 +441,12 @@ def _rebalanced(model, motion, interval, at, slip):
 def _lean(at):
     """Body force along the contact normal, positive outward [N]."""
     return at.outer_load - at.inner_load
+
+
+@jit
+def _sliding(forces, slip):
+    """Larger power of sliding of the middle at the raceways [W]: all of it without microslip."""
+    return max(abs(forces.inner), abs(forces.outer)) * abs(slip)
 
 
 @jit

@@ -177,9 +177,14 @@ def _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainm
 def _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope):
     if load <= 0.0:
         return 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0)
-    force, slope, by_load = contact_force(contact, load, slip, entrainment_speed, entrainment_slope)
-    film, _, _ = film_thickness(contact.film, load, max(entrainment_speed, LOWEST_ENTRAINMENT_SPEED))
-    share = asperity_share(contact.asperity_load, load, max(entrainment_speed, LOWEST_ENTRAINMENT_SPEED), film)
+    if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
+        entrainment_speed = LOWEST_ENTRAINMENT_SPEED
+        entrainment_slope = 0.0
+    film, film_by_speed, film_by_load = film_thickness(contact.film, load, entrainment_speed)
+    force, slope, force_by_film, by_load = patch_traction(contact.traction, load, film, slip)
+    slope += force_by_film * film_by_speed * entrainment_slope
+    by_load += force_by_film * film_by_load
+    share = asperity_share(contact.asperity_load, load, entrainment_speed, film)
     field = SlipField(slip, 0.0, 0.0, 0.0)
     rough = asperity_friction(contact.asperity_friction, load, share, field, contact.shape)
     fluid = 1.0 - share
@@ -323,24 +328,45 @@ def _slips_everywhere(contact):
     return lambda contact: False
 
 
-def held_slip(contact, slip, at, later):
+def held_slip(contact, slip, at, later, exponent):
     """Guess of the slip of a firmly held roller at a later station from its slip now.
 
-    With microslip the middle slips so that the two sides of the lines of pure rolling balance, in proportion to the
-    drop of the contour at the end of the ellipse and to speed: v ∝ u2 Q^(2/3) where stress is at its limit.
+    With microslip the middle slips so that the two sides of the lines of pure rolling balance: in proportion to speed,
+    and to a power of the load that `held_exponent` measures.
     """
-    return _scaled_slip(slip, at, later) if slips_everywhere(contact) else slip
+    return _scaled_slip(slip, at, later, exponent) if slips_everywhere(contact) else slip
 
 
 @jit
-def _scaled_slip(slip, at, later):
+def _scaled_slip(slip, at, later, exponent):
     if at.elastic_load <= 0.0 or at.ring_speed == 0.0:
         return slip
-    return slip * (later.elastic_load / at.elastic_load) ** (2.0 / 3.0) * (later.ring_speed / at.ring_speed)
+    return slip * (later.elastic_load / at.elastic_load) ** exponent * (later.ring_speed / at.ring_speed)
 
 
 @overload(held_slip)
-def _held_slip(contact, slip, at, later):
+def _held_slip(contact, slip, at, later, exponent):
     if _is_curved(contact):
-        return lambda contact, slip, at, later: _scaled_slip(slip, at, later) if contact.shape.microslip else slip
-    return lambda contact, slip, at, later: slip
+        return lambda contact, slip, at, later, exponent: (
+            _scaled_slip(slip, at, later, exponent) if contact.shape.microslip else slip
+        )
+    return lambda contact, slip, at, later, exponent: slip
+
+
+#: Power of the load with which the middle of a held contact slips where stress is at its limit: that of the drop of the
+#: contour at the end of the ellipse.
+LIMIT_EXPONENT = 2.0 / 3.0
+#: Change of ln Q below which a step says nothing of the exponent, and how far the exponent may reasonably be.
+_TELLING, _STEEPEST = 1e-3, 3.0
+
+
+@jit
+def held_exponent(at, slip, later, later_slip, exponent):
+    """The power of load with which the slip of a held roller has just changed; `exponent`, where that cannot be told."""
+    if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
+        return exponent
+    change = math.log(later.elastic_load / at.elastic_load)
+    ratio = later_slip * at.ring_speed / (slip * later.ring_speed) if slip * later.ring_speed != 0.0 else 0.0
+    if abs(change) < _TELLING or ratio <= 0.0:
+        return exponent
+    return min(max(math.log(ratio) / change, -_STEEPEST), _STEEPEST)

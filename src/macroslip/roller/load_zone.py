@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit
-from macroslip.roller.contact_force import raceway_force
+from macroslip.roller.contact_force import raceway_force, slips_everywhere
 from macroslip.roller.forces import interference
 from macroslip.roller.orbit import Instant, instant
 
@@ -21,6 +21,8 @@ FREE, EDGE, FIRM = 0, 1, 2
 #: Relaxation rate of slip [1/s] from which on a roller counts as firmly held. Accelerations of a shaft are far below
 #: 1 m/s² at the raceway, so what slip lags behind balance is below 1e-4 m/s divided by this rate in 1e4/s.
 FIRM_RATE = 1e4
+#: The same with microslip, where balance is at a slip of some millimetres per second and power is stationary in it.
+FIRM_RATE_MICROSLIP = 1e3
 
 
 @jit
@@ -56,12 +58,13 @@ def firm_interference(model, ring_speed):
 
     Infinite if no load up to 1 GN holds it firmly (a law with bounded slope): then no interval is `FIRM`.
     """
+    firm_rate = FIRM_RATE_MICROSLIP if slips_everywhere(model.inner) else FIRM_RATE
     low, high = 1e-3, 1e9
-    if relaxation_rate(model, high, ring_speed) < FIRM_RATE:
+    if relaxation_rate(model, high, ring_speed) < firm_rate:
         return math.inf
     for _ in range(100):
         middle = math.sqrt(low * high)
-        if relaxation_rate(model, middle, ring_speed) < FIRM_RATE:
+        if relaxation_rate(model, middle, ring_speed) < firm_rate:
             low = middle
         else:
             high = middle

@@ -110,22 +110,28 @@ def asperity_friction(law, load, share, field, shape):
     across = law.semi_axis_across * load ** (1.0 / 3.0)
     half = min(across, shape.half_length)
     scale = 0.75 * law.coefficient * share * load / across
+    radius = shape.contour_radius
+    corners = (
+        _corner(field, radius, law.full_slip, False),
+        _corner(field, radius, law.full_slip, True),
+        _corner(field, radius, -law.full_slip, False),
+        _corner(field, radius, -law.full_slip, True),
+    )
     before = -half
     while before < half:
         after = half
-        for side in range(4):
-            corner = _corner(field, shape.contour_radius, law.full_slip if side < 2 else -law.full_slip, side % 2 == 1)
+        for corner in corners:
             if before < corner < after:
                 after = corner
         middle, reach = 0.5 * (before + after), 0.5 * (after - before)
-        grips = abs(slip_at(field, shape.contour_radius, middle)) < law.full_slip
+        grips = abs(slip_at(field, radius, middle)) < law.full_slip
         for node in range(4):
             place = (_NODE_FAR if node % 3 == 0 else _NODE_NEAR) * (-1.0 if node < 2 else 1.0)
             station = middle + reach * place
             weight = scale * reach * (_WEIGHT_FAR if node % 3 == 0 else _WEIGHT_NEAR)
             weight *= 1.0 - station * station / (across * across)
-            slip = slip_at(field, shape.contour_radius, station)
-            drop = 0.5 * station * station / shape.contour_radius
+            slip = slip_at(field, radius, station)
+            drop = 0.5 * station * station / radius
             arm = drop / shape.roller_radius
             if grips:
                 part = weight * slip / law.full_slip

@@ -16,7 +16,7 @@ from macroslip.traction.rheology import limited_stress
 from macroslip.traction.slip_field import graded_rule, rolling_lines
 
 _NODES, _WEIGHTS = graded_rule(10)
-_FINE_NODES, _FINE_WEIGHTS = graded_rule(40)
+_FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
 
 
 def _chords(nodes: int) -> tuple[np.ndarray, np.ndarray]:
