@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from macroslip import BearingLoads, Case, HubLoads, Radau, Traces, Window, simulate
+from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Laws, Radau, Traces, Window, main_bearing_load, simulate
 from macroslip.integrate.status import Status
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
@@ -42,6 +42,18 @@ def test_default_tolerance_keeps_its_promises(turbulent, reference):
     assert float((abs(found.spin / reference.spin - 1)).where(coasting).max()) < 1e-4
     peak, exact = found.peak_power.max("interface"), reference.peak_power.max("interface")
     assert float(abs(peak / exact - 1).max()) < 1e-2
+
+
+@pytest.mark.parametrize("laws", [Laws.paper(), Laws.physical()], ids=lambda laws: laws.name)
+@pytest.mark.parametrize("step", [0.05, 0.02, 1.0 / 3.0])
+def test_traces_belong_to_their_times(laws, step):
+    """Also where a time of the traces and a sample of the loads differ by rounding only."""
+    loads = main_bearing_load(HubLoads.bundled("22A").window(None, 60.0), Drivetrain())
+    found = simulate(Case(loads=loads, laws=laws, rollers=[8], traces=Traces(step=step))).isel(roller=0)
+    speed = np.interp(found.time.values, loads.time, loads.shaft_speed)
+    for row in ("downwind", "upwind"):
+        pure = found.spin_pure.sel(row=row).values
+        np.testing.assert_allclose(pure / speed, pure[0] / speed[0], rtol=1e-12)
 
 
 def test_threads_and_repetition_change_no_bit(turbulent):

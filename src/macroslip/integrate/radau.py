@@ -170,10 +170,10 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
     if not jumps:
         force_tolerance = max(force_tolerance, min(_MICROSLIP_FORCE_SHARE * limits.tolerance, _MICROSLIP_FORCE_TOLERANCE))
     exponent, bend = LIMIT_EXPONENT, math.inf
-    while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
-        write_trace(record, model, next_trace, at, forces, slip)
-        next_trace += 1
     while True:
+        while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
+            write_trace(record, model, next_trace, at, forces, slip)
+            next_trace += 1
         if time >= barrier:
             while next_stop < stops.size and stops[next_stop] <= time:
                 next_stop += 1
@@ -406,9 +406,6 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         p_inner, p_outer, p_cage = i3, o3, c3
         step = h * min(1.0 if failed_before else _GROWTH, factor)
         failed_before = False
-        while next_trace < record.trace_time.size and record.trace_time[next_trace] <= time:
-            write_trace(record, model, next_trace, at, forces, slip)
-            next_trace += 1
     record.count[0], record.count[1], record.count[2] = steps, rejections, evaluations
     record.end[0], record.end[1] = time, slip
     return status

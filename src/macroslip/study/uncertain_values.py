@@ -45,8 +45,8 @@ HUB, GEARBOX = "hub to bearing", "bearing to gearbox"
 VALUES = (
     UncertainValue(name=CLEARANCE, unit="mm", low=0.0, high=0.4, tag="E",
                    reason="0.31 to 0.48 mm unmounted (catalogue); fit and warm inner ring take some or all of it"),
-    UncertainValue(name=OSCULATION, unit="1", low=0.97, high=0.985, tag="E",
-                   reason="usual for spherical roller bearings; above 0.985 contacts reach the roller's ends here"),
+    UncertainValue(name=OSCULATION, unit="1", low=0.97, high=0.99, tag="E",
+                   reason="usual for spherical roller bearings; at 0.99 the largest contacts just reach the roller's ends"),
     UncertainValue(name=DIAMETER, unit="mm", low=67.0, high=73.0, tag="E",
                    reason="back-calculated from the load ratings, which fix it within about 4 %; pitch radius and row "
                    "offset follow the sphere of the outer raceway"),
