@@ -97,8 +97,9 @@ def test_numbers_that_the_model_page_quotes(runs):
 NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 
 
-def test_the_physical_page_quotes_what_its_code_prints(runs):
-    page = ROOT / "docs" / "physical.md"
+@pytest.mark.parametrize("name", ["physical.md", "physical-study.md"])
+def test_pages_quote_what_their_code_prints(name, runs):
+    page = ROOT / "docs" / name
     quoted = "".join(re.findall(r"^```text\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE))
     printed = runs[page].stdout
     assert re.sub(NUMBER, "#", quoted) == re.sub(NUMBER, "#", printed)

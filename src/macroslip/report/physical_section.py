@@ -16,7 +16,8 @@ from macroslip.report.torque_figures import plot_torque
 from macroslip.study.dissipation import dissipation, knows_mechanisms
 from macroslip.study.model_run import TORQUE_WINDOW, bearing_torques
 from macroslip.study.uncertain_values import VALUES
-from macroslip.study.uncertainty_summary import drivers, sample_size, told, uncertainty_summary
+from macroslip.study.uncertainty_summary import drivers, sample_size, uncertainty_summary
+from macroslip.study.verdicts import told
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -75,13 +75,13 @@ def _answer(judged: Mapping[str, list[Statement]], summary: Mapping[str, Any]) -
     words = []
     for name, statements in judged.items():
         counts = {verdict: sum(one.verdict == verdict for one in statements) for verdict in (AGREES, PARTLY, DIFFERS)}
-        told = (
+        sentence = (
             f"of the paper's {len(statements)} statements {counts[AGREES]} agree with a converged solution, "
             f"{counts[PARTLY]} agree in part, {counts[DIFFERS]} differ"
         )
         others = len(statements) - sum(counts.values())
-        told += f", {others} were not computed or cannot be judged" if others else ""
-        words.append(f"Under the model {name}, {told}" if len(judged) > 1 else told[0].upper() + told[1:])
+        sentence += f", {others} not computed or not to be judged" if others else ""
+        words.append(f"Under the model {name}, {sentence}." if len(judged) > 1 else f"{sentence[0].upper()}{sentence[1:]}.")
     rows = tuple(
         (together[0].paper, tuple((one.verdict, one.found, one.because) for one in together))
         for together in zip(*judged.values(), strict=True)
@@ -92,7 +92,7 @@ def _answer(judged: Mapping[str, list[Statement]], summary: Mapping[str, Any]) -
         "answer",
         "The answer",
         (
-            Paragraph("; ".join(words) + ".", strong=True),
+            Paragraph(" ".join(words), strong=True),
             Statements(tuple(judged), rows),
             Paragraph(
                 f"{failure_line(places, failed['study_total'])} That the paper's turbine used this bearing is not "

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.study.verdicts import ABOUT, DOMINANT, Statement
+from macroslip.study.verdicts import ABOUT, DOMINANT, Statement, told
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -148,11 +148,6 @@ def drivers(summary: xr.Dataset, quantity: str) -> list[tuple[str, float]]:
         (str(one.parameter.values[k]), float(one.rank_correlation.values[k]))
         for k in order if one.probability.values[k] < DRIVER_LEVEL
     ]
-
-
-def told(value: float) -> str:
-    """A number with three digits, without a power of ten where one can do without."""
-    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
 
 
 def sample_size(summary: xr.Dataset) -> str:

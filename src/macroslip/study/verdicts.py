@@ -57,6 +57,11 @@ class Statement:
     numbers: dict[str, float | list[float]] = field(default_factory=dict)
 
 
+def told(value: float) -> str:
+    """A number with three digits, without a power of ten where one can do without."""
+    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+
+
 def verdict(parts: list[bool], numbers: dict[str, float | list[float]]) -> str:
     """The verdict on a statement of several parts that rests on `numbers`.
 
@@ -132,7 +137,7 @@ def energy_between_rows(numbers: xr.Dataset, thrust_energy: float = math.nan) ->
     return Statement(
         paper="the downwind row spends about 10 times the energy of the upwind row",
         verdict=verdict([good], found),
-        found=f"{found['lowest']:.2f} to {found['highest']:.2f} times",
+        found=f"{told(found['lowest'])} to {told(found['highest'])} times",
         because=because if explained and not good else "",
         numbers=found,
     )
@@ -195,7 +200,7 @@ def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None
     return Statement(
         paper="the downwind row's mean peak power is up to 5 times the upwind row's, most at 12 m/s",
         verdict=verdict([_about(found["highest"], 5.0), highest_at == 12.0], found),
-        found=f"{found['lowest']:.2f} to {found['highest']:.2f} times, most at {highest_at:g} m/s",
+        found=f"{told(found['lowest'])} to {told(found['highest'])} times, most at {highest_at:g} m/s",
         because="" if good else because,
         numbers=found,
     )
