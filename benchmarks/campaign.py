@@ -23,6 +23,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from macroslip import open_study, run_campaign
+from macroslip.campaign.cluster import check_installed
 from macroslip.campaign.study_file import study_of
 
 CASES = ["12A", "12C", "14B", "16A", "18B", "20C", "22A", "24A"]
@@ -280,6 +281,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, default=Path("campaign.json"))
     parser.add_argument("--only", choices=("speed", "scheduler", "memory", "coordinator"))
     given = parser.parse_args()
+    check_installed()
     found: dict[str, object] = {"cores": len(os.sched_getaffinity(0)), "load_before": os.getloadavg()[0]}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

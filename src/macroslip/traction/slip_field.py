@@ -4,11 +4,12 @@ With the station ζ along the roller's axis and the drop of the common contour h
 
     v(ζ) = Δu + κ h − s ζ,
 
-where κ = ω_rel − (Ω_in − Ω) cos α and s = −(Ω_in − Ω) sin α at the inner raceway, κ = ω_rel + Ω cos α and s = −Ω sin α at
-the outer one of the downwind row, with ζ along z'; in the upwind row sin α is negative. Where v passes through zero the roller rolls purely. A film that grips changes its stress from one limit to
-the other within a millionth of the contact's length there, so the quadrature is divided at these lines and graded
-towards them. The grid moves with the lines, and its motion enters the derivatives: without it the derivative of the
-quadrature would miss the jump that lies between two nodes.
+where κ = ω_rel − (Ω_in − Ω) cos α and s = −(Ω_in − Ω) sin α at the inner raceway, κ = ω_rel + Ω cos α and s = −Ω sin α
+at the outer one of the downwind row, with ζ along z'; in the upwind row sin α is negative. Where v passes through zero
+the roller rolls purely. A film that grips changes its stress from one limit to the other there within a small part of
+the contact's length, the smaller the higher the load, so the quadrature is divided at these lines and graded towards
+them. The grid moves with the lines, and its motion enters the derivatives: without it the derivative of the quadrature
+would miss the jump that lies between two nodes.
 """
 
 from __future__ import annotations
