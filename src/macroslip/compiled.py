@@ -16,6 +16,7 @@ from pathlib import Path
 import numba
 import numpy as np
 from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba.extending import register_jitable
 
 _extra_sources: list[str] = []
 #: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
@@ -95,16 +96,26 @@ class _PackageCache(FunctionCache):
 
 def jit(function: Callable) -> Callable:
     """Compile a scalar physics function on first call; division by zero gives inf or NaN as in NumPy."""
-    dispatcher = numba.njit(nogil=True, error_model="numpy")(function)
+    dispatcher = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
     dispatcher._cache = _PackageCache(function)
     return dispatcher
 
 
 def jit_inline(function: Callable) -> Callable:
     """Compile into the caller: for functions of every force evaluation, where passing the arguments costs as much."""
-    dispatcher = numba.njit(nogil=True, error_model="numpy", forceinline=True)(function)
+    dispatcher = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True, forceinline=True)(function)
     dispatcher._cache = _PackageCache(function)
     return dispatcher
+
+
+def jit_part(function: Callable) -> Callable:
+    """Make a part of kernels: compiled into them, and plain Python when called from there.
+
+    It gets no compiled entry from Python; with a roller's model or record for an argument that takes longer to compile
+    than the function itself.
+    """
+    options = {"nogil": True, "error_model": "numpy", "forceinline": True}
+    return register_jitable(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)(function)
 
 
 def elementwise(function: Callable) -> Callable:

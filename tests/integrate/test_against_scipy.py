@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from macroslip.integrate.radau import Limits, integrate_radau
+from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
 from macroslip.integrate.status import Status
+from macroslip.integrate.step_control import Limits
 from macroslip.roller.load_zone import empty_classes, firm_interference
 from macroslip.roller.model import roller_model
 from macroslip.roller.orbit import Motion, shaft_angle

@@ -16,11 +16,10 @@ from macroslip.roller.contact_force import (
     friction_power,
     raceway_force,
     slip_field,
-    slip_variation,
-    steady_slip,
 )
 from macroslip.roller.contacts import contact_shape
 from macroslip.roller.forces import Station, slip_forces
+from macroslip.roller.held_contact import slip_variation, steady_slip
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.traction.slip_field import slip_at
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.contact.ring_motion import ring_motion
-from macroslip.integrate.radau import Limits
+from macroslip.integrate.step_control import Limits
 from macroslip.laws import Laws
 from macroslip.loads import HubLoads, bundled_cases, main_bearing_load
 from macroslip.roller.load_zone import EDGE, classify, edge_time, empty_classes, interference_at

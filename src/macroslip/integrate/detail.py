@@ -10,7 +10,7 @@ import math
 from numba import types
 from numba.extending import overload
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_part
 from macroslip.contact.flash_temperature import flash_temperature
 from macroslip.film.asperity_load import asperity_share
 from macroslip.film.law import film_thickness
@@ -28,7 +28,7 @@ STATIONS = 24
 _LOOK_EVERY = 256
 
 
-@jit
+@jit_part
 def _add_mechanisms(mechanisms, asperities, interface, contact, ring_speed, slip, spin_force, detail, span):
     mechanisms[interface, 0] += span * slip * spin_force
     if contact.shape.microslip:
@@ -38,7 +38,7 @@ def _add_mechanisms(mechanisms, asperities, interface, contact, ring_speed, slip
     asperities[interface] += span * detail.asperity_power
 
 
-@jit_inline
+@jit_part
 def _book_stage(record, model, at, forces, slip, span):
     # Passing a record costs more than this work: a count for every array in it.
     energy, rough = record.mechanism_energy, record.asperity_energy
@@ -47,7 +47,7 @@ def _book_stage(record, model, at, forces, slip, span):
     _add_mechanisms(energy, rough, 2, model.cage, 0.0, slip - at.ring_speed, forces.cage, forces.cage_detail, span)
 
 
-@jit
+@jit_part
 def _raise(record, orbit, interface, flash, density, ratio, film_ratio):
     if orbit < 0:
         return
@@ -58,7 +58,7 @@ def _raise(record, orbit, interface, flash, density, ratio, film_ratio):
     extreme[3] = min(extreme[3], film_ratio)
 
 
-@jit
+@jit_part
 def _spread(station_energy, powers):
     """Give the stations the energy in the last place of `powers` in proportion to the powers before it."""
     total = 0.0
@@ -70,7 +70,7 @@ def _spread(station_energy, powers):
         powers[STATIONS] = 0.0
 
 
-@jit
+@jit_part
 def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, energy):
     """Spread the step's energy over the stations as the power at its end, and raise the orbit's extremes.
 
@@ -116,7 +116,7 @@ def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, ene
     _raise(record, orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 
-@jit
+@jit_part
 def _look(record, interface, contact, load, ring_speed, slip, span):
     """Film power by the rule in use and by a much finer one."""
     if load <= 0.0 or not contact.shape.microslip:
@@ -135,7 +135,7 @@ def _look(record, interface, contact, load, ring_speed, slip, span):
     record.quadrature[interface, 1] += span * abs(found - better)
 
 
-@jit
+@jit_part
 def _book_step(record, model, at, forces, slip, span, orbit, inner, outer, steps):
     _book_raceway(record, orbit, 0, model.inner, at.inner_load, at.ring_speed, slip, inner)
     _book_raceway(record, orbit, 1, model.outer, at.outer_load, at.ring_speed, slip, outer)

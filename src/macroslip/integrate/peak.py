@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_part
 from macroslip.integrate.record import raise_peak
 
 #: A kink has no parabola; what one may add to the samples is bounded by this factor.
 _HIGHEST_RISE = 1.1
 
 
-@jit
+@jit_part
 def start_peak(samples, time, inner, outer, cage):
     """Begin a stretch of smooth powers; `samples`, shape (2, 4), holds the last two times and powers, newest last."""
     for row in range(2):
@@ -37,7 +37,7 @@ def vertex(ta, pa, tb, pb, tc, pc):
     return pb - 0.25 * slope * slope / curvature
 
 
-@jit
+@jit_part
 def follow_step(record, orbit, samples, before, times, inner, outer, cage):
     """Take up the powers at the stages of a step, as three calls of `follow_peak` would.
 
@@ -67,7 +67,7 @@ def follow_step(record, orbit, samples, before, times, inner, outer, cage):
         samples[row, 3] = cage[row + 1]
 
 
-@jit
+@jit_part
 def follow_peak(record, orbit, samples, time, inner, outer, cage):
     """Take up the powers at a new time; raise the orbit's peaks to the samples and to the parabolas through them."""
     # Where spacing changes much between samples a fast transient has just ended, and a parabola would extrapolate it.

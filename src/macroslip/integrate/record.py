@@ -9,7 +9,7 @@ import numpy as np
 from numba import types
 from numba.extending import overload
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit_part
 from macroslip.film.law import film_in_range, film_thickness
 from macroslip.integrate.detail import EXTREMES, MECHANISMS, STATIONS
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
@@ -110,7 +110,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
     )
 
 
-@jit
+@jit_part
 def powers(model, at, forces, slip):
     """Frictional power (33) at inner, outer and cage interface [W]."""
     return (
@@ -120,7 +120,7 @@ def powers(model, at, forces, slip):
     )
 
 
-@jit
+@jit_part
 def orbit_at(record, time, likely):
     """Index of the complete orbit that holds `time`, or −1 outside all of them; `likely` is looked at first."""
     edges = record.edges
@@ -138,7 +138,7 @@ def orbit_at(record, time, likely):
     return low
 
 
-@jit
+@jit_part
 def add_energy(record, orbit, inner, outer, cage):
     """Book energies [J] spent in the window, and in orbit `orbit` unless it is −1."""
     record.energy[0] += inner
@@ -150,14 +150,14 @@ def add_energy(record, orbit, inner, outer, cage):
         record.orbit_energy[orbit, 2] += cage
 
 
-@jit
+@jit_part
 def raise_peak(record, orbit, interface, power):
     """Let the orbit's peak power be at least `power` [W]."""
     if orbit >= 0 and power > record.peak_power[orbit, interface]:
         record.peak_power[orbit, interface] = power
 
 
-@jit
+@jit_part
 def note_state(record, model, at, forces, slip, span):
     """Book spin ratio and range of the film law for a state held over `span` [s] of the window."""
     if at.ring_speed != 0.0:
@@ -170,7 +170,7 @@ def note_state(record, model, at, forces, slip, span):
     _note_range(record, 2, model.cage, abs(forces.cage_load), 0.5 * abs(at.ring_speed - slip), span)
 
 
-@jit
+@jit_part
 def _note_range(record, interface, contact, load, speed, span):
     if load > 0.0:
         record.loaded_time[interface] += span
@@ -178,7 +178,7 @@ def _note_range(record, interface, contact, load, speed, span):
             record.outside_time[interface] += span
 
 
-@jit
+@jit_part
 def _film(contact, load, speed):
     """Film thickness [m], or NaN for a contact without load."""
     if load <= 0.0:
@@ -198,7 +198,7 @@ def _skew_moment(detail):
     return lambda detail: detail.skew
 
 
-@jit
+@jit_part
 def write_trace(record, model, index, at, forces, slip):
     """Write the state at trace time `index`."""
     row = record.trace[index]

@@ -7,7 +7,6 @@ share the load. Which kind a roller has follows from the types in its model when
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 from numba import types
@@ -18,7 +17,7 @@ from macroslip.contact.shape import ContactShape
 from macroslip.film.asperity_load import AsperityLoad, asperity_share
 from macroslip.film.law import film_thickness
 from macroslip.traction.asperity_friction import AsperityFriction, asperity_friction
-from macroslip.traction.law import patch_traction, patch_traction_microslip, rising_slip
+from macroslip.traction.law import patch_traction, patch_traction_microslip
 from macroslip.traction.slip_field import SlipField
 
 #: Entrainment speed below which the film formula is not followed further [m/s].
@@ -246,39 +245,14 @@ def _curved_power(contact, slip, ring_speed, spin_force, detail):
     return slip * spin_force + ring_speed * (curvature - shape.spin_ratio * detail.skew)
 
 
-@jit
-def steady_slip(contact, load, entrainment_speed, variation):
-    """Slip [m/s] up to which traction of a contact surely rises with slip, where microslip varies by `variation` [m/s].
-
-    Film thickness is that at `entrainment_speed` [m/s], the highest in question: a thick film heats up first.
-    """
-    if load <= 0.0:
-        return math.inf
-    film, _, _ = film_thickness(contact.film, load, max(entrainment_speed, LOWEST_ENTRAINMENT_SPEED))
-    return rising_slip(contact.traction, load, film) - variation
-
-
-def slip_variation(contact, load, ring_speed):
-    """Largest difference [m/s] between the slip at a station and that of the middle."""
-    return _curved_variation(contact, load, ring_speed) if isinstance(contact, CurvedContact) else 0.0
-
-
-@jit
-def _curved_variation(contact, load, ring_speed):
-    shape = contact.shape
-    if not shape.microslip or load <= 0.0:
-        return 0.0
-    half = min(contact.semi_axis_across * load ** (1.0 / 3.0), shape.half_length)
-    return abs(ring_speed) * half * (abs(shape.spin_ratio) + 0.5 * half * shape.curvature_ratio / shape.contour_radius)
-
-
-def _is_curved(contact) -> bool:
+def is_curved(contact) -> bool:
+    """Whether a contact is curved, from its numba type; for use where a kernel is compiled."""
     return isinstance(contact, types.NamedTuple) and contact.instance_class is CurvedContact
 
 
 @overload(raceway_force)
 def _raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
-    compiled = _curved_raceway if _is_curved(contact) else _plain_raceway
+    compiled = _curved_raceway if is_curved(contact) else _plain_raceway
 
     def implementation(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
         return compiled(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope)
@@ -288,7 +262,7 @@ def _raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainme
 
 @overload(cage_force)
 def _cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
-    if _is_curved(contact):
+    if is_curved(contact):
         return lambda contact, load, slip, entrainment_speed, entrainment_slope: _curved_cage(
             contact, load, slip, entrainment_speed, entrainment_slope
         )
@@ -302,71 +276,8 @@ def _cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
 
 @overload(friction_power)
 def _friction_power(contact, slip, ring_speed, spin_force, detail):
-    if _is_curved(contact):
+    if is_curved(contact):
         return lambda contact, slip, ring_speed, spin_force, detail: _curved_power(
             contact, slip, ring_speed, spin_force, detail
         )
     return lambda contact, slip, ring_speed, spin_force, detail: abs(spin_force * slip)
-
-
-@overload(slip_variation)
-def _slip_variation(contact, load, ring_speed):
-    if _is_curved(contact):
-        return lambda contact, load, ring_speed: _curved_variation(contact, load, ring_speed)
-    return lambda contact, load, ring_speed: 0.0
-
-
-def slips_everywhere(contact):
-    """Whether a gripped contact slips in most places all the same, by microslip."""
-    return isinstance(contact, CurvedContact) and contact.shape.microslip
-
-
-@overload(slips_everywhere)
-def _slips_everywhere(contact):
-    if _is_curved(contact):
-        return lambda contact: contact.shape.microslip
-    return lambda contact: False
-
-
-def held_slip(contact, slip, at, later, exponent):
-    """Guess of the slip of a firmly held roller at a later station from its slip now.
-
-    With microslip the middle slips so that the two sides of the lines of pure rolling balance: in proportion to speed,
-    and to a power of the load that `held_exponent` measures.
-    """
-    return _scaled_slip(slip, at, later, exponent) if slips_everywhere(contact) else slip
-
-
-@jit
-def _scaled_slip(slip, at, later, exponent):
-    if at.elastic_load <= 0.0 or at.ring_speed == 0.0:
-        return slip
-    return slip * (later.elastic_load / at.elastic_load) ** exponent * (later.ring_speed / at.ring_speed)
-
-
-@overload(held_slip)
-def _held_slip(contact, slip, at, later, exponent):
-    if _is_curved(contact):
-        return lambda contact, slip, at, later, exponent: (
-            _scaled_slip(slip, at, later, exponent) if contact.shape.microslip else slip
-        )
-    return lambda contact, slip, at, later, exponent: slip
-
-
-#: Power of the load with which the middle of a held contact slips where stress is at its limit: that of the drop of the
-#: contour at the end of the ellipse.
-LIMIT_EXPONENT = 2.0 / 3.0
-#: Change of ln Q below which a step says nothing of the exponent, and how far the exponent may reasonably be.
-_TELLING, _STEEPEST = 1e-3, 3.0
-
-
-@jit
-def held_exponent(at, slip, later, later_slip, exponent):
-    """The power of load with which the slip of a held roller has just changed; `exponent`, where that cannot be told."""
-    if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
-        return exponent
-    change = math.log(later.elastic_load / at.elastic_load)
-    ratio = later_slip * at.ring_speed / (slip * later.ring_speed) if slip * later.ring_speed != 0.0 else 0.0
-    if abs(change) < _TELLING or ratio <= 0.0:
-        return exponent
-    return min(max(math.log(ratio) / change, -_STEEPEST), _STEEPEST)

@@ -12,9 +12,10 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit
-from macroslip.roller.contact_force import raceway_force, slips_everywhere
+from macroslip.compiled import jit, jit_part
+from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.forces import interference
+from macroslip.roller.held_contact import slips_everywhere
 from macroslip.roller.orbit import Instant, instant
 
 FREE, EDGE, FIRM = 0, 1, 2
@@ -79,7 +80,7 @@ def interference_at(model, motion, start_angle, interval, time):
     return interference(model, math.cos(angle), math.sin(angle), now)
 
 
-@jit
+@jit_part
 def _interference_at_sample(model, motion, start_angle, sample):
     angle = start_angle + model.orbit_ratio * motion.shaft_angle[sample]
     place = motion.displacement[sample]

@@ -13,8 +13,10 @@ from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.contact.ring_motion import ring_motion
 from macroslip.film.law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
-from macroslip.integrate.radau import Limits, integrate_radau, longest_step, rising_at
+from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import Record, new_record
+from macroslip.integrate.root import rising_at
+from macroslip.integrate.step_control import Limits, longest_step
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.roller.load_zone import empty_classes, firm_interference
 from macroslip.roller.model import RollerModel, highest_load, interfaces, roller_model, truncated_share, truncation_load

@@ -1,0 +1,147 @@
+"""The stage equations of a step, solved by Newton's iteration to a tolerance on force."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from macroslip.compiled import jit, jit_part
+from macroslip.integrate.radau_step import newton_update, residuals
+from macroslip.roller.forces import shifted, slip_forces
+
+_ITERATIONS = 12
+#: Part of the sum of force magnitudes that may stay unbalanced at a stage.
+_FORCE_TOLERANCE = 1e-9
+#: The same with microslip, whose power does not hang on the balance of two large forces: half of the tolerance asked for,
+#: and at most this.
+_MICROSLIP_FORCE_SHARE, _MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
+#: Safety factor on the residual foreseen from the curvature of the forces in earlier steps, and what is left of that
+#: curvature when a newer one is smaller.
+_BEND_SAFETY, _FORGET = 10.0, 0.7
+
+
+class Stages(NamedTuple):
+    """Solution of the stage equations.
+
+    Attributes
+    ----------
+    converged : bool
+    v1, v2, v3 : float
+        Slip at the stages [m/s].
+    s1, s2, s3 : float
+        Its increments by forces, v_i − v0 − (u2_i − u2_0) [m/s].
+    f1, f2, f3 : SlipForces
+    unbalanced : float
+        Largest force left at a stage [N].
+    evaluations : int
+        Force evaluations it took.
+    bend : float
+        How much forces bend along Newton's correction [1/N]; infinite while nothing is known of it.
+    """
+
+    converged: bool
+    v1: float
+    v2: float
+    v3: float
+    s1: float
+    s2: float
+    s3: float
+    f1: Any
+    f2: Any
+    f3: Any
+    unbalanced: float
+    evaluations: int
+    bend: float
+
+
+@jit_part
+def magnitude(forces):
+    """Sum of the forces' magnitudes [N]."""
+    return abs(forces.inner) + abs(forces.outer) + abs(forces.cage)
+
+
+@jit
+def force_tolerance(tolerance, microslip):
+    """Part of the sum of force magnitudes that may stay unbalanced, by the tolerance asked of the integration."""
+    if not microslip:
+        return _FORCE_TOLERANCE
+    return max(_FORCE_TOLERANCE, min(_MICROSLIP_FORCE_SHARE * tolerance, _MICROSLIP_FORCE_TOLERANCE))
+
+
+@jit_part
+def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, at2, at3, v1, v2, v3, held, bend):
+    """Solve the stage equations from a first guess.
+
+    Parameters
+    ----------
+    model : RollerModel
+    speed_scale : float
+        Speed whose rounding errors count [m/s].
+    force_part : float
+        See `force_tolerance`.
+    scale : float
+        1/(h r²/I_z') [N s/m].
+    slip : float
+        Before the step [m/s].
+    forces : SlipForces
+        Before the step.
+    at, at1, at2, at3 : Station
+        At the start and at the stages.
+    v1, v2, v3 : float
+        First guess of slip at the stages [m/s].
+    held : bool
+        Whether microslip holds the roller at its balance: then forces bend from step to step in the same way.
+    bend : float
+        As the last step left it [1/N].
+
+    Returns
+    -------
+    Stages
+    """
+    d1 = at1.ring_speed - at.ring_speed
+    d2 = at2.ring_speed - at.ring_speed
+    d3 = at3.ring_speed - at.ring_speed
+    round_off = 4e-15 * scale * (speed_scale + abs(slip))
+    converged, unbalanced, evaluations = False, math.inf, 0
+    f1, f2, f3 = forces, forces, forces
+    s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
+    for iteration in range(_ITERATIONS):
+        f1 = slip_forces(model, at1, v1)
+        f2 = slip_forces(model, at2, v2)
+        f3 = slip_forces(model, at3, v3)
+        evaluations += 3
+        s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
+        rest = residuals(
+            scale, s1, s2, s3, f1.inner + f1.outer + f1.cage, f2.inner + f2.outer + f2.cage, f3.inner + f3.outer + f3.cage
+        )
+        size = max(abs(rest.first), abs(rest.second), abs(rest.third))
+        if (
+            abs(rest.first) <= force_part * magnitude(f1) + round_off
+            and abs(rest.second) <= force_part * magnitude(f2) + round_off
+            and abs(rest.third) <= force_part * magnitude(f3) + round_off
+        ):
+            converged = True
+            unbalanced = size
+            break
+        if not math.isfinite(size) or (iteration > 2 and size > 0.9 * unbalanced):
+            break
+        # Newton's residuals shrink quadratically: the next one is foreseen from the last two, or with a known bend from
+        # the first, and where it is small enough the forces follow to first order, without another evaluation.
+        if iteration > 0:
+            foreseen = size * size / unbalanced
+            if held and iteration == 1:
+                bend = max(size / (unbalanced * unbalanced), _FORGET * bend if bend < math.inf else 0.0)
+        else:
+            foreseen = _BEND_SAFETY * bend * size * size if held else math.inf
+        unbalanced = size
+        u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
+        v1 += u1
+        v2 += u2
+        v3 += u3
+        if foreseen <= force_part * min(magnitude(f1), magnitude(f2), magnitude(f3)) + round_off:
+            f1, f2, f3 = shifted(f1, u1), shifted(f2, u2), shifted(f3, u3)
+            s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
+            converged = True
+            unbalanced = foreseen
+            break
+    return Stages(converged, v1, v2, v3, s1, s2, s3, f1, f2, f3, unbalanced, evaluations, bend)

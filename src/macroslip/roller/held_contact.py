@@ -1,0 +1,100 @@
+"""How far a loaded contact slips: up to where traction surely rises with slip, and how a held roller follows its loads."""
+
+from __future__ import annotations
+
+import math
+
+from numba.extending import overload
+
+from macroslip.compiled import jit
+from macroslip.film.law import film_thickness
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved
+from macroslip.traction.law import rising_slip
+
+#: Power of the load with which the middle of a held contact slips where stress is at its limit: that of the drop of the
+#: contour at the end of the ellipse.
+LIMIT_EXPONENT = 2.0 / 3.0
+#: Change of ln Q below which a step says nothing of the exponent, and how far the exponent may reasonably be.
+_TELLING, _STEEPEST = 1e-3, 3.0
+
+
+@jit
+def steady_slip(contact, load, entrainment_speed, variation):
+    """Slip [m/s] up to which traction of a contact surely rises with slip, where microslip varies by `variation` [m/s].
+
+    Film thickness is that at `entrainment_speed` [m/s], the highest in question: a thick film heats up first.
+    """
+    if load <= 0.0:
+        return math.inf
+    film, _, _ = film_thickness(contact.film, load, max(entrainment_speed, LOWEST_ENTRAINMENT_SPEED))
+    return rising_slip(contact.traction, load, film) - variation
+
+
+def slip_variation(contact, load, ring_speed):
+    """Largest difference [m/s] between the slip at a station and that of the middle."""
+    return _curved_variation(contact, load, ring_speed) if isinstance(contact, CurvedContact) else 0.0
+
+
+@jit
+def _curved_variation(contact, load, ring_speed):
+    shape = contact.shape
+    if not shape.microslip or load <= 0.0:
+        return 0.0
+    half = min(contact.semi_axis_across * load ** (1.0 / 3.0), shape.half_length)
+    return abs(ring_speed) * half * (abs(shape.spin_ratio) + 0.5 * half * shape.curvature_ratio / shape.contour_radius)
+
+
+@overload(slip_variation)
+def _slip_variation(contact, load, ring_speed):
+    if is_curved(contact):
+        return lambda contact, load, ring_speed: _curved_variation(contact, load, ring_speed)
+    return lambda contact, load, ring_speed: 0.0
+
+
+def slips_everywhere(contact):
+    """Whether a gripped contact slips in most places all the same, by microslip."""
+    return isinstance(contact, CurvedContact) and contact.shape.microslip
+
+
+@overload(slips_everywhere)
+def _slips_everywhere(contact):
+    if is_curved(contact):
+        return lambda contact: contact.shape.microslip
+    return lambda contact: False
+
+
+def held_slip(contact, slip, at, later, exponent):
+    """Guess of the slip of a firmly held roller at a later station from its slip now.
+
+    With microslip the middle slips so that the two sides of the lines of pure rolling balance: in proportion to speed,
+    and to a power of the load that `held_exponent` measures.
+    """
+    return _scaled_slip(slip, at, later, exponent) if slips_everywhere(contact) else slip
+
+
+@jit
+def _scaled_slip(slip, at, later, exponent):
+    if at.elastic_load <= 0.0 or at.ring_speed == 0.0:
+        return slip
+    return slip * (later.elastic_load / at.elastic_load) ** exponent * (later.ring_speed / at.ring_speed)
+
+
+@overload(held_slip)
+def _held_slip(contact, slip, at, later, exponent):
+    if is_curved(contact):
+        return lambda contact, slip, at, later, exponent: (
+            _scaled_slip(slip, at, later, exponent) if contact.shape.microslip else slip
+        )
+    return lambda contact, slip, at, later, exponent: slip
+
+
+@jit
+def held_exponent(at, slip, later, later_slip, exponent):
+    """The power of load with which the slip of a held roller has just changed; `exponent`, where that cannot be told."""
+    if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
+        return exponent
+    change = math.log(later.elastic_load / at.elastic_load)
+    ratio = later_slip * at.ring_speed / (slip * later.ring_speed) if slip * later.ring_speed != 0.0 else 0.0
+    if abs(change) < _TELLING or ratio <= 0.0:
+        return exponent
+    return min(max(math.log(ratio) / change, -_STEEPEST), _STEEPEST)
