@@ -158,9 +158,9 @@ def test_cumulative_energy(axes, turn):
 
 
 def test_varying_over_static(axes):
-    plot_varying_over_static(axes, {"downward": {"downwind": 1.07, "upwind": 0.86}, "thrust": {"downwind": 1.0}})
-    assert [float(one.get_ydata()[0]) for one in axes.lines] == [1.07, 0.86, 1.0]
-    assert [text.get_text() for text in axes.texts] == ["1.07", "0.86", "1.00"]
+    plot_varying_over_static(axes, {"downward": {"downwind": 1.07, "upwind": 0.86}, "thrust": {"downwind": 0.0042}})
+    assert [float(one.get_ydata()[0]) for one in axes.lines] == [1.07, 0.86, 0.0042]
+    assert [text.get_text() for text in axes.texts] == ["1.07", "0.86", "0.0042"]
     assert axes.get_legend_handles_labels()[1] == ["downwind row", "upwind row"]
     assert "[–]" in axes.get_ylabel()
 

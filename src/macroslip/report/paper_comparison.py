@@ -18,6 +18,7 @@ from macroslip.report.page import Beside, Block, Paragraph, Pictures, Section
 from macroslip.report.pictures import Picture, picture
 from macroslip.study.headline import step_line, tolerance_line
 from macroslip.study.model_run import DETAILED_CASE, STATIC_LOADS
+from macroslip.study.wording import told_energy
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -81,7 +82,7 @@ def _turns(run: ModelRun, of: str) -> list[Block]:
                         f"Cumulative energy over a turn, {name}", height=2.8)
             )
         energies = ", ".join(
-            f"{name} {1e3 * turn.attrs['energy_J']:.3g} mJ and at most {turn.attrs['peak_power_W']:.3g} W"
+            f"{name} {told_energy(turn.attrs['energy_J'])} and at most {turn.attrs['peak_power_W']:.3g} W"
             for name, turn in turns.items()
         )
         blocks.append(Beside(title, stated, tuple(pictures), f"{caption} Whole turn: {energies}."))

@@ -17,7 +17,7 @@ from macroslip.study.dissipation import dissipation, knows_mechanisms
 from macroslip.study.model_run import TORQUE_WINDOW, bearing_torques
 from macroslip.study.uncertain_values import VALUES
 from macroslip.study.uncertainty_summary import drivers, sample_size, uncertainty_summary
-from macroslip.study.verdicts import told
+from macroslip.study.wording import told
 
 if TYPE_CHECKING:
     import xarray as xr

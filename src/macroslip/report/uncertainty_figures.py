@@ -8,7 +8,7 @@ import numpy as np
 
 from macroslip.report.style import BLACK, BLUE, ORANGE, finish, log_ticks, new_figure
 from macroslip.study.uncertainty_summary import DRIVER_LEVEL
-from macroslip.study.verdicts import told
+from macroslip.study.wording import told
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.study.verdicts import UNKNOWN, Statement
+from macroslip.study.wording import told
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,7 +39,7 @@ def tolerance_line(experiment: xr.Dataset) -> str:
     ratio, tolerance = one.ratio.values, one.stopping_tolerance.values
     if not np.isfinite(ratio).all():
         return f"Backward Euler against its stopping tolerance: {UNKNOWN}, an integration failed."
-    said = [f"{value:,.3g}" if value < 1e3 else f"{value:,.0f}" for value in ratio]
+    said = [told(value) for value in ratio]
     beyond = np.flatnonzero(ratio >= 100.0)
     if beyond.size and beyond[0] > 0:
         k = int(beyond[0])

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.study.verdicts import ABOUT, DOMINANT, Statement, told
+from macroslip.study.verdicts import ABOUT, DOMINANT, Statement
+from macroslip.study.wording import told
 
 if TYPE_CHECKING:
     import xarray as xr

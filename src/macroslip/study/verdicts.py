@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from macroslip.study.wording import told
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -55,11 +57,6 @@ class Statement:
     found: str
     because: str = ""
     numbers: dict[str, float | list[float]] = field(default_factory=dict)
-
-
-def told(value: float) -> str:
-    """A number with three digits, without a power of ten where one can do without."""
-    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
 
 
 def verdict(parts: list[bool], numbers: dict[str, float | list[float]]) -> str:
@@ -245,7 +242,7 @@ def varying_over_static(
     for name, rows in static.items():
         for row, energy in rows.items():
             found[f"{name}_{row}"] = float(numbers.orbit_energy.sel(case=case, row=row)) / energy
-        ratios = ", ".join(f"{found[f'{name}_{row}']:.2f} {row}" for row in rows)
+        ratios = ", ".join(f"{told(found[f'{name}_{row}'])} {row}" for row in rows)
         words.append(f"{ratios} against the {name} static load")
     good = all(_about(ratio, 100.0) for ratio in found.values())
     because = (
@@ -280,7 +277,7 @@ def cage_dominates(study: xr.Dataset) -> Statement:
         others.append(f"{row} the {mean.interface.values[int(np.argmax(mean.values))]} interface takes most")
         least, most = (float(getattr(share.sel(row=row), name)(skipna=False)) for name in ("min", "max"))
         found |= {f"least_{row}": least, f"most_{row}": most}
-        words.append(f"{100 * least:.4g} to {100 * most:.4g} % of the energy {row}")
+        words.append(f"{told(100 * least)} to {told(100 * most)} % of the energy {row}")
         parts.append(least >= DOMINANT)
     return Statement(
         paper="friction at the cage dominates the energy",
