@@ -94,18 +94,24 @@ class _PackageCache(FunctionCache):
             super().save_overload(sig, data)
 
 
-def jit(function: Callable) -> Callable:
-    """Compile a scalar physics function on first call; division by zero gives inf or NaN as in NumPy."""
-    dispatcher = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
+#: Options of everything that is compiled. No function is handed to C, so none gets an entry for it.
+_OPTIONS = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+
+
+def _cached(function: Callable, **options) -> Callable:
+    dispatcher = numba.njit(**_OPTIONS, **options)(function)
     dispatcher._cache = _PackageCache(function)
     return dispatcher
+
+
+def jit(function: Callable) -> Callable:
+    """Compile a scalar physics function on first call; division by zero gives inf or NaN as in NumPy."""
+    return _cached(function)
 
 
 def jit_inline(function: Callable) -> Callable:
     """Compile into the caller: for functions of every force evaluation, where passing the arguments costs as much."""
-    dispatcher = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True, forceinline=True)(function)
-    dispatcher._cache = _PackageCache(function)
-    return dispatcher
+    return _cached(function, forceinline=True)
 
 
 def jit_part(function: Callable) -> Callable:
@@ -114,8 +120,7 @@ def jit_part(function: Callable) -> Callable:
     It gets no compiled entry from Python; with a roller's model or record for an argument that takes longer to compile
     than the function itself.
     """
-    options = {"nogil": True, "error_model": "numpy", "forceinline": True}
-    return register_jitable(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)(function)
+    return register_jitable(**_OPTIONS, no_cpython_wrapper=True, forceinline=True)(function)
 
 
 def elementwise(function: Callable) -> Callable:

@@ -7,12 +7,11 @@ from typing import NamedTuple
 from macroslip.compiled import jit_part
 from macroslip.integrate.detail import book_stage, book_step
 from macroslip.integrate.peak import follow_peak, follow_step
-from macroslip.integrate.radau_step import WEIGHTS, collocation
+from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.record import add_energy, note_state, powers, raise_peak
-from macroslip.integrate.stages import magnitude
+from macroslip.integrate.stages import between_stages, magnitude
 from macroslip.integrate.step_control import SLIP_SHARE
-from macroslip.roller.forces import slip_forces, station
-from macroslip.roller.orbit import instant
+from macroslip.roller.forces import slip_forces
 
 #: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
 #: must be for the power there to be meaningful.
@@ -91,14 +90,12 @@ def book_peaks(
     if not (edge and (snapping or sliding > 0.5 * top_power)):
         follow_step(record, orbit, peaks, before, times, found.inner, found.outer, found.cage)
         return 0
-    for part in range(1, _PEAK_PARTS + 1):
-        when = time + h * part / _PEAK_PARTS
-        increment, _ = collocation(part / _PEAK_PARTS, stages.s1, stages.s2, stages.s3)
-        there = station(model, start_angle, instant(motion, interval, when))
-        between = slip + there.ring_speed - at.ring_speed + increment
+    for k in range(1, _PEAK_PARTS + 1):
+        part = k / _PEAK_PARTS
+        there, between, _ = between_stages(model, motion, start_angle, interval, time, h, part, slip, at, stages)
         if abs(between) > resolved:
             inner, outer, cage = powers(model, there, slip_forces(model, there, between), between)
-            follow_peak(record, orbit, peaks, when, inner, outer, cage)
+            follow_peak(record, orbit, peaks, time + part * h, inner, outer, cage)
     return _PEAK_PARTS
 
 

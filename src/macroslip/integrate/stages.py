@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from macroslip.compiled import jit, jit_part
-from macroslip.integrate.radau_step import newton_update, residuals
-from macroslip.roller.forces import shifted, slip_forces
+from macroslip.compiled import jit_part
+from macroslip.integrate.radau_step import collocation, newton_update, residuals
+from macroslip.roller.forces import shifted, slip_forces, station
+from macroslip.roller.orbit import instant
 
 _ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage.
@@ -60,7 +61,7 @@ def magnitude(forces):
     return abs(forces.inner) + abs(forces.outer) + abs(forces.cage)
 
 
-@jit
+@jit_part
 def force_tolerance(tolerance, microslip):
     """Part of the sum of force magnitudes that may stay unbalanced, by the tolerance asked of the integration."""
     if not microslip:
@@ -145,3 +146,11 @@ def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, a
             unbalanced = foreseen
             break
     return Stages(converged, v1, v2, v3, s1, s2, s3, f1, f2, f3, unbalanced, evaluations, bend)
+
+
+@jit_part
+def between_stages(model, motion, start_angle, interval, time, h, part, slip, at, stages):
+    """Station, slip [m/s] and rate of its increment [m/s] at a part of a step from `time` on, which lies in `interval`."""
+    increment, rate = collocation(part, stages.s1, stages.s2, stages.s3)
+    there = station(model, start_angle, instant(motion, interval, time + part * h))
+    return there, slip + there.ring_speed - at.ring_speed + increment, rate

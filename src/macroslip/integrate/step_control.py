@@ -9,9 +9,9 @@ import numpy as np
 
 from macroslip.compiled import jit_part
 from macroslip.integrate.crossing import crossing
-from macroslip.integrate.radau_step import collocation
-from macroslip.roller.forces import slip_forces, station
-from macroslip.roller.orbit import instant, interval_of
+from macroslip.integrate.stages import between_stages
+from macroslip.roller.forces import slip_forces
+from macroslip.roller.orbit import interval_of
 
 #: Largest part of an orbit turned in one step [rad], so that no step sees gravity's direction only where it is alike.
 _LONGEST_TURN = 0.6
@@ -90,10 +90,8 @@ def defect_error(model, motion, start_angle, interval, time, h, slip, at, stages
     worst = 0.0
     for check in range(looks):
         part = _DEFECT_NODES[check]
-        increment, rate = collocation(part, stages.s1, stages.s2, stages.s3)
-        when = time + part * h
-        there = station(model, start_angle, instant(motion, interval_of(motion, when, interval), when))
-        between = slip + there.ring_speed - at.ring_speed + increment
+        here = interval_of(motion, time + part * h, interval)
+        there, between, rate = between_stages(model, motion, start_angle, here, time, h, part, slip, at, stages)
         push = slip_forces(model, there, between)
         defect = rate + h * model.mobility * (push.inner + push.outer + push.cage)
         grip = h * model.mobility * abs(push.slope)

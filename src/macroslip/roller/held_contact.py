@@ -6,7 +6,7 @@ import math
 
 from numba.extending import overload
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_part
 from macroslip.film.law import film_thickness
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved
 from macroslip.traction.law import rising_slip
@@ -63,29 +63,16 @@ def _slips_everywhere(contact):
     return lambda contact: False
 
 
+@jit_part
 def held_slip(contact, slip, at, later, exponent):
     """Guess of the slip of a firmly held roller at a later station from its slip now.
 
     With microslip the middle slips so that the two sides of the lines of pure rolling balance: in proportion to speed,
     and to a power of the load that `held_exponent` measures.
     """
-    return _scaled_slip(slip, at, later, exponent) if slips_everywhere(contact) else slip
-
-
-@jit
-def _scaled_slip(slip, at, later, exponent):
-    if at.elastic_load <= 0.0 or at.ring_speed == 0.0:
+    if not slips_everywhere(contact) or at.elastic_load <= 0.0 or at.ring_speed == 0.0:
         return slip
     return slip * (later.elastic_load / at.elastic_load) ** exponent * (later.ring_speed / at.ring_speed)
-
-
-@overload(held_slip)
-def _held_slip(contact, slip, at, later, exponent):
-    if is_curved(contact):
-        return lambda contact, slip, at, later, exponent: (
-            _scaled_slip(slip, at, later, exponent) if contact.shape.microslip else slip
-        )
-    return lambda contact, slip, at, later, exponent: slip
 
 
 @jit
