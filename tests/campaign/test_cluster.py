@@ -14,16 +14,26 @@ import pytest
 pytest.importorskip("distributed")
 psutil = pytest.importorskip("psutil")
 
-from distributed import Client  # noqa: E402
+from distributed import Client, default_client  # noqa: E402
 
 from macroslip import InputError, MacroslipError, open_study, run_campaign  # noqa: E402
 from macroslip.campaign.study_file import study_of  # noqa: E402
 
 
 def listening(process):
-    """Addresses that a process and its children listen on."""
+    """Addresses and ports that a process and its children listen on."""
     family = [process, *process.children(recursive=True)]
-    return {one.laddr.ip for member in family for one in member.net_connections("inet") if one.status == "LISTEN"}
+    return {one.laddr for member in family for one in member.net_connections("inet") if one.status == "LISTEN"}
+
+
+def default_clients():
+    """What Dask would hand the work of this process to: the scheduler that is set, and the default client."""
+    import dask
+
+    try:
+        return dask.config.get("scheduler", None), default_client()
+    except ValueError:
+        return dask.config.get("scheduler", None), None
 
 
 @pytest.fixture
@@ -45,7 +55,7 @@ def test_workers_started_here_listen_on_the_loopback_only_and_find_what_one_proc
 
     ended = run_campaign(study_of(long_content, tmp_path), out, workers=2, progress=look)
     assert (ended.progress.computed, ended.progress.failed) == (40, 0)
-    assert seen - before == {"127.0.0.1"} and max(workers) >= 2
+    assert {one.ip for one in seen - before} == {"127.0.0.1"} and max(workers) >= 2
     assert listening(psutil.Process()) == before
     run_campaign(study_of(long_content, tmp_path), tmp_path / "alone", threads=1)
     several, one = open_study(out), open_study(tmp_path / "alone")
@@ -72,27 +82,32 @@ def test_workers_end_with_the_campaign_that_started_them(
 
 
 def test_a_stranger_cannot_hand_work_to_a_cluster_started_here(tmp_path, slow_content):
-    """Without the certificate of the run nobody connects."""
-    from distributed import default_client
-
-    answers = []
-    attempt = "import sys; from distributed import Client; Client(sys.argv[1], timeout=2).submit(print).result()"
+    """Without the certificate of the run nobody connects, at whatever port: one of them is the scheduler's."""
+    before, attempts = listening(psutil.Process()), {}
+    attempt = (
+        "import os, sys\nfrom distributed import Client\n"
+        "try:\n    Client(sys.argv[1], timeout=2).submit(print).result()\n"
+        "except BaseException:\n    os._exit(1)\n"  # at once: its threads go on trying
+        "os._exit(0)\n"
+    )
 
     def stranger(progress):
-        if not answers:
-            address = default_client().scheduler.address
-            assert address.startswith("tls://127.0.0.1:")
-            command = [sys.executable, "-c", attempt, address.replace("tls", "tcp")]
-            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            try:
-                answers.append(process.wait(15))
-            except subprocess.TimeoutExpired:
-                process.kill()
-                answers.append(process.wait())
+        if not attempts:
+            for place in listening(psutil.Process()) - before:
+                command = [sys.executable, "-c", attempt, f"tcp://{place.ip}:{place.port}"]
+                attempts[place] = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            end = time.monotonic() + 10.0
+            for process in attempts.values():
+                try:
+                    process.wait(max(end - time.monotonic(), 0.0))
+                except subprocess.TimeoutExpired:  # it waits for ever where a port answers nothing
+                    process.kill()
+                    process.wait()
 
     one = slow_content | {"variations": {"grid": {"drivetrain.tilt": {"values": [4, 5], "unit": "deg"}}}}
     ended = run_campaign(study_of(one, tmp_path), tmp_path / "out", workers=1, progress=stranger)
-    assert answers[0] != 0 and ended.progress.computed == 2
+    assert ended.progress.computed == 2
+    assert attempts and all(process.returncode != 0 for process in attempts.values())
 
 
 @pytest.fixture
@@ -228,6 +243,32 @@ def test_wrong_addresses_and_arguments(tmp_path, load_files, content):
     with pytest.raises(InputError, match="no scheduler answers at 'nonsense"):
         run_campaign(study, tmp_path / "out", scheduler="nonsense://127.0.0.1:1")
     assert not list(Path(tmp_path / "out").glob("cases/*/*"))
+
+
+def test_no_client_is_left_where_others_compute(tmp_path, load_files, content):
+    """A default client that waits for its scheduler would make every later `compute` of the process wait."""
+    assert default_clients() == (None, None)
+    with pytest.raises(InputError, match="no scheduler answers"):
+        run_campaign(study_of(content, load_files), tmp_path / "nowhere", scheduler="nonsense://127.0.0.1:1")
+    assert default_clients() == (None, None)
+    seen = []
+    run_campaign(
+        study_of(content, load_files), tmp_path / "out", workers=1, progress=lambda _: seen.append(default_clients())
+    )
+    assert set(seen) == {(None, None)} and default_clients() == (None, None)
+
+
+def test_the_client_of_the_user_stays_theirs(dask, tmp_path, load_files, content):
+    dask.worker()
+    with Client(dask.address) as mine:
+        seen = []
+        run_campaign(
+            study_of(content, load_files), tmp_path / "out", scheduler=dask.address,
+            progress=lambda _: seen.append(default_clients()),
+        )  # fmt: skip
+        assert seen and all(client is mine for _, client in seen) and default_client() is mine
+        assert mine.submit(sum, [1, 2]).result() == 3
+    assert default_clients() == (None, None)
 
 
 class Threads:

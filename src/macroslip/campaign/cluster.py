@@ -67,6 +67,8 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
 
     # What matters of Dask's own messages is told by the campaign itself.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    # No client becomes Dask's default: the default is the user's own, and one whose connection fails would stay it, so
+    # that every later `compute` of this process waited for it.
     # Profiles of workers are looked at by a dashboard only, and there is none.
     with dask.config.set({"distributed.worker.profile.enabled": False}):
         if scheduler is None:
@@ -81,13 +83,13 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
                     security=True,
                     silence_logs=logging.CRITICAL,
                 ) as local,
-                Client(local) as client,
+                Client(local, set_as_default=False) as client,
             ):
                 client.register_plugin(_ignore_interrupts())
                 yield Dask(client, note)
             return
         try:
-            client = Client(scheduler, timeout=20)
+            client = Client(scheduler, timeout=20, set_as_default=False)
         except (OSError, ValueError) as error:
             remedy = "Start one with `dask scheduler`, and look at its address."
             raise InputError(f"no scheduler answers at '{scheduler}' ({error})", remedy=remedy) from None
