@@ -8,6 +8,8 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
@@ -44,6 +46,22 @@ def test_from_a_study_file_to_tables(study, macroslip):
     (study / "p.csv").write_text("bin,probability\n14,0.2\n")
     assert macroslip("aggregate", "out", "-o", "tables", "--probabilities", "p.csv", "--format", "parquet").code == 0
     assert pq.read_table("tables/bins.parquet")["probability"].to_pylist() == [0.2, 0.2]
+
+
+def test_of_many_combinations_the_highest_are_shown(folder, macroslip):
+    (folder / "study.yaml").write_text(
+        "loads: {bundled: [14B]}\ncase: {rollers: [0], loads: {end: 62 s}}\n"
+        "variations: {sample: {count: 15, seed: 1, "
+        "ranges: {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}}}}\n"
+    )
+    assert macroslip("study", "study.yaml", "-o", "out").code == 0
+    done = macroslip("aggregate", "out", "-o", "tables", "--weibull", "9", "2")
+    title, _, *lines = done.out.split("written:")[0].rstrip().splitlines()
+    assert title.endswith("; the 20 highest of 30, all of them are in the table lifetime") and len(lines) == 20
+    energies = pd.read_csv("tables/lifetime.csv")["lifetime_energy [J]"]
+    assert len(energies) == 30
+    shown = [float(line.split()[-2]) for line in lines]
+    np.testing.assert_allclose(shown, sorted(energies, reverse=True)[:20], rtol=1e-3)
 
 
 def test_dry_run_counts_and_estimates_and_writes_nothing(study, macroslip):

@@ -14,7 +14,7 @@ from macroslip.compiled import jit
 from macroslip.film.masjedi_khonsari import MasjediKhonsari
 from macroslip.integrate.record import powers
 from macroslip.roller.contact_force import PlainContact
-from macroslip.roller.forces import slip_forces, station
+from macroslip.roller.forces import net_force, slip_forces, station
 from macroslip.roller.model import RollerModel
 from macroslip.roller.orbit import Motion, instant, interval_of
 from macroslip.traction.barus_crook import BarusCrook
@@ -93,7 +93,7 @@ def rates(time, state, rate, d):
     forces = slip_forces(model, at, state[0])
     inner, outer, cage = powers(model, at, forces, state[0])
     rate[0] = -model.orbit_ratio * model.outer_radius * acceleration
-    rate[0] -= model.mobility * (forces.inner + forces.outer + forces.cage)
+    rate[0] -= model.mobility * net_force(forces)
     rate[1] = inner / d[ENERGY_UNIT]
     rate[2] = outer / d[ENERGY_UNIT]
     rate[3] = cage / d[ENERGY_UNIT]

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
     from macroslip.campaign.weights import Weights
 
+#: Lines of the table that is printed.
+_MOST_LINES = 20
+
 
 def aggregate(
     directory: Annotated[Path, typer.Argument(help="The folder that macroslip study has written.")],
@@ -81,12 +84,13 @@ def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
     from macroslip.cli.printing import number, table
 
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
+    title = f"energy of a roller in {years:g} years, mean over the row"
+    shown = lifetime
+    if len(lifetime) > _MOST_LINES:
+        shown = lifetime.sort_values("lifetime_energy [J]", ascending=False, kind="stable").head(_MOST_LINES)
+        title += f"; the {_MOST_LINES} highest of {len(lifetime)}, all of them are in the table lifetime"
     rows = [
-        [number(value) if name in numbers else printable(value) for name, value in zip(lifetime, line, strict=True)]
-        for line in lifetime.itertuples(index=False)
+        [number(value) if name in numbers else printable(value) for name, value in zip(shown, line, strict=True)]
+        for line in shown.itertuples(index=False)
     ]
-    table(
-        f"energy of a roller in {years:g} years, mean over the row",
-        [(name, name in numbers) for name in lifetime],
-        rows,
-    )
+    table(title, [(name, name in numbers) for name in shown], rows)

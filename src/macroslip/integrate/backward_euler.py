@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit
-from macroslip.roller.forces import slip_forces
+from macroslip.roller.forces import net_force, slip_forces
 
 _MOST_ITERATIONS = 200
 
@@ -18,8 +18,7 @@ _MOST_ITERATIONS = 200
 def _defect(model, at, before, spin, step):
     """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s]."""
     forces = slip_forces(model, at, at.ring_speed - model.radius * spin)
-    total = forces.inner + forces.outer + forces.cage
-    return spin - before - step * model.mobility / model.radius * total
+    return spin - before - step * model.mobility / model.radius * net_force(forces)
 
 
 @jit

@@ -9,9 +9,9 @@ from macroslip.integrate.detail import book_stage, book_step
 from macroslip.integrate.peak import follow_peak, follow_step
 from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.record import add_energy, note_state, powers, raise_peak
-from macroslip.integrate.stages import between_stages, magnitude
+from macroslip.integrate.stages import between_stages
 from macroslip.integrate.step_control import SLIP_SHARE
-from macroslip.roller.forces import slip_forces
+from macroslip.roller.forces import magnitude, net_force, slip_forces
 
 #: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
 #: must be for the power there to be meaningful.
@@ -84,8 +84,7 @@ def book_peaks(
     sliding = max(_sliding(stages.f1, stages.v1), _sliding(stages.f2, stages.v2), _sliding(stages.f3, stages.v3))
     resolved = _RESOLVED * SLIP_SHARE * limits.tolerance * limits.speed_scale
     # A gripped roller with microslip slips less where load decreases, without a snap.
-    total = forces.inner + forces.outer + forces.cage
-    astray = jumps or at.elastic_load <= 0.0 or abs(total) > _ASTRAY * magnitude(forces)
+    astray = jumps or at.elastic_load <= 0.0 or abs(net_force(forces)) > _ASTRAY * magnitude(forces)
     snapping = astray and abs(slip) > resolved and abs(stages.v3) < _SNAP * abs(slip)
     if not (edge and (snapping or sliding > 0.5 * top_power)):
         follow_step(record, orbit, peaks, before, times, found.inner, found.outer, found.cage)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from macroslip.compiled import jit
-from macroslip.roller.forces import slip_forces
+from macroslip.roller.forces import net_force, slip_forces
 
 
 @jit
@@ -26,5 +26,4 @@ def explicit_euler_step(model, at, spin, step):
         ω after the step [rad/s]. Stable only while step · (r²/I_z') dF/dv < 2.
     """
     forces = slip_forces(model, at, at.ring_speed - model.radius * spin)
-    total = forces.inner + forces.outer + forces.cage
-    return spin + step * model.mobility / model.radius * total
+    return spin + step * model.mobility / model.radius * net_force(forces)

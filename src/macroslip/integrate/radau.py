@@ -15,7 +15,7 @@ from macroslip.integrate.root import is_continuous
 from macroslip.integrate.stages import force_tolerance, solve_stages
 from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
 from macroslip.integrate.step_control import defect_error, error_ratio, first_cusp, sample_after, step_factor
-from macroslip.roller.forces import slip_forces, station
+from macroslip.roller.forces import net_force, slip_forces, station
 from macroslip.roller.held_contact import LIMIT_EXPONENT, held_exponent, held_slip, slips_everywhere
 from macroslip.roller.load_zone import EDGE, FIRM, FREE, classify, edge_time
 from macroslip.roller.orbit import instant, interval_of
@@ -161,8 +161,7 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
         if not held:
             # A held roller's slip is the balance of the instant, solved for at the end of the step.
             least = max(min(forces.slope, stages.f1.slope, stages.f2.slope, stages.f3.slope), 0.0)
-            total = forces.inner + forces.outer + forces.cage
-            slip_off = abs(slip_error(scale, least, total, stages.s1, stages.s2, stages.s3))
+            slip_off = abs(slip_error(scale, least, net_force(forces), stages.s1, stages.s2, stages.s3))
         if zone != FIRM:
             looks = 2 if zone == EDGE else 1
             defect = defect_error(model, motion, start_angle, interval, time, h, slip, at, stages, looks)
@@ -228,7 +227,7 @@ def _first_guess(model, h, slip, forces, at, at1, at2, at3, drifts, follows, exp
     """
     v1, v2, v3 = slip, slip, slip
     if drifts:
-        drift = -model.mobility * (forces.inner + forces.outer + forces.cage)
+        drift = -model.mobility * net_force(forces)
         v1 = slip + (at1.ring_speed - at.ring_speed) + drift * NODES[0] * h
         v2 = slip + (at2.ring_speed - at.ring_speed) + drift * NODES[1] * h
         v3 = slip + (at3.ring_speed - at.ring_speed) + drift * h

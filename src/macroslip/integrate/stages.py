@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from macroslip.compiled import jit_part
 from macroslip.integrate.radau_step import collocation, newton_update, residuals
-from macroslip.roller.forces import shifted, slip_forces, station
+from macroslip.roller.forces import magnitude, net_force, shifted, slip_forces, station
 from macroslip.roller.orbit import instant
 
 _ITERATIONS = 12
@@ -53,12 +53,6 @@ class Stages(NamedTuple):
     unbalanced: float
     evaluations: int
     bend: float
-
-
-@jit_part
-def magnitude(forces):
-    """Sum of the forces' magnitudes [N]."""
-    return abs(forces.inner) + abs(forces.outer) + abs(forces.cage)
 
 
 @jit_part
@@ -112,9 +106,7 @@ def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, a
         f3 = slip_forces(model, at3, v3)
         evaluations += 3
         s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
-        rest = residuals(
-            scale, s1, s2, s3, f1.inner + f1.outer + f1.cage, f2.inner + f2.outer + f2.cage, f3.inner + f3.outer + f3.cage
-        )
+        rest = residuals(scale, s1, s2, s3, net_force(f1), net_force(f2), net_force(f3))
         size = max(abs(rest.first), abs(rest.second), abs(rest.third))
         if (
             abs(rest.first) <= force_part * magnitude(f1) + round_off

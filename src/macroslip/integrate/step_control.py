@@ -10,7 +10,7 @@ import numpy as np
 from macroslip.compiled import jit_part
 from macroslip.integrate.crossing import crossing
 from macroslip.integrate.stages import between_stages
-from macroslip.roller.forces import slip_forces
+from macroslip.roller.forces import net_force, slip_forces
 from macroslip.roller.orbit import interval_of
 
 #: Largest part of an orbit turned in one step [rad], so that no step sees gravity's direction only where it is alike.
@@ -93,7 +93,7 @@ def defect_error(model, motion, start_angle, interval, time, h, slip, at, stages
         here = interval_of(motion, time + part * h, interval)
         there, between, rate = between_stages(model, motion, start_angle, here, time, h, part, slip, at, stages)
         push = slip_forces(model, there, between)
-        defect = rate + h * model.mobility * (push.inner + push.outer + push.cage)
+        defect = rate + h * model.mobility * net_force(push)
         grip = h * model.mobility * abs(push.slope)
         worst = max(worst, _DEFECT_WEIGHT * abs(defect) / (1.0 + grip))
     return worst

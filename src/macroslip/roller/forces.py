@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.roller.contact_force import cage_force, raceway_force
 
 
@@ -165,6 +165,18 @@ def slip_forces(model, at, slip):
         outer.detail,
         cage_detail,
     )
+
+
+@jit_part
+def net_force(forces):
+    """F_i + F_o + F_c [N], which turns the spin by I_z' dω/dt = r (F_i + F_o + F_c) (16)."""
+    return forces.inner + forces.outer + forces.cage
+
+
+@jit_part
+def magnitude(forces):
+    """|F_i| + |F_o| + |F_c| [N], which says what of the net force is rounding."""
+    return abs(forces.inner) + abs(forces.outer) + abs(forces.cage)
 
 
 @jit_inline
