@@ -1,8 +1,14 @@
 """Study files: what they make, and what they are refused for."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from macroslip import InputError, read_study
+from macroslip.campaign.loads_list import Load
 from macroslip.campaign.study_file import study_of
 
 
@@ -58,6 +64,24 @@ def test_runs_are_every_combination(load_files):
     assert (labels["bearing.diametral_clearance"], labels["window.start"], labels["forces.drag"]) == (0.3, 0.5, False)
     assert study.labels["bearing.diametral_clearance"][0] == "mm" and study.labels["wind_speed"][0] == "m/s"
     assert study.bearings["own.yaml"].name == "own"
+
+
+@given(loads=st.integers(1, 200), settings=st.integers(1, 3))
+def test_any_stretch_of_the_mixed_runs_is_a_sample_of_the_whole(loads, settings):
+    """Every quarter of them has a mean rank near the middle, whose error is that of even points: of order 1/N."""
+    tilts = [4.0 + 0.1 * number for number in range(settings)]
+    study = study_of({"loads": {"bundled": ["14B"]}, "variations": {"grid": {"drivetrain.tilt": {
+        "values": tilts, "unit": "deg"}}}})  # fmt: skip
+    listed = replace(study.loads, loads=[Load(str(number), {}) for number in range(loads)])
+    study = replace(study, loads=listed)
+    ranks = [int(run.load.name) for run in study.mixed_runs()]
+    assert sorted(run.name for run in study.mixed_runs()) == sorted(run.name for run in study.runs())
+    # Those with the same loads follow each other.
+    assert all(len(set(ranks[start : start + settings])) == 1 for start in range(0, len(ranks), settings))
+    quarter = max(loads // 4, 1)
+    means = np.convolve(ranks[::settings], np.full(quarter, 1.0 / quarter), mode="valid")
+    # In their own order the first quarter would be 3/8 off.
+    assert max(abs(means - (loads - 1) / 2.0)) / loads <= 2.0 / quarter
 
 
 def test_names_of_runs_do_not_depend_on_the_order_or_on_fields(load_files, content):

@@ -48,40 +48,51 @@ class Progress:
 
     @property
     def rate(self) -> float:
-        """Runs a second over the last ten minutes; 0 before the first."""
+        """Runs computed a second, over the last ten minutes; 0 before the first.
+
+        Runs whose results were there already take next to no time and come before all others where a campaign is
+        resumed: with them the rate would tell nothing of the rest.
+        """
         now = time.monotonic()
         while len(self._marks) > 1 and now - self._marks[0][0] > _SPAN:
             self._marks.popleft()
         start, count = self._marks[0]
-        return (self.done - count) / (now - start) if now > start else 0.0
+        return (self._worked - count) / (now - start) if now > start else 0.0
 
     @property
     def time_left(self) -> float | None:
-        """Time for the rest at that rate [s]; None before the first run is done."""
+        """Time for the rest at that rate [s], were none of it there already; None before the first run is computed."""
         return (self.total - self.done) / self.rate if self.rate > 0.0 else None
+
+    @property
+    def _worked(self) -> int:
+        return self.computed + self.failed
 
     def mark(self) -> None:
         """Remember the present count, at most once a second."""
         now = time.monotonic()
         if now - self._marks[-1][0] >= 1.0:
-            self._marks.append((now, self.done))
+            self._marks.append((now, self._worked))
 
     @property
     def short(self) -> str:
         """What fits beside a bar."""
-        left = self.time_left
-        rest = "-" if left is None else duration(left)
-        return f"{self.done} of {self.total}, {self.failed} failed, {self.rate:.3g} a second, {rest} left"
+        return f"{self.done} of {self.total}, {self.failed} failed, {self.rate:.3g} a second, {self._rest} left"
 
     @property
     def line(self) -> str:
         """Everything in one line."""
-        left = self.time_left
         return (
             f"{self.done} of {self.total} done "
             f"({self.computed} computed, {self.unchanged} unchanged, {self.failed} failed), "
-            f"{self.rate:.3g} a second, {'-' if left is None else duration(left)} left"
+            f"{self.rate:.3g} a second, {self._rest} left"
         )
+
+    @property
+    def _rest(self) -> str:
+        if self.done == self.total:
+            return "nothing"
+        return "-" if self.time_left is None else duration(self.time_left)
 
 
 def duration(seconds: float) -> str:

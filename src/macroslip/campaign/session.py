@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import uuid
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -39,7 +40,7 @@ class Ended:
     progress : Progress
         Counts and time.
     failures : list of (dict, str, str)
-        Labels, outcome and reason of runs that failed, or whose rollers did; the first thousand.
+        Labels, outcome and reason of runs that failed, or whose rollers did: the first thousand, sorted by loads.
     stopped : bool
         Whether `strict` stopped it before its end.
     """
@@ -104,7 +105,7 @@ class Session:
 
     def go(self, crew: Crew, threads: int | None, strict: bool) -> None:
         """Hand out the runs and record what comes back."""
-        runs, again = self.study.runs(), deque()
+        runs, again = self.study.mixed_runs(), deque()
         self._open: dict[str, Run] = {}
         self._logged = self._progress.started
         while True:
@@ -186,7 +187,8 @@ class Session:
                 self._progress.failed += 1
                 failures += 1
                 if len(self.ended.failures) < _TOLD:
-                    self.ended.failures.append((run.labels, str(outcome), result["reason"]))
+                    failure = (run.labels, str(outcome), result["reason"])
+                    bisect.insort(self.ended.failures, failure, key=lambda known: known[0]["loads"])
             self._latest.learn(result)
         self._tell_progress()
         return failures

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,6 +14,8 @@ from typing import Any
 from macroslip.campaign.loads_list import Load, LoadList
 from macroslip.campaign.settings import Setting
 from macroslip.catalogue import Record
+
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
 @dataclass(frozen=True)
@@ -96,8 +99,21 @@ class Study:
         )
 
     def runs(self) -> Iterator[Run]:
-        """Yield the runs in a fixed order, those with the same loads together."""
-        choices = (self.loads.loads, self.bearings, self.lubricants, self.models, self.variations)
+        """Yield the runs in the order of the study file, those with the same loads together."""
+        return self._runs(self.loads.loads)
+
+    def mixed_runs(self) -> Iterator[Run]:
+        """Yield the runs, those with the same loads together, so that any stretch of them is a sample of the whole.
+
+        Load files come sorted by wind speed, and rough wind takes several times as long as calm wind: in their own
+        order the rate so far would not tell how long the rest takes.
+        """
+        # Multiples of the golden ratio are spread evenly over [0, 1), so that neighbours by them lie far apart.
+        order = sorted(range(len(self.loads.loads)), key=lambda number: number * _GOLDEN % 1.0)
+        return self._runs([self.loads.loads[number] for number in order])
+
+    def _runs(self, loads: Sequence[Load]) -> Iterator[Run]:
+        choices = (loads, self.bearings, self.lubricants, self.models, self.variations)
         for load, bearing, lubricant, model, settings in itertools.product(*choices):
             yield Run(load, bearing, lubricant, model, [*self.models[model], *settings])
 
