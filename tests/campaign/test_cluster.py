@@ -1,12 +1,13 @@
 """Workers: real schedulers and real worker processes on the loopback interface, killed and joining late."""
 
+import asyncio
 import os
 import signal
+import socket
 import subprocess
 import sys
 import threading
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ psutil = pytest.importorskip("psutil")
 from distributed import Client, default_client  # noqa: E402
 
 from macroslip import InputError, MacroslipError, open_study, run_campaign  # noqa: E402
+from macroslip.campaign import cluster as module  # noqa: E402
 from macroslip.campaign.study_file import study_of  # noqa: E402
 
 
@@ -240,9 +242,34 @@ def test_wrong_addresses_and_arguments(tmp_path, load_files, content):
     study = study_of(content, load_files)
     with pytest.raises(InputError, match="workers and scheduler are given together"):
         run_campaign(study, tmp_path / "out", workers=1, scheduler="tcp://127.0.0.1:1")
-    with pytest.raises(InputError, match="no scheduler answers at 'nonsense"):
-        run_campaign(study, tmp_path / "out", scheduler="nonsense://127.0.0.1:1")
-    assert not list(Path(tmp_path / "out").glob("cases/*/*"))
+    for scheme, words in (("nonsense", "unknown address scheme"), ("tls", "TLS")):
+        with pytest.raises(InputError, match=f"no scheduler answers at '{scheme}://127.0.0.1:1' .*{words}"):
+            run_campaign(study, tmp_path / "out", scheduler=f"{scheme}://127.0.0.1:1")
+    with pytest.raises(InputError, match="missing port number"):
+        run_campaign(study, tmp_path / "out", scheduler="localhost")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("listens", [False, True])
+def test_who_does_not_answer_is_no_scheduler(tmp_path, load_files, content, monkeypatch, listens):
+    monkeypatch.setattr(module, "_ANSWER", 1.0)
+    with socket.socket() as deaf:
+        deaf.bind(("127.0.0.1", 0))
+        if listens:
+            deaf.listen()
+        address = f"tcp://127.0.0.1:{deaf.getsockname()[1]}"
+        with pytest.raises(InputError, match=f"no scheduler answers at '{address}' .*1 s"):
+            run_campaign(study_of(content, load_files), tmp_path / "out", scheduler=address)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_scheduler_is_found_from_a_notebook(dask):
+    """There the thread has a running loop already."""
+
+    async def cell():
+        module.look_for(dask.address)
+
+    asyncio.run(cell())
 
 
 def test_no_client_is_left_where_others_compute(tmp_path, load_files, content):

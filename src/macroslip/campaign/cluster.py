@@ -6,12 +6,14 @@ bounded memory. Where cases are short and workers many, several runs travel toge
 
 from __future__ import annotations
 
+import asyncio
 import importlib.util
 import logging
 import math
 import signal
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any
 
@@ -29,6 +31,8 @@ _AHEAD = 2
 _TASKS_PER_SECOND = 100.0
 #: Longest time for which runs travel together [s].
 _LONGEST_BUNDLE = 20.0
+#: Longest time until a scheduler answers [s].
+_ANSWER = 20.0
 #: Time between looks at who has joined [s].
 _LOOK = 1.0
 
@@ -55,20 +59,12 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
         Address of a scheduler that runs, such as `tcp://10.0.0.1:8786`.
     note : callable
         Called with a line that the user should know.
-
-    Raises
-    ------
-    InputError
-        If there is no scheduler at the address.
     """
-    check_installed()
     import dask
     from distributed import Client, LocalCluster
 
     # What matters of Dask's own messages is told by the campaign itself.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    # No client becomes Dask's default: the default is the user's own, and one whose connection fails would stay it, so
-    # that every later `compute` of this process waited for it.
     # Profiles of workers are looked at by a dashboard only, and there is none.
     with dask.config.set({"distributed.worker.profile.enabled": False}):
         if scheduler is None:
@@ -83,18 +79,41 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
                     security=True,
                     silence_logs=logging.CRITICAL,
                 ) as local,
+                # Not Dask's default: that is the user's own, and whatever they compute meanwhile would come here.
                 Client(local, set_as_default=False) as client,
             ):
                 client.register_plugin(_ignore_interrupts())
                 yield Dask(client, note)
             return
-        try:
-            client = Client(scheduler, timeout=20, set_as_default=False)
-        except (OSError, ValueError) as error:
-            remedy = "Start one with `dask scheduler`, and look at its address."
-            raise InputError(f"no scheduler answers at '{scheduler}' ({error})", remedy=remedy) from None
-        with client:
+        with Client(scheduler, timeout=_ANSWER, set_as_default=False) as client:
             yield Dask(client, note)
+
+
+def look_for(scheduler: str) -> None:
+    """See whether a scheduler answers, before there is a client: one that cannot connect cannot be closed either.
+
+    Raises
+    ------
+    InputError
+        If there is none at the address.
+    """
+    from distributed.comm import connect
+    from distributed.security import Security
+
+    async def knock() -> None:
+        async with asyncio.timeout(_ANSWER):
+            comm = await connect(scheduler, timeout=_ANSWER, **Security().get_connection_args("client"))
+            await comm.close()
+
+    # In a thread of its own: in a notebook this one has a running loop already.
+    with ThreadPoolExecutor(1) as thread:
+        try:
+            thread.submit(asyncio.run, knock()).result()
+        except (OSError, ValueError, TypeError) as error:  # the last without what TLS needs
+            raise InputError(
+                f"no scheduler answers at '{scheduler}' ({str(error) or f'nothing is heard for {_ANSWER:g} s'})",
+                remedy="Start one with `dask scheduler`, and look at its address.",
+            ) from None
 
 
 def _ignore_interrupts() -> Any:

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 
-from macroslip.campaign.cluster import check_installed, cluster, threads_of_worker
+from macroslip.campaign.cluster import check_installed, cluster, look_for, threads_of_worker
 from macroslip.campaign.crew import Crew, ThisProcess
 from macroslip.campaign.cycles import check_installed as check_fatpack
 from macroslip.campaign.durable import make_folder
@@ -84,6 +84,8 @@ def run_campaign(
         check_fatpack()
     directory = Path(directory).absolute()
     check_folder(directory, resume=resume)
+    if scheduler is not None:
+        look_for(scheduler)
     make_folder(directory)
     with locked(directory):
         check_folder(directory, resume=resume)  # again, now that nobody else can begin here
