@@ -16,9 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity
 from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, NEWTONIAN
+from macroslip.traction.spline_cell import along_line, in_cell
 
 #: Largest pressure of the table [Pa]; higher ones are treated as this one.
 HIGHEST_PRESSURE = 4e9
@@ -37,7 +38,7 @@ class ChordTable(NamedTuple):
     Attributes
     ----------
     fluid : Fluid
-    coefficients : ndarray, shape (pressures + 2, slips + 2, films + 2)
+    coefficients : ndarray, shape (pressures + 2, films + 2, slips + 2)
     log_viscosities : ndarray, shape (pressures + 2,)
         Of the spline of ln η.
     pressure_spacing : float
@@ -114,7 +115,7 @@ def _reference(fluid, log_eta, pressure, film_thickness, scale):
 
 @jit
 def _fill(fluid, pressures, slips, films):
-    values = np.empty((pressures.size, slips.size, films.size))
+    values = np.empty((pressures.size, films.size, slips.size))
     for i in range(pressures.size):
         log_eta, _ = log_viscosity(fluid, pressures[i])
         for k in range(films.size):
@@ -123,7 +124,7 @@ def _fill(fluid, pressures, slips, films):
             reference = _reference(fluid, log_eta, pressures[i], film, scale)
             for j in range(slips.size):
                 stress = chord_stress(fluid, pressures[i], film, scale * math.exp(slips[j]))
-                values[i, j, k] = math.log(stress) - reference
+                values[i, k, j] = math.log(stress) - reference
     return values
 
 
@@ -159,8 +160,8 @@ class FilmPlace(NamedTuple):
 def film_place(table, film_thickness):
     """The place of a film thickness h [m]; outside the table heating is that of its thinnest or thickest film."""
     z = (math.log(film_thickness) - table.lowest_film) / table.film_spacing
-    z = min(max(z, 0.0), table.coefficients.shape[2] - 3.0)
-    cell = min(int(z), table.coefficients.shape[2] - 4)
+    z = min(max(z, 0.0), table.coefficients.shape[1] - 3.0)
+    cell = min(int(z), table.coefficients.shape[1] - 4)
     return FilmPlace(film_thickness, cell, _weights(z - cell), _slopes(z - cell))
 
 
@@ -171,6 +172,124 @@ class ChordStress(NamedTuple):
     by_slip: float
     by_pressure: float
     by_film: float
+
+
+@jit_inline
+def chord_place(table, film_thickness, pressure, slip):
+    """Where a chord lies in the table.
+
+    Parameters
+    ----------
+    table : ChordTable
+    film_thickness : float
+        h [m].
+    pressure : float
+        p1 [Pa], > 0.
+    slip : float
+        |Δu| > 0 [m/s].
+
+    Returns
+    -------
+    x : float
+        Place along pressure, in nodes.
+    log_slip : float
+        ln of slip over the unit of slip of a film whose viscosity is 1 Pa s.
+    """
+    fluid = table.fluid
+    pressure = _within(pressure)
+    # Reciprocals are taken once for all chords of a contact; divisions would be a tenth of the time.
+    x = math.sqrt(math.sqrt(pressure)) * (1.0 / table.pressure_spacing)
+    if fluid.rheology == LIMITING_SHEAR:
+        return x, math.log(slip / (film_thickness * fluid.characteristic * pressure))
+    if fluid.rheology == EYRING:
+        return x, math.log(slip / (film_thickness * fluid.characteristic))
+    return x, math.log(slip * math.sqrt(max(fluid.heating, _NO_HEATING)))
+
+
+class ChordValue(NamedTuple):
+    """ln of stress over its unit, and the logarithmic derivatives of stress by slip, pressure p1 and film thickness [-]."""
+
+    log_stress: float
+    by_slip: float
+    by_pressure: float
+    by_film: float
+
+
+@jit_inline
+def chord_value(table, place, x, log_slip, with_film):
+    """What the table says of a chord.
+
+    Parameters
+    ----------
+    table : ChordTable
+    place : FilmPlace
+        Of the film thickness.
+    x, log_slip : float
+        From `chord_place`.
+    with_film : bool
+        Whether the derivative by film thickness is wanted with the heating in it; without, it is that of a cool film.
+
+    Returns
+    -------
+    ChordValue
+    """
+    c = table.coefficients
+    i = min(int(x), c.shape[0] - 4)
+    log_eta, log_eta_by_x = along_line(table.log_viscosities, i, x - i)
+    steepness = 0.25 * x * log_eta_by_x
+    newtonian = table.fluid.rheology == NEWTONIAN
+    log_slip += 0.5 * log_eta if newtonian else log_eta
+    y = (log_slip - _LOWEST_LOG_SLIP) * (1.0 / table.slip_spacing)
+    below = y < 0.0
+    y = min(max(y, 0.0), c.shape[2] - 3.0)
+    j = min(int(y), c.shape[2] - 4)
+    cells = i, place.cell, j
+    value, by_x, by_y = in_cell(c, cells, x - i, y - j, place.weights)
+    by_film = 0.0
+    if with_film:
+        by_film = in_cell(c, cells, x - i, y - j, place.slopes)[0] / table.film_spacing
+    slope = by_y * (1.0 / table.slip_spacing)
+    if below:
+        value += log_slip - _LOWEST_LOG_SLIP
+        slope = 1.0
+    by_pressure = 0.25 * by_x * x
+    if newtonian:
+        value += 0.5 * log_eta
+        by_pressure += 0.5 * steepness * (1.0 + slope)
+        by_film -= 1.0 if with_film else slope
+    else:
+        share = 1.0 if table.fluid.rheology == LIMITING_SHEAR else 0.0
+        by_pressure += share + slope * (steepness - share)
+        by_film -= slope
+    return ChordValue(value, slope, by_pressure, by_film)
+
+
+@jit_inline
+def stress_of(table, film_thickness, pressure, value):
+    """Stress along a chord of which the table says this.
+
+    Parameters
+    ----------
+    table : ChordTable
+    film_thickness, pressure : float
+        As for `chord_place`.
+    value : ChordValue
+
+    Returns
+    -------
+    ChordStress
+    """
+    fluid = table.fluid
+    unit = fluid.characteristic
+    if fluid.rheology == LIMITING_SHEAR:
+        unit *= _within(pressure)
+    elif fluid.rheology == NEWTONIAN:
+        unit = 1.0 / (film_thickness * math.sqrt(max(fluid.heating, _NO_HEATING)))
+    stress = unit * math.exp(value.log_stress)
+    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
+    if fluid.rheology == LIMITING_SHEAR and stress > 0.25 * math.pi * unit:
+        return ChordStress(0.25 * math.pi * unit, 0.0, 1.0, 0.0)
+    return ChordStress(stress, value.by_slip, value.by_pressure, value.by_film)
 
 
 @jit_inline
@@ -187,75 +306,17 @@ def interpolated_stress(table, place, pressure, slip, with_film):
     slip : float
         |Δu| > 0 [m/s].
     with_film : bool
-        Whether the derivative by film thickness is wanted with the heating in it; without, it is that of a cool film.
+        As for `chord_value`.
 
     Returns
     -------
     ChordStress
     """
-    fluid = table.fluid
-    c, viscosities = table.coefficients, table.log_viscosities
-    pressure = min(max(pressure, _LOWEST_PRESSURE), HIGHEST_PRESSURE)
-    w = math.sqrt(math.sqrt(pressure))
-    x = w / table.pressure_spacing
-    i = min(int(x), c.shape[0] - 4)
-    x0, x1, x2, x3 = _weights(x - i)
-    dx0, dx1, dx2, dx3 = _slopes(x - i)
-    g0, g1, g2, g3 = viscosities[i], viscosities[i + 1], viscosities[i + 2], viscosities[i + 3]
-    log_eta = x0 * g0 + x1 * g1 + x2 * g2 + x3 * g3
-    steepness = 0.25 * x * (dx0 * g0 + dx1 * g1 + dx2 * g2 + dx3 * g3)
-    film = place.film_thickness
-    if fluid.rheology == LIMITING_SHEAR:
-        unit = fluid.characteristic * pressure
-        log_slip = math.log(slip / (film * unit)) + log_eta
-    elif fluid.rheology == EYRING:
-        unit = fluid.characteristic
-        log_slip = math.log(slip / (film * unit)) + log_eta
-    else:
-        root = math.sqrt(max(fluid.heating, _NO_HEATING))
-        unit = math.exp(0.5 * log_eta) / (film * root)
-        log_slip = math.log(slip * root) + 0.5 * log_eta
-    y = (log_slip - _LOWEST_LOG_SLIP) / table.slip_spacing
-    below = y < 0.0
-    y = min(max(y, 0.0), c.shape[1] - 3.0)
-    j = min(int(y), c.shape[1] - 4)
-    y0, y1, y2, y3 = _weights(y - j)
-    dy0, dy1, dy2, dy3 = _slopes(y - j)
-    k = place.cell
-    z0, z1, z2, z3 = place.weights
-    dz0, dz1, dz2, dz3 = place.slopes
-    value, by_x, by_y, by_z = 0.0, 0.0, 0.0, 0.0
-    for m in range(4):
-        wx = x0 if m == 0 else (x1 if m == 1 else (x2 if m == 2 else x3))
-        dwx = dx0 if m == 0 else (dx1 if m == 1 else (dx2 if m == 2 else dx3))
-        inner, inner_y = 0.0, 0.0
-        for n in range(4):
-            wy = y0 if n == 0 else (y1 if n == 1 else (y2 if n == 2 else y3))
-            dwy = dy0 if n == 0 else (dy1 if n == 1 else (dy2 if n == 2 else dy3))
-            c0, c1, c2, c3 = c[i + m, j + n, k], c[i + m, j + n, k + 1], c[i + m, j + n, k + 2], c[i + m, j + n, k + 3]
-            line = z0 * c0 + z1 * c1 + z2 * c2 + z3 * c3
-            inner += wy * line
-            inner_y += dwy * line
-            if with_film:
-                by_z += wx * wy * (dz0 * c0 + dz1 * c1 + dz2 * c2 + dz3 * c3)
-        value += wx * inner
-        by_x += dwx * inner
-        by_y += wx * inner_y
-    slope = by_y / table.slip_spacing
-    if below:
-        value += log_slip - _LOWEST_LOG_SLIP
-        slope = 1.0
-    by_pressure = 0.25 * by_x * x
-    by_film = by_z / table.film_spacing
-    if fluid.rheology == NEWTONIAN:
-        by_pressure += 0.5 * steepness * (1.0 + slope)
-        by_film -= 1.0 if with_film else slope
-    else:
-        share = 1.0 if fluid.rheology == LIMITING_SHEAR else 0.0
-        by_pressure += share + slope * (steepness - share)
-        by_film -= slope
-    stress = unit * math.exp(value)
-    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
-    if fluid.rheology == LIMITING_SHEAR and stress > 0.25 * math.pi * unit:
-        return ChordStress(0.25 * math.pi * unit, 0.0, 1.0, 0.0)
-    return ChordStress(stress, slope, by_pressure, by_film)
+    x, log_slip = chord_place(table, place.film_thickness, pressure, slip)
+    value = chord_value(table, place, x, log_slip, with_film)
+    return stress_of(table, place.film_thickness, pressure, value)
+
+
+@jit_part
+def _within(pressure):
+    return min(max(pressure, _LOWEST_PRESSURE), HIGHEST_PRESSURE)

@@ -9,7 +9,15 @@ import numpy as np
 
 from macroslip.compiled import jit
 from macroslip.traction.chord import characteristic_stress, chord_stress, log_viscosity
-from macroslip.traction.chord_table import ChordTable, film_place, interpolated_stress
+from macroslip.traction.chord_table import (
+    ChordTable,
+    ChordValue,
+    chord_place,
+    chord_value,
+    film_place,
+    interpolated_stress,
+    stress_of,
+)
 from macroslip.traction.law import register_type
 from macroslip.traction.patch import Patch
 from macroslip.traction.rheology import limited_stress
@@ -28,6 +36,8 @@ def _chords(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 _STATIONS, _STATION_WEIGHTS = _chords(10)
 #: Slip below which a chord is not looked up: its stress is proportional to slip and far below round-off of the rest.
 _NO_SLIP = 1e-30
+#: Part of the half length below which a piece of the contact is left out.
+_SHORTEST = 1e-12
 #: √B at which Crook's shear stress peaks (B = 2.2767), and a slip no contact exceeds [m/s].
 _ROOT_HEATING_AT_PEAK, _FASTEST = 1.5088, 10.0
 
@@ -125,52 +135,73 @@ def microslip_traction(law, load, film_thickness, field, shape, fine):
     pressure = law.pressure * root_load
     end = min(1.0, shape.half_length / across)
     lines = rolling_lines(field, shape.contour_radius, across * end)
+    edges = -end, lines.first / across, lines.second / across, end
+    moves_of_edges = 0.0, lines.first_by_slip, lines.second_by_slip, 0.0
     place = film_place(law.table, film_thickness)
     nodes = _FINE_NODES if fine else _NODES
     weights = _FINE_WEIGHTS if fine else _WEIGHTS
+    drop_scale = 0.5 / shape.contour_radius
+    # Places of all chords first, then all values, then the sums: the processor works on several chords at a time only
+    # where one step after the other is short.
+    chords = np.empty((6, 3 * nodes.size))
+    count = 0
+    for segment in range(3):
+        length = edges[segment + 1] - edges[segment]
+        if length < _SHORTEST:
+            continue
+        for k in range(nodes.size):
+            x = edges[segment] + length * nodes[k]
+            station = across * x
+            slip = field.sliding + field.curvature_rate * drop_scale * station * station - field.spin_rate * station
+            cosine = math.sqrt(1.0 - x * x)
+            chords[0, count], chords[1, count] = cosine, slip
+            if not fine:
+                speed = max(abs(slip), _NO_SLIP)
+                chords[2, count], chords[3, count] = chord_place(law.table, film_thickness, pressure * cosine, speed)
+            count += 1
+    if not fine:
+        for n in range(count):
+            value = chord_value(law.table, place, chords[2, n], chords[3, n], False)
+            chords[2, n], chords[3, n], chords[4, n], chords[5, n] = value
     area = 2.0 * across * law.semi_axis_along * root_load
-    bend, drop_scale = field.curvature_rate / shape.contour_radius, 0.5 / shape.contour_radius
+    bend, per_radius = field.curvature_rate / shape.contour_radius, 1.0 / shape.roller_radius
     force, lag, skew = 0.0, 0.0, 0.0
     force_slope, lag_slope, force_by_film, lag_by_film = 0.0, 0.0, 0.0, 0.0
+    count = 0
     for segment in range(3):
-        start = -end if segment == 0 else (lines.first if segment == 1 else lines.second) / across
-        stop = end if segment == 2 else (lines.second if segment == 1 else lines.first) / across
-        length = stop - start
-        if length < 1e-12:
+        length = edges[segment + 1] - edges[segment]
+        if length < _SHORTEST:
             continue
-        start_moves = 0.0 if segment == 0 else (lines.first_by_slip if segment == 1 else lines.second_by_slip)
-        stop_moves = 0.0 if segment == 2 else (lines.second_by_slip if segment == 1 else lines.first_by_slip)
-        growth = (stop_moves - start_moves) / (across * length)
+        start_moves = moves_of_edges[segment]
+        widens = moves_of_edges[segment + 1] - start_moves
+        growth = widens / (across * length)
         for k in range(nodes.size):
-            x = start + length * nodes[k]
-            squared = 1.0 - x * x
-            cosine = math.sqrt(squared)
+            x = edges[segment] + length * nodes[k]
             station = across * x
             drop = drop_scale * station * station
-            slip = field.sliding + field.curvature_rate * drop - field.spin_rate * station
-            speed = max(abs(slip), _NO_SLIP)
+            cosine, slip = chords[0, count], chords[1, count]
             weight = math.copysign(area * weights[k] * length * cosine, slip)
-            arm = drop / shape.roller_radius
+            arm = drop * per_radius
             if fine:
+                speed = max(abs(slip), _NO_SLIP)
                 part = weight * chord_stress(law.table.fluid, pressure * cosine, film_thickness, speed)
-                force += part
-                lag += part * arm
-                skew += part * station
-                continue
-            chord = interpolated_stress(law.table, place, pressure * cosine, speed, False)
-            part = weight * chord.stress
+            else:
+                value = ChordValue(chords[2, count], chords[3, count], chords[4, count], chords[5, count])
+                chord = stress_of(law.table, film_thickness, pressure * cosine, value)
+                part = weight * chord.stress
+                # The node moves with the lines of pure rolling, and with it pressure, slip, chord and arm.
+                moves = start_moves + widens * nodes[k]
+                slip_change = 1.0 + field.curvature_slope * drop + (bend * station - field.spin_rate) * moves
+                change = chord.by_slip * slip_change / slip if slip != 0.0 else 0.0
+                change += growth - x / (across * cosine * cosine) * (1.0 + chord.by_pressure) * moves
+                force_slope += part * change
+                lag_slope += part * (arm * change + 2.0 * drop_scale * station * moves * per_radius)
+                force_by_film += part * chord.by_film
+                lag_by_film += part * arm * chord.by_film
             force += part
             lag += part * arm
             skew += part * station
-            # The node moves with the lines of pure rolling, and with it pressure, slip, chord and arm.
-            moves = start_moves + (stop_moves - start_moves) * nodes[k]
-            slip_change = 1.0 + field.curvature_slope * drop + (bend * station - field.spin_rate) * moves
-            change = chord.by_slip * slip_change / slip if slip != 0.0 else 0.0
-            change += growth - x / (across * squared) * (1.0 + chord.by_pressure) * moves
-            force_slope += part * change
-            lag_slope += part * (arm * change + 2.0 * drop_scale * station * moves / shape.roller_radius)
-            force_by_film += part * chord.by_film
-            lag_by_film += part * arm * chord.by_film
+            count += 1
     return Patch(
         force, lag, skew, force_slope, lag_slope, force_by_film / film_thickness, lag_by_film / film_thickness
     )

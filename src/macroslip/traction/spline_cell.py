@@ -1,0 +1,157 @@
+"""Cubic B-splines on unit knots, one cell at a time, with four coefficients in a vector register of the processor.
+
+A contact with microslip looks some thirty stresses up for every force evaluation, and each is a weighted sum of 64
+coefficients. LLVM does not put such short sums into vectors by itself; written as vectors they take a quarter of the
+time. The order of all sums is fixed, so results are the same on processors with registers of any length.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.errors import TypingError
+from numba.extending import intrinsic
+
+_LANES = 4
+_INDEX, _SIZE = ir.IntType(32), ir.IntType(64)
+_VECTOR = ir.VectorType(ir.DoubleType(), _LANES)
+_EMPTY = ir.Constant(_VECTOR, ir.Undefined)
+_WEIGHTS = types.UniTuple(types.float64, _LANES)
+#: The four weights as a polynomial of the place in the cell, constant term first, and their derivatives.
+_CUBIC = [[1 / 6, 4 / 6, 1 / 6, 0.0], [-0.5, 0.0, 0.5, 0.0], [0.5, -1.0, 0.5, 0.0], [-1 / 6, 0.5, -0.5, 1 / 6]]
+_QUADRATIC = [[-0.5, 0.0, 0.5, 0.0], [1.0, -2.0, 1.0, 0.0], [-0.5, 1.5, -1.5, 0.5]]
+
+
+class _Vectors:
+    """Writes operations on vectors of four float."""
+
+    def __init__(self, builder: ir.IRBuilder):
+        self._builder = builder
+
+    def lanes(self, vector: Any) -> list[Any]:
+        return [self._builder.extract_element(vector, ir.Constant(_INDEX, n)) for n in range(_LANES)]
+
+    def splat(self, value: Any) -> Any:
+        """The same number in all lanes."""
+        first = self._builder.insert_element(_EMPTY, value, ir.Constant(_INDEX, 0))
+        return self._builder.shuffle_vector(first, _EMPTY, ir.Constant(ir.VectorType(_INDEX, _LANES), [0] * _LANES))
+
+    def polynomial(self, terms: list[list[float]], place: Any) -> Any:
+        """Horner's scheme in every lane."""
+        total = ir.Constant(_VECTOR, terms[-1])
+        for term in terms[-2::-1]:
+            total = self._builder.fadd(self._builder.fmul(total, place), ir.Constant(_VECTOR, term))
+        return total
+
+    def weighted_sum(self, weights: list[Any], vectors: list[Any]) -> Any:
+        products = [self._builder.fmul(weight, vector) for weight, vector in zip(weights, vectors, strict=True)]
+        total = products[0]
+        for product in products[1:]:
+            total = self._builder.fadd(total, product)
+        return total
+
+    def dot(self, one: Any, other: Any) -> Any:
+        a, b, c, d = self.lanes(self._builder.fmul(one, other))
+        return self._builder.fadd(self._builder.fadd(a, b), self._builder.fadd(c, d))
+
+    def load(self, address: Any) -> Any:
+        return self._builder.load(self._builder.inttoptr(address, _VECTOR.as_pointer()), align=8)
+
+
+def _check(coefficients: Any, dimensions: int) -> None:
+    array = isinstance(coefficients, types.Array) and coefficients.layout == "C"
+    if not array or coefficients.ndim != dimensions or coefficients.dtype != types.float64:
+        raise TypingError(f"coefficients of a spline are an array of float64, {dimensions}-dimensional, in C order")
+
+
+def _address(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, indices: list[Any]) -> tuple[Any, list[Any]]:
+    """Address of an array's element, and the array's strides [bytes]."""
+    struct = context.make_array(kind)(context, builder, array)
+    strides = cgutils.unpack_tuple(builder, struct.strides)
+    address = builder.ptrtoint(struct.data, _SIZE)
+    for index, stride in zip(indices, strides, strict=True):
+        address = builder.add(address, builder.mul(index, stride))
+    return address, strides
+
+
+@intrinsic
+def along_line(typingctx, coefficients, cell, place):
+    """Value and derivative of a spline Σ_n w_n(t) c[i + n].
+
+    Parameters
+    ----------
+    coefficients : ndarray, 1 dimension
+        c.
+    cell : int
+        i, with i + 3 within the array.
+    place : float
+        t in the cell, from 0 to 1.
+
+    Returns
+    -------
+    tuple of 2 float
+    """
+    _check(coefficients, 1)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        write = _Vectors(builder)
+        address, _ = _address(context, builder, coefficients, arguments[0], arguments[1:2])
+        t, values = write.splat(arguments[2]), write.load(address)
+        found = [write.dot(write.polynomial(terms, t), values) for terms in (_CUBIC, _QUADRATIC)]
+        return context.make_tuple(builder, signature.return_type, found)
+
+    return types.UniTuple(types.float64, 2)(coefficients, types.intp, types.float64), generate
+
+
+@intrinsic
+def in_cell(typingctx, coefficients, cells, first_place, third_place, second_weights):
+    """Value of a spline Σ w_m(t) z_q w_n(u) c[i + m, k + q, j + n], and its derivatives by t and u.
+
+    Parameters
+    ----------
+    coefficients : ndarray, 3 dimensions
+        c.
+    cells : tuple of 3 int
+        i, k, j, with the cell within the array.
+    first_place, third_place : float
+        t and u in the cell, from 0 to 1.
+    second_weights : tuple of 4 float
+        z, which many look-ups share.
+
+    Returns
+    -------
+    tuple of 3 float
+    """
+    _check(coefficients, 3)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        write = _Vectors(builder)
+        indices = cgutils.unpack_tuple(builder, arguments[1])
+        corner, strides = _address(context, builder, coefficients, arguments[0], indices)
+        t, u = write.splat(arguments[2]), write.splat(arguments[3])
+        z = [write.splat(weight) for weight in cgutils.unpack_tuple(builder, arguments[4])]
+        planes = []
+        for _ in range(_LANES):
+            lines, line = [], corner
+            for _ in range(_LANES):
+                lines.append(write.load(line))
+                line = builder.add(line, strides[1])
+            planes.append(write.weighted_sum(z, lines))
+            corner = builder.add(corner, strides[0])
+        weights, slopes = (
+            [write.splat(weight) for weight in write.lanes(write.polynomial(terms, t))] for terms in (_CUBIC, _QUADRATIC)
+        )
+        along_third, by_first = write.weighted_sum(weights, planes), write.weighted_sum(slopes, planes)
+        over_third = write.polynomial(_CUBIC, u)
+        found = [
+            write.dot(over_third, along_third),
+            write.dot(over_third, by_first),
+            write.dot(write.polynomial(_QUADRATIC, u), along_third),
+        ]
+        return context.make_tuple(builder, signature.return_type, found)
+
+    given = types.UniTuple(types.intp, 3), types.float64, types.float64, _WEIGHTS
+    return types.UniTuple(types.float64, 3)(coefficients, *given), generate
