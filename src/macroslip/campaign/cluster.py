@@ -33,6 +33,7 @@ _TASKS_PER_SECOND = 100.0
 _LONGEST_BUNDLE = 20.0
 #: Longest time until a scheduler answers [s].
 _ANSWER = 20.0
+_GONE = "the scheduler is gone. Nothing that was reported done is lost; go on with --resume."
 #: Time between looks at who has joined [s].
 _LOOK = 1.0
 
@@ -85,7 +86,11 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
                 client.register_plugin(_ignore_interrupts())
                 yield Dask(client, note)
             return
-        with Client(scheduler, timeout=_ANSWER, set_as_default=False) as client:
+        try:
+            client = Client(scheduler, timeout=_ANSWER, set_as_default=False)
+        except OSError:  # since it was looked for
+            raise MacroslipError(_GONE) from None
+        with client:
             yield Dask(client, note)
 
 
@@ -196,7 +201,7 @@ class Dask:
 
         error = result[1] if isinstance(result, tuple) else result
         if future.status != "error":
-            raise MacroslipError("the scheduler is gone. Nothing that was reported done is lost; go on with --resume.")
+            raise MacroslipError(_GONE)
         if not isinstance(error, KilledWorker):
             raise MacroslipError(
                 f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?"

@@ -92,7 +92,8 @@ class Progress:
     def _rest(self) -> str:
         if self.done == self.total:
             return "nothing"
-        return "-" if self.time_left is None else duration(self.time_left)
+        left = self.time_left
+        return "-" if left is None else duration(left)
 
 
 def duration(seconds: float) -> str:

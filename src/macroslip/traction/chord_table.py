@@ -18,14 +18,12 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity
-from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, NEWTONIAN
-from macroslip.traction.spline_cell import along_line, in_cell
+from macroslip.traction.rheology import LIMITING_SHEAR, NEWTONIAN
+from macroslip.traction.spline_cell import along_line, in_cell, weights_and_slopes
 
 #: Largest pressure of the table [Pa]; higher ones are treated as this one.
 HIGHEST_PRESSURE = 4e9
 _LOWEST_PRESSURE = 10.0
-#: Stands for β/(8k) where shear does not heat.
-_NO_HEATING = 1e-30
 _THINNEST, _THICKEST = 2e-8, 4e-4
 _FASTEST = 5.0
 _LOWEST_LOG_SLIP = -10.0
@@ -128,25 +126,6 @@ def _fill(fluid, pressures, slips, films):
     return values
 
 
-@jit
-def _weights(t):
-    """Cubic B-spline weights of the four coefficients around t in [0, 1)."""
-    u = 1.0 - t
-    return (
-        u * u * u * (1.0 / 6.0),
-        (4.0 + t * t * (3.0 * t - 6.0)) * (1.0 / 6.0),
-        (4.0 + u * u * (3.0 * u - 6.0)) * (1.0 / 6.0),
-        t * t * t * (1.0 / 6.0),
-    )
-
-
-@jit
-def _slopes(t):
-    """Derivatives of the weights."""
-    u = 1.0 - t
-    return -0.5 * u * u, 0.5 * t * (3.0 * t - 4.0), -0.5 * u * (3.0 * u - 4.0), 0.5 * t * t
-
-
 class FilmPlace(NamedTuple):
     """Where a film thickness lies in the table: it is the same for all chords of a contact."""
 
@@ -162,7 +141,7 @@ def film_place(table, film_thickness):
     z = (math.log(film_thickness) - table.lowest_film) / table.film_spacing
     z = min(max(z, 0.0), table.coefficients.shape[1] - 3.0)
     cell = min(int(z), table.coefficients.shape[1] - 4)
-    return FilmPlace(film_thickness, cell, _weights(z - cell), _slopes(z - cell))
+    return FilmPlace(film_thickness, cell, *weights_and_slopes(z - cell))
 
 
 class ChordStress(NamedTuple):
@@ -193,17 +172,12 @@ def chord_place(table, film_thickness, pressure, slip):
     x : float
         Place along pressure, in nodes.
     log_slip : float
-        ln of slip over the unit of slip of a film whose viscosity is 1 Pa s.
+        ln of slip over `characteristic_slip` of a film whose viscosity is 1 Pa s.
     """
-    fluid = table.fluid
     pressure = _within(pressure)
     # Reciprocals are taken once for all chords of a contact; divisions would be a tenth of the time.
     x = math.sqrt(math.sqrt(pressure)) * (1.0 / table.pressure_spacing)
-    if fluid.rheology == LIMITING_SHEAR:
-        return x, math.log(slip / (film_thickness * fluid.characteristic * pressure))
-    if fluid.rheology == EYRING:
-        return x, math.log(slip / (film_thickness * fluid.characteristic))
-    return x, math.log(slip * math.sqrt(max(fluid.heating, _NO_HEATING)))
+    return x, math.log(slip / characteristic_slip(table.fluid, 0.0, pressure, film_thickness))
 
 
 class ChordValue(NamedTuple):
@@ -279,12 +253,11 @@ def stress_of(table, film_thickness, pressure, value):
     -------
     ChordStress
     """
-    fluid = table.fluid
-    unit = fluid.characteristic
-    if fluid.rheology == LIMITING_SHEAR:
-        unit *= _within(pressure)
-    elif fluid.rheology == NEWTONIAN:
-        unit = 1.0 / (film_thickness * math.sqrt(max(fluid.heating, _NO_HEATING)))
+    fluid, pressure = table.fluid, _within(pressure)
+    if fluid.rheology == NEWTONIAN:
+        unit = characteristic_slip(fluid, 0.0, pressure, film_thickness) / film_thickness
+    else:
+        unit = characteristic_stress(fluid, pressure)
     stress = unit * math.exp(value.log_stress)
     # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
     if fluid.rheology == LIMITING_SHEAR and stress > 0.25 * math.pi * unit:

@@ -141,67 +141,62 @@ def microslip_traction(law, load, film_thickness, field, shape, fine):
     nodes = _FINE_NODES if fine else _NODES
     weights = _FINE_WEIGHTS if fine else _WEIGHTS
     drop_scale = 0.5 / shape.contour_radius
+    bend, per_radius = field.curvature_rate / shape.contour_radius, 1.0 / shape.roller_radius
+    area = 2.0 * across * law.semi_axis_along * root_load
     # Places of all chords first, then all values, then the sums: the processor works on several chords at a time only
     # where one step after the other is short.
-    chords = np.empty((6, 3 * nodes.size))
+    chords = np.empty((10, 3 * nodes.size))
+    xs, slips, cosines, weighted, moved, growths = chords[0], chords[1], chords[2], chords[3], chords[4], chords[5]
+    looked_up = chords[6:]
     count = 0
     for segment in range(3):
         length = edges[segment + 1] - edges[segment]
         if length < _SHORTEST:
             continue
+        widens = moves_of_edges[segment + 1] - moves_of_edges[segment]
         for k in range(nodes.size):
             x = edges[segment] + length * nodes[k]
             station = across * x
             slip = field.sliding + field.curvature_rate * drop_scale * station * station - field.spin_rate * station
             cosine = math.sqrt(1.0 - x * x)
-            chords[0, count], chords[1, count] = cosine, slip
+            xs[count], slips[count], cosines[count] = x, slip, cosine
+            weighted[count] = math.copysign(area * weights[k] * length * cosine, slip)
+            moved[count] = moves_of_edges[segment] + widens * nodes[k]
+            growths[count] = widens / (across * length)
             if not fine:
                 speed = max(abs(slip), _NO_SLIP)
-                chords[2, count], chords[3, count] = chord_place(law.table, film_thickness, pressure * cosine, speed)
+                place_of_chord = chord_place(law.table, film_thickness, pressure * cosine, speed)
+                looked_up[0, count], looked_up[1, count] = place_of_chord
             count += 1
     if not fine:
         for n in range(count):
-            value = chord_value(law.table, place, chords[2, n], chords[3, n], False)
-            chords[2, n], chords[3, n], chords[4, n], chords[5, n] = value
-    area = 2.0 * across * law.semi_axis_along * root_load
-    bend, per_radius = field.curvature_rate / shape.contour_radius, 1.0 / shape.roller_radius
+            value = chord_value(law.table, place, looked_up[0, n], looked_up[1, n], False)
+            looked_up[0, n], looked_up[1, n], looked_up[2, n], looked_up[3, n] = value
     force, lag, skew = 0.0, 0.0, 0.0
     force_slope, lag_slope, force_by_film, lag_by_film = 0.0, 0.0, 0.0, 0.0
-    count = 0
-    for segment in range(3):
-        length = edges[segment + 1] - edges[segment]
-        if length < _SHORTEST:
-            continue
-        start_moves = moves_of_edges[segment]
-        widens = moves_of_edges[segment + 1] - start_moves
-        growth = widens / (across * length)
-        for k in range(nodes.size):
-            x = edges[segment] + length * nodes[k]
-            station = across * x
-            drop = drop_scale * station * station
-            cosine, slip = chords[0, count], chords[1, count]
-            weight = math.copysign(area * weights[k] * length * cosine, slip)
-            arm = drop * per_radius
-            if fine:
-                speed = max(abs(slip), _NO_SLIP)
-                part = weight * chord_stress(law.table.fluid, pressure * cosine, film_thickness, speed)
-            else:
-                value = ChordValue(chords[2, count], chords[3, count], chords[4, count], chords[5, count])
-                chord = stress_of(law.table, film_thickness, pressure * cosine, value)
-                part = weight * chord.stress
-                # The node moves with the lines of pure rolling, and with it pressure, slip, chord and arm.
-                moves = start_moves + widens * nodes[k]
-                slip_change = 1.0 + field.curvature_slope * drop + (bend * station - field.spin_rate) * moves
-                change = chord.by_slip * slip_change / slip if slip != 0.0 else 0.0
-                change += growth - x / (across * cosine * cosine) * (1.0 + chord.by_pressure) * moves
-                force_slope += part * change
-                lag_slope += part * (arm * change + 2.0 * drop_scale * station * moves * per_radius)
-                force_by_film += part * chord.by_film
-                lag_by_film += part * arm * chord.by_film
-            force += part
-            lag += part * arm
-            skew += part * station
-            count += 1
+    for n in range(count):
+        slip, cosine, moves = slips[n], cosines[n], moved[n]
+        station = across * xs[n]
+        drop = drop_scale * station * station
+        arm = drop * per_radius
+        if fine:
+            speed = max(abs(slip), _NO_SLIP)
+            part = weighted[n] * chord_stress(law.table.fluid, pressure * cosine, film_thickness, speed)
+        else:
+            value = ChordValue(looked_up[0, n], looked_up[1, n], looked_up[2, n], looked_up[3, n])
+            chord = stress_of(law.table, film_thickness, pressure * cosine, value)
+            part = weighted[n] * chord.stress
+            # The node moves with the lines of pure rolling, and with it pressure, slip, chord and arm.
+            slip_change = 1.0 + field.curvature_slope * drop + (bend * station - field.spin_rate) * moves
+            change = chord.by_slip * slip_change / slip if slip != 0.0 else 0.0
+            change += growths[n] - xs[n] / (across * cosine * cosine) * (1.0 + chord.by_pressure) * moves
+            force_slope += part * change
+            lag_slope += part * (arm * change + 2.0 * drop_scale * station * moves * per_radius)
+            force_by_film += part * chord.by_film
+            lag_by_film += part * arm * chord.by_film
+        force += part
+        lag += part * arm
+        skew += part * station
     return Patch(
         force, lag, skew, force_slope, lag_slope, force_by_film / film_thickness, lag_by_film / film_thickness
     )

@@ -78,6 +78,25 @@ def _address(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, indices
 
 
 @intrinsic
+def weights_and_slopes(typingctx, place):
+    """Weights w of a cell's four coefficients at a place t in it, from 0 to 1, and their derivatives.
+
+    Returns
+    -------
+    tuple of 4 float, tuple of 4 float
+    """
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        write = _Vectors(builder)
+        t = write.splat(arguments[0])
+        lanes = [write.lanes(write.polynomial(terms, t)) for terms in (_CUBIC, _QUADRATIC)]
+        fours = [context.make_tuple(builder, _WEIGHTS, four) for four in lanes]
+        return context.make_tuple(builder, signature.return_type, fours)
+
+    return types.UniTuple(_WEIGHTS, 2)(types.float64), generate
+
+
+@intrinsic
 def along_line(typingctx, coefficients, cell, place):
     """Value and derivative of a spline Σ_n w_n(t) c[i + n].
 
