@@ -30,8 +30,20 @@ def new_figure(width: float, height: float, x: tuple[float, float], y: tuple[flo
 
 
 def arrow(axes, start, end, colour, *, style="-|>", width=1.6, curve=0.0) -> None:
-    axes.add_patch(FancyArrowPatch(start, end, arrowstyle=style, mutation_scale=13, color=colour, lw=width,
-                                   connectionstyle=f"arc3,rad={curve}", shrinkA=0, shrinkB=0, zorder=5))
+    axes.add_patch(
+        FancyArrowPatch(
+            start,
+            end,
+            arrowstyle=style,
+            mutation_scale=13,
+            color=colour,
+            lw=width,
+            connectionstyle=f"arc3,rad={curve}",
+            shrinkA=0,
+            shrinkB=0,
+            zorder=5,
+        )
+    )
 
 
 def text(axes, x, y, words, colour="black", *, size=10, ha="center", va="center") -> None:
@@ -63,8 +75,15 @@ def side_view() -> Figure:
     box(hub, gearbox - 0.35, -0.16, 0.16, fc=PALE, ec="black", lw=1.0)
     box(-0.32, 0.32, -0.38, 0.38, fc="#cfcfcf", ec="black", lw=1.0)
     for sign in (1, -1):
-        axes.add_patch(Polygon([at(-0.16, sign * 0.38), at(0.16, sign * 0.38), at(0.06, sign * 1.75),
-                                at(-0.06, sign * 1.75)], closed=True, fc="white", ec="black", lw=1.0))
+        axes.add_patch(
+            Polygon(
+                [at(-0.16, sign * 0.38), at(0.16, sign * 0.38), at(0.06, sign * 1.75), at(-0.06, sign * 1.75)],
+                closed=True,
+                fc="white",
+                ec="black",
+                lw=1.0,
+            )
+        )
     for sign in (1, -1):
         box(bearing - 0.42, bearing + 0.42, sign * 0.16, sign * 0.28, fc="#cfcfcf", ec="black", lw=0.8)
         box(bearing - 0.42, bearing + 0.42, sign * 0.58, sign * 0.72, fc="#cfcfcf", ec="black", lw=0.8)
@@ -81,8 +100,10 @@ def side_view() -> Figure:
         ends = zip(at(bearing + x, 1.0), at(bearing + side * 0.2, 0.5), strict=True)
         axes.plot(*ends, color="black", lw=0.7, zorder=4)
     # Axes of the loads at the hub, and of the bearing.
-    for origin, colour, names, radius in (((hub, 0.0), SHAFT, ("$x_s$", "$z_s$", "$y_s$"), 0.09),
-                                          ((bearing, 0.0), BEARING, ("$Z_0$", "$Y_0$", "$X_0$"), 0.09)):
+    for origin, colour, names, radius in (
+        ((hub, 0.0), SHAFT, ("$x_s$", "$z_s$", "$y_s$"), 0.09),
+        ((bearing, 0.0), BEARING, ("$Z_0$", "$Y_0$", "$X_0$"), 0.09),
+    ):
         start = at(*origin)
         arrow(axes, start, at(origin[0] + 1.05, 0.0), colour, width=2.0)
         arrow(axes, start, at(origin[0], 1.3), colour, width=2.0)
@@ -107,8 +128,15 @@ def side_view() -> Figure:
     text(axes, -1.5, 1.0, "wind", MOTION, size=11)
     arrow(axes, (6.6, -1.45), (6.6, -2.2), FORCE)
     text(axes, 6.6, -2.38, "gravity", FORCE)
-    text(axes, -2.0, -2.4, "Seen from the side, looking along $+X_0$ (= $+y_s$), which points away from you.\n"
-         "Tilt is drawn too large; distances are not to scale.", size=9, ha="left")
+    text(
+        axes,
+        -2.0,
+        -2.4,
+        "Seen from the side, looking along $+X_0$ (= $+y_s$), which points away from you.\n"
+        "Tilt is drawn too large; distances are not to scale.",
+        size=9,
+        ha="left",
+    )
     return figure
 
 
@@ -125,6 +153,7 @@ def axial_view() -> Figure:
     pitch, radius = bearing.pitch_radius * 1e3, bearing.roller_diameter * 500.0
     inner, outer = (f(bearing) * 1e3 for f in (geometry.inner_contact_radius, geometry.outer_contact_radius))
     figure, axes = new_figure(9.4, 6.9, (-775, 795), (-590, 562))
+
     # Looking along +Z0 with Y0 up, +X0 points to the left.
     def page(phi: float, distance: float) -> tuple[float, float]:
         return -distance * math.cos(phi), distance * math.sin(phi)
@@ -142,9 +171,16 @@ def axial_view() -> Figure:
         axes.text(x, y, str(number), size=9, ha="center", va="center", zorder=4)
     upwind = page(-math.pi / 2 + math.pi / count, pitch)
     axes.add_patch(Circle(upwind, radius, fc="none", ec="black", lw=1.0, ls="--", zorder=4))
-    axes.annotate("dashed: roller 0 of the upwind row,\nhalf a pitch further along the orbit",
-                  (upwind[0], upwind[1] - radius), (-755, -520), size=9,
-                  ha="left", va="center", arrowprops={"arrowstyle": "-", "lw": 0.7, "shrinkB": 0}, zorder=6)
+    axes.annotate(
+        "dashed: roller 0 of the upwind row,\nhalf a pitch further along the orbit",
+        (upwind[0], upwind[1] - radius),
+        (-755, -520),
+        size=9,
+        ha="left",
+        va="center",
+        arrowprops={"arrowstyle": "-", "lw": 0.7, "shrinkB": 0},
+        zorder=6,
+    )
     # Bearing axes.
     arrow(axes, (0, 0), (-215, 0), BEARING, width=2.0)
     arrow(axes, (0, 0), (0, 215), BEARING, width=2.0)
@@ -175,18 +211,43 @@ def axial_view() -> Figure:
     axes.plot(x + 25 * np.cos(angles[:-4]), y + 25 * np.sin(angles[:-4]), color=MOTION, lw=1.5, zorder=5)
     ends = [(x + 25 * math.cos(a), y + 25 * math.sin(a)) for a in (angles[-7], angles[-1])]
     arrow(axes, *ends, MOTION, width=1.5)
-    axes.annotate("the roller turns the other\nway:  spin < 0", (x + 22, y - 12), (500, -190), size=10, color=MOTION,
-                  ha="left", arrowprops={"arrowstyle": "-", "lw": 0.7, "color": MOTION})
+    axes.annotate(
+        "the roller turns the other\nway:  spin < 0",
+        (x + 22, y - 12),
+        (500, -190),
+        size=10,
+        color=MOTION,
+        ha="left",
+        arrowprops={"arrowstyle": "-", "lw": 0.7, "color": MOTION},
+    )
     # Load and cage force.
     arrow(axes, (0, -30), (0, -170), FORCE, width=2.4)
     text(axes, -12, -130, "$F_{Y0}<0$: weight on\nthe inner ring", FORCE, ha="right")
-    text(axes, -755, 45, "rollers rise: weight\nholds them back,\nthe cage pushes\nfrom behind:\n"
-         "$cage\\_force > 0$", FORCE, ha="left")
-    text(axes, 500, 45, "rollers descend: weight\npulls them on, the cage\nholds them:\n$cage\\_force < 0$", FORCE,
-         ha="left")
+    text(
+        axes,
+        -755,
+        45,
+        "rollers rise: weight\nholds them back,\nthe cage pushes\nfrom behind:\n$cage\\_force > 0$",
+        FORCE,
+        ha="left",
+    )
+    text(
+        axes,
+        500,
+        45,
+        "rollers descend: weight\npulls them on, the cage\nholds them:\n$cage\\_force < 0$",
+        FORCE,
+        ha="left",
+    )
     text(axes, 450, -440, "load zone at the bottom:\nthe redder, the more load\n(343.5 kN downward)", FORCE, ha="left")
-    text(axes, -755, 520, "Seen from the hub, looking downwind along $+Z_0$.\n"
-         "Downwind row of skf-240-600-bc, to scale.", size=9, ha="left")
+    text(
+        axes,
+        -755,
+        520,
+        "Seen from the hub, looking downwind along $+Z_0$.\nDownwind row of skf-240-600-bc, to scale.",
+        size=9,
+        ha="left",
+    )
     return figure
 
 
@@ -211,8 +272,12 @@ def one_roller() -> Figure:
     # Motions as they are when the shaft turns forward.
     angles = np.radians(np.linspace(-70, 45, 40))
     axes.plot(0.83 * np.cos(angles[:-2]), 0.83 * np.sin(angles[:-2]), color=MOTION, lw=1.6)
-    arrow(axes, tuple(0.83 * f(angles[-4]) for f in (np.cos, np.sin)),
-          tuple(0.83 * f(angles[-1]) for f in (np.cos, np.sin)), MOTION)
+    arrow(
+        axes,
+        tuple(0.83 * f(angles[-4]) for f in (np.cos, np.sin)),
+        tuple(0.83 * f(angles[-1]) for f in (np.cos, np.sin)),
+        MOTION,
+    )
     text(axes, 0.33, -0.6, r"$\omega<0$", MOTION, size=11)
     arrow(axes, (-1.0, -1.52), (1.0, -1.52), MOTION)
     text(axes, 0.0, -1.85, "inner surface:  $u_{2,in}=-(\\Omega_{in}-\\Omega)\\,\\tilde r_{in}<0$", MOTION, size=10)
@@ -229,11 +294,25 @@ def one_roller() -> Figure:
     text(axes, -radius - 0.22, 0.78, "$F_c$", FORCE, size=13)
     arrow(axes, (-2.6, 0.0), (-radius - 0.4, 0.0), FORCE, width=2.4)
     text(axes, -3.55, 0.0, "$cage\\_force > 0$\npushes along the orbit", FORCE)
-    text(axes, 3.3, 0.1, "A roller that lags ($|\\omega|$ below\npure rolling) has  slip < 0;\n"
-         "then $F_i, F_o < 0$ speed it up.\nThe cage brakes it:  $F_c > 0$.", "black", size=10)
-    text(axes, -4.55, -2.8, "Roller at the top of the bearing, looking downwind along $+Z_0$, seen from the frame that "
-         "orbits with it.\nBrown: forces on the roller in their positive directions.   "
-         "Green: motions when the shaft turns forward.", size=9, ha="left")
+    text(
+        axes,
+        3.3,
+        0.1,
+        "A roller that lags ($|\\omega|$ below\npure rolling) has  slip < 0;\n"
+        "then $F_i, F_o < 0$ speed it up.\nThe cage brakes it:  $F_c > 0$.",
+        "black",
+        size=10,
+    )
+    text(
+        axes,
+        -4.55,
+        -2.8,
+        "Roller at the top of the bearing, looking downwind along $+Z_0$, seen from the frame that "
+        "orbits with it.\nBrown: forces on the roller in their positive directions.   "
+        "Green: motions when the shaft turns forward.",
+        size=9,
+        ha="left",
+    )
     return figure
 
 

@@ -1,6 +1,6 @@
 """From an OpenFAST output file to the slip of every roller.
 
-    python examples/02_openfast_file.py tests/data/sample14B.outb
+python examples/02_openfast_file.py tests/data/sample14B.outb
 """
 
 import sys
@@ -24,5 +24,7 @@ result = simulate(Case(loads=hub, drivetrain=drivetrain))
 print(f"failed rollers: {int((result.status != 0).sum())} of {result.status.size}")
 for row in result.row.values:
     energy = result.energy.sel(row=row).sum("interface", skipna=False)
-    print(f"{row:8}: energy {float(energy.mean()):.3f} J a roller, lowest spin "
-          f"{100 * float(result.min_spin_ratio.sel(row=row).min()):.0f} % of pure rolling")
+    print(
+        f"{row:8}: energy {float(energy.mean()):.3f} J a roller, lowest spin "
+        f"{100 * float(result.min_spin_ratio.sel(row=row).min()):.0f} % of pure rolling"
+    )

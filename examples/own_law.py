@@ -74,7 +74,9 @@ if __name__ == "__main__":
         worst = 0.0
         for position, derivative in ((0, by_load), (1, by_film), (2, by_slip)):
             change = 1e-6 * point[position]
-            up, down = ([*point[:position], point[position] + sign * change, *point[position + 1:]] for sign in (1, -1))
+            up, down = (
+                [*point[:position], point[position] + sign * change, *point[position + 1 :]] for sign in (1, -1)
+            )
             difference = (traction(law, *up)[0] - traction(law, *down)[0]) / (2.0 * change)
             worst = max(worst, abs(derivative / difference - 1.0))
         print(f"{interface.name:5}: F = {force:.5g} N, derivatives agree with differences to {worst:.0e}")

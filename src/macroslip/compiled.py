@@ -47,7 +47,11 @@ def depend_on(*functions: Callable) -> None:
         path = Path(plain.__code__.co_filename)
         if path.is_relative_to(Path(__file__).parent):
             continue
-        text = path.read_text(encoding="utf-8") if path.is_file() else repr((plain.__code__.co_code, plain.__code__.co_consts))
+        text = (
+            path.read_text(encoding="utf-8")
+            if path.is_file()
+            else repr((plain.__code__.co_code, plain.__code__.co_consts))
+        )
         source = f"{plain.__module__}\n{text}"
         if source not in _extra_sources:
             _extra_sources.append(source)

@@ -227,7 +227,7 @@ def test_broken_file(told, text, expected):
 def test_merged_entries_fall_back_to_the_line_of_the_entry(told):
     merged = TEXT.replace("poisson_ratio: {value: 0.3, unit: \"1\", tag: E, note: \"bearing steel\"}",
                           "poisson_ratio: &steel {value: 0.7, unit: \"1\"}")  # fmt: skip
-    old = "cage_poisson_ratio: {value: 0.3, unit: \"1\", tag: E,"
+    old = 'cage_poisson_ratio: {value: 0.3, unit: "1", tag: E,'
     message, line = told((old, "cage_poisson_ratio: {<<: *steel, tag: E,"), text=merged)
     assert f"(2) mine.yaml, line {line}: cage_poisson_ratio is 0.7." in message
 

@@ -23,8 +23,16 @@ def short(monkeypatch):
     monkeypatch.setattr("macroslip.bench.contest.RIVALS", tuple(few))
     monkeypatch.setattr(room, "QUICK", (("24A",), 100.0, 2.0))
     monkeypatch.setattr(run, "long_histories", lambda quick: room.histories_of("24A", 100.0, 102.0, [0]))
-    monkeypatch.setattr(run, "verify", lambda histories, references: {
-        "method": "none", "energy_error": {"a": 0.0}, "spin_error": {"a": 0.0}, "agrees": True})
+    monkeypatch.setattr(
+        run,
+        "verify",
+        lambda histories, references: {
+            "method": "none",
+            "energy_error": {"a": 0.0},
+            "spin_error": {"a": 0.0},
+            "agrees": True,
+        },
+    )
     monkeypatch.setattr(run, "two_threads", lambda quick: None)
     monkeypatch.setattr(run, "linearity", lambda *arguments, quick: {"duration": {"exponent": 1.0}})
 
@@ -39,14 +47,27 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
     done = bench("--quick", "-o", tmp_path / "out")
     assert done.exit_code == 0, done.output
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
-        "bench.json", "work_precision.png", "work_precision.svg",
+        "bench.json",
+        "work_precision.png",
+        "work_precision.svg",
     ]
     text = (tmp_path / "out" / "bench.json").read_text(encoding="utf-8")
     assert str(tmp_path) not in text and "NaN" not in text and "Infinity" not in text
     found = json.loads(text)
     assert set(found) == {
-        "machine", "quick", "asked_accuracy", "default_tolerance", "reference", "targets", "methods", "evaluation",
-        "quadrature", "real_time", "threads", "linearity", "mechanisms",
+        "machine",
+        "quick",
+        "asked_accuracy",
+        "default_tolerance",
+        "reference",
+        "targets",
+        "methods",
+        "evaluation",
+        "quadrature",
+        "real_time",
+        "threads",
+        "linearity",
+        "mechanisms",
     }
     methods = found["methods"]
     assert list(methods) == ["own", "scipy_bdf", "lsoda", rivals.EULER]

@@ -19,7 +19,15 @@ def run(folder):
     """Run the command in a process of its own: laws stay registered for as long as a process lives."""
 
     def run(*arguments):
-        command = [sys.executable, "-W", "error", "-c", "from macroslip.cli import main; main()", "run", *map(str, arguments)]
+        command = [
+            sys.executable,
+            "-W",
+            "error",
+            "-c",
+            "from macroslip.cli import main; main()",
+            "run",
+            *map(str, arguments),
+        ]
         environment = os.environ | {"PYTHONIOENCODING": "utf-8", "COLUMNS": "200"}
         return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600, check=False)
 
@@ -91,7 +99,9 @@ def test_a_file_that_is_wrong_ends_the_run(run, folder):
 def test_a_case_file_names_no_program(run, folder):
     # A case file is data: nothing in it makes anything run.
     (folder / "my_laws.py").write_text("raise RuntimeError('I ran')\n", encoding="utf-8")
-    text = (EXAMPLES / "own_laws.yaml").read_text(encoding="utf-8").replace("film: dowson-higginson", "film: my_laws.py")
+    text = (
+        (EXAMPLES / "own_laws.yaml").read_text(encoding="utf-8").replace("film: dowson-higginson", "film: my_laws.py")
+    )
     (folder / "case.yaml").write_text(text, encoding="utf-8")
     done = run("case.yaml", "-o", "own.nc")
     assert done.returncode == 2 and "I ran" not in done.stderr

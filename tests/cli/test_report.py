@@ -33,8 +33,12 @@ def test_one_file_and_a_page_of_ones_own_choice(ran, macroslip):
 
 @pytest.mark.parametrize(
     ("place", "message"),
-    [("nothing", "nothing: there is no such file or folder"), ("empty", "empty: the folder holds no netCDF file"),
-     ("broken.nc", "broken.nc: the file cannot be read as netCDF"), ("other.nc", "other: the dataset has no energy")],
+    [
+        ("nothing", "nothing: there is no such file or folder"),
+        ("empty", "empty: the folder holds no netCDF file"),
+        ("broken.nc", "broken.nc: the file cannot be read as netCDF"),
+        ("other.nc", "other: the dataset has no energy"),
+    ],
 )
 def test_what_is_no_result_gives_one_paragraph(folder, macroslip, place, message):
     import xarray as xr

@@ -38,8 +38,9 @@ def jaeger(place, peclet):
 
 
 def hottest(peclet):
-    found = minimize_scalar(lambda place: -jaeger(place, peclet), bounds=(0, 0.95), method="bounded",
-                            options={"xatol": 1e-7})
+    found = minimize_scalar(
+        lambda place: -jaeger(place, peclet), bounds=(0, 0.95), method="bounded", options={"xatol": 1e-7}
+    )
     return found.x, -found.fun
 
 
@@ -116,7 +117,8 @@ def test_symmetry_and_scaling(power, width, speeds, materials):
     assert flash_temperature(power, width, -speeds[0], -speeds[1], *materials) == rise
     # Twice the width at the same intensity and Péclet number.
     assert flash_temperature(2 * power, 2 * width, speeds[0] / 2, speeds[1] / 2, *materials) == pytest.approx(
-        2 * rise, rel=1e-14, abs=0.0)
+        2 * rise, rel=1e-14, abs=0.0
+    )
     # A second surface takes heat away, never adds any.
     assert rise <= flash_temperature(power, width, speeds[0], 0.0, *materials)
 
@@ -130,5 +132,8 @@ def test_limits():
     assert flash_temperature(0.0, HALF_WIDTH, 0.0, 0.0, STEEL, STEEL) == 0.0
     assert flash_temperature(1.0, HALF_WIDTH, 0.0, 0.0, STEEL, STEEL) == math.inf
     assert flash_temperature(1.0, HALF_WIDTH, 1e-300, 0.0, STEEL, STEEL) > 1e100
-    assert peclet_number(-0.4, HALF_WIDTH, CONDUCTIVITY, DENSITY, HEAT) == peclet_number(
-        0.4, HALF_WIDTH, CONDUCTIVITY, DENSITY, HEAT) > 0
+    assert (
+        peclet_number(-0.4, HALF_WIDTH, CONDUCTIVITY, DENSITY, HEAT)
+        == peclet_number(0.4, HALF_WIDTH, CONDUCTIVITY, DENSITY, HEAT)
+        > 0
+    )

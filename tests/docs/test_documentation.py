@@ -48,8 +48,16 @@ def python_blocks(page: Path) -> list[str]:
 
 def python(*arguments: str, folder: Path) -> subprocess.CompletedProcess:
     environment = os.environ | {"MPLBACKEND": "agg", "PYTHONIOENCODING": "utf-8"}
-    return subprocess.run([sys.executable, "-W", "error", *arguments], cwd=folder, env=environment, text=True,
-                          encoding="utf-8", capture_output=True, timeout=600, check=False)
+    return subprocess.run(
+        [sys.executable, "-W", "error", *arguments],
+        cwd=folder,
+        env=environment,
+        text=True,
+        encoding="utf-8",
+        capture_output=True,
+        timeout=600,
+        check=False,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +65,9 @@ def runs(tmp_path_factory):
     """Outcome of every example and of every page's code, run at once, each in a process and a folder of its own."""
     prepared = tmp_path_factory.mktemp("prepared")
     # First of all and alone: this also compiles the kernels.
-    assert (first := python("-c", PREPARATION, str(SAMPLE), str(ROOT / "examples" / "own_film.py"), folder=prepared)).returncode == 0, first.stderr
+    assert (
+        first := python("-c", PREPARATION, str(SAMPLE), str(ROOT / "examples" / "own_film.py"), folder=prepared)
+    ).returncode == 0, first.stderr
 
     def run(path: Path) -> subprocess.CompletedProcess:
         folder = tmp_path_factory.mktemp(path.stem)

@@ -176,6 +176,8 @@ def test_groups_outside_the_range_whatever_the_load_are_told():
     bearing, lubricant = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
     notes = film_range_notes("masjedi-khonsari", interfaces(bearing, lubricant))
     # V = 7.0/230.77 = 0.0303 at every interface, just above 0.03.
-    assert notes == [f"{name}: the hardness group 0.03033 is outside 0.005 to 0.03" for name in ("inner", "outer", "cage")]
+    assert notes == [
+        f"{name}: the hardness group 0.03033 is outside 0.005 to 0.03" for name in ("inner", "outer", "cage")
+    ]
     softer = bearing.replace(hardness=6.5e9)
     assert film_range_notes("masjedi-khonsari", interfaces(softer, lubricant)) == []

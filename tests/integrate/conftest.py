@@ -45,9 +45,17 @@ class PlainRoller:
     or constant shaft acceleration.
     """
 
-    def __init__(self, bearing, lubricant, displacement, shaft_speed, start_angle, acceleration=0.0, tilt=math.radians(5)):
+    def __init__(
+        self, bearing, lubricant, displacement, shaft_speed, start_angle, acceleration=0.0, tilt=math.radians(5)
+    ):
         self.b, self.l = bearing, lubricant
-        self.d, self.speed, self.acceleration, self.phi0, self.tilt = displacement, shaft_speed, acceleration, start_angle, tilt
+        self.d, self.speed, self.acceleration, self.phi0, self.tilt = (
+            displacement,
+            shaft_speed,
+            acceleration,
+            start_angle,
+            tilt,
+        )
         r = bearing.roller_diameter / 2
         alpha = bearing.contact_angle
         self.r, self.alpha = r, alpha
@@ -82,8 +90,14 @@ class PlainRoller:
         big_k, big_e = ellipkm1(m1), ellipe(1 - m1)
         # B = ρ/2 = (p0/E*)(b/(e² a²)) (E/k² − K) with p0 = 3/(2πab), E* = E'/2
         a = (3.0 / (math.pi * modulus) * (big_e / m1 - big_k) / (1 - m1) * 2.0 / rolling) ** (1 / 3)
-        return {"a": a, "b": k * a, "p": 1.5 / (math.pi * a * k * a), "E": modulus, "R": 1 / rolling,
-                "approach": 3.0 * big_k / (math.pi * a * modulus)}
+        return {
+            "a": a,
+            "b": k * a,
+            "p": 1.5 / (math.pi * a * k * a),
+            "E": modulus,
+            "R": 1 / rolling,
+            "approach": 3.0 * big_k / (math.pi * a * modulus),
+        }
 
     def film(self, contact, load, speed):
         lub, b = self.l, self.b

@@ -86,7 +86,9 @@ def test_roller_forced_to_skid_follows_the_root_continuous_with_the_past(bearing
     inner, outer, _, _ = roller.forces(0.0, slip)
     more, outer_more, _, _ = roller.forces(0.0, 1.05 * slip)
     assert more + outer_more < inner + outer  # the falling branch
-    grip = solve_ivp(roller.rate, (0.0, 0.01), [slip, 0, 0, 0], method="Radau", rtol=1e-9, atol=1e-13, dense_output=True)
+    grip = solve_ivp(
+        roller.rate, (0.0, 0.01), [slip, 0, 0, 0], method="Radau", rtol=1e-9, atol=1e-13, dense_output=True
+    )
     stopped = grip.t[np.argmax(grip.y[0] < 0.01 * slip)]
     times = np.array([0.2, 0.5, 0.8, 0.95, 1.5, 3.0]) * stopped
     reference = independent(roller, slip, times)

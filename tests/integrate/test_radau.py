@@ -72,8 +72,11 @@ def test_a_short_load_in_the_middle_of_a_coast_is_not_passed_over():
     force[pulse] = [0.0, 300e3, 0.0]
     for tolerance in (1e-2, 1e-4, 1e-8):
         found = run(
-            BearingLoads(time, np.full(161, 2.143), force, "pulse"), tolerance, rollers=range(0, 28, 4),
-            traces=Traces(step=0.5), window=Window(start=0.0),
+            BearingLoads(time, np.full(161, 2.143), force, "pulse"),
+            tolerance,
+            rollers=range(0, 28, 4),
+            traces=Traces(step=0.5),
+            window=Window(start=0.0),
         ).sel(row="downwind")
         # Rollers near the top are gripped by the pulse: their slip, built up for seconds, is gone just after it.
         before, after = abs(found.slip.sel(time=4.0)), abs(found.slip.sel(time=4.5, method="nearest"))
@@ -129,7 +132,8 @@ def test_a_roller_that_fails_says_so_and_stops_nobody_else(turbulent):
 def test_cost_grows_linearly_with_duration():
     loads = HubLoads.bundled("16B")
     evaluations = [
-        float(simulate(Case(loads=loads.window(0.0, end), rollers=[5])).force_evaluations.sum()) for end in (100.0, 200.0, 400.0)
+        float(simulate(Case(loads=loads.window(0.0, end), rollers=[5])).force_evaluations.sum())
+        for end in (100.0, 200.0, 400.0)
     ]
     assert evaluations[1] / evaluations[0] == pytest.approx(2.0, rel=0.4)
     assert evaluations[2] / evaluations[1] == pytest.approx(2.0, rel=0.4)

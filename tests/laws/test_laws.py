@@ -33,8 +33,14 @@ def test_the_closed_form_serves_the_papers_traction_alone():
     ("choice", "message"),
     [
         ({"viscosity": "arrhenius"}, "laws.viscosity: 'arrhenius' does not exist. Allowed: barus, roelands."),
-        ({"rheology": "maxwell"}, "laws.rheology: 'maxwell' does not exist. Allowed: newtonian, limiting-shear, eyring."),
-        ({"asperities": "some"}, "laws.asperities: 'some' does not exist. Allowed: film-ratio, masjedi-khonsari, none."),
+        (
+            {"rheology": "maxwell"},
+            "laws.rheology: 'maxwell' does not exist. Allowed: newtonian, limiting-shear, eyring.",
+        ),
+        (
+            {"asperities": "some"},
+            "laws.asperities: 'some' does not exist. Allowed: film-ratio, masjedi-khonsari, none.",
+        ),
         ({"microslip": "yes"}, "laws.microslip: it is 'yes'. Allowed: true or false."),
         (
             {"traction": "coulomb"},

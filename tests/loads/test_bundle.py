@@ -64,6 +64,7 @@ def test_mean_and_spread_are_kept_but_for_the_removed_band(clip):
 
 def test_low_frequencies_agree_at_common_time_stamps(clip):
     """Below 8 Hz, every 0.1 s, away from the ends of the clip."""
+
     def low_pass(values, rate):
         taps = firwin(4 * rate + 1, 7.5, window=("kaiser", 8.0), fs=rate)
         return np.apply_along_axis(np.convolve, 0, values, taps, "same")
@@ -110,7 +111,8 @@ def test_provenance_and_size():
         assert {"turbsim_seeds", "decimation", "frame", "nature", "turbine"} <= metadata.keys()
         assert list(json.loads(metadata["units"])) == file.schema_arrow.names
         total += file.metadata.serialized_size + sum(
-            file.metadata.row_group(0).column(i).total_compressed_size for i in range(file.metadata.num_columns))
+            file.metadata.row_group(0).column(i).total_compressed_size for i in range(file.metadata.num_columns)
+        )
     assert total < 8e6
 
 

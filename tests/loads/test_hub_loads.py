@@ -14,8 +14,13 @@ from macroslip.loads import BearingLoads, HubLoads, bundled_cases
 
 def _record(n=20, **changes):
     rng = np.random.default_rng(1)
-    values = {"time": 60 + 0.05 * np.arange(n), "shaft_speed": np.full(n, 2.1), "force": 1e5 * rng.normal(size=(n, 3)),
-              "moment": 1e5 * rng.normal(size=(n, 3)), "source": "run 7"}
+    values = {
+        "time": 60 + 0.05 * np.arange(n),
+        "shaft_speed": np.full(n, 2.1),
+        "force": 1e5 * rng.normal(size=(n, 3)),
+        "moment": 1e5 * rng.normal(size=(n, 3)),
+        "source": "run 7",
+    }
     return values | changes
 
 
@@ -42,24 +47,32 @@ def test_standstill_and_reverse_rotation_are_legal(speed):
     assert HubLoads(**_record(shaft_speed=np.full(20, speed))).shaft_speed[0] == speed
 
 
-@pytest.mark.parametrize(("changes", "words"), [
-    ({"time": np.array([1.0]), "shaft_speed": [1.0]}, ["time has shape (1,)", "at least 2 samples"]),
-    ({"time": np.zeros((20, 1))}, ["time has shape (20, 1)"]),
-    ({"shaft_speed": 2.0}, ["shaft_speed has shape ()", "(20,)", "20 time stamps"]),
-    ({"force": np.zeros((3, 20))}, ["force has shape (3, 20)", "(20, 3)", "fx, fy, fz"]),
-    ({"moment": [["a", "b", "c"]] * 20}, ["moment does not convert", "real numbers"]),
-    ({"time": _replace(_record()["time"], 3, np.nan)}, ["time is nan at sample 3"]),
-    ({"time": _replace(_record()["time"], 4, 60.15)}, ["sample 3 (counted from 0) is at 60.15 s, sample 4 at 60.15 s"]),
-    ({"time": _replace(_record()["time"], 9, 60.0)}, ["sample 8 (counted from 0) is at 60.4 s, sample 9 at 60 s"]),
-    ({"time": _record()["time"] + np.where(np.arange(20) > 6, 0.4, 0)},
-     ["gap of 0.45 s after t = 60.3 s", "median step 0.05 s", "start=, end="]),
-    ({"shaft_speed": _replace(_record()["shaft_speed"], 5, np.nan)}, ["run 7, t = 60.25 s", "shaft_speed is nan"]),
-    ({"force": _replace(_record()["force"], (7, 1), -np.inf)}, ["t = 60.35 s", "fy is -inf (1 of 20"]),
-    ({"moment": _replace(_record()["moment"], (19, 2), np.nan)}, ["t = 60.95 s", "mz is nan"]),
-    ({"shaft_speed": np.full(20, 1800.0)}, ["shaft_speed is 1800 rad/s", "up to 100 rad/s", "rpm", "generator"]),
-    ({"force": _replace(_record()["force"], (2, 2), -2.6e8)}, ["t = 60.1 s", "fz is -2.6e+08 N", "kN"]),
-    ({"moment": _replace(_record()["moment"], (2, 0), 7e9)}, ["mx is 7e+09 N m", "up to 1e+09 N m"]),
-])
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"time": np.array([1.0]), "shaft_speed": [1.0]}, ["time has shape (1,)", "at least 2 samples"]),
+        ({"time": np.zeros((20, 1))}, ["time has shape (20, 1)"]),
+        ({"shaft_speed": 2.0}, ["shaft_speed has shape ()", "(20,)", "20 time stamps"]),
+        ({"force": np.zeros((3, 20))}, ["force has shape (3, 20)", "(20, 3)", "fx, fy, fz"]),
+        ({"moment": [["a", "b", "c"]] * 20}, ["moment does not convert", "real numbers"]),
+        ({"time": _replace(_record()["time"], 3, np.nan)}, ["time is nan at sample 3"]),
+        (
+            {"time": _replace(_record()["time"], 4, 60.15)},
+            ["sample 3 (counted from 0) is at 60.15 s, sample 4 at 60.15 s"],
+        ),
+        ({"time": _replace(_record()["time"], 9, 60.0)}, ["sample 8 (counted from 0) is at 60.4 s, sample 9 at 60 s"]),
+        (
+            {"time": _record()["time"] + np.where(np.arange(20) > 6, 0.4, 0)},
+            ["gap of 0.45 s after t = 60.3 s", "median step 0.05 s", "start=, end="],
+        ),
+        ({"shaft_speed": _replace(_record()["shaft_speed"], 5, np.nan)}, ["run 7, t = 60.25 s", "shaft_speed is nan"]),
+        ({"force": _replace(_record()["force"], (7, 1), -np.inf)}, ["t = 60.35 s", "fy is -inf (1 of 20"]),
+        ({"moment": _replace(_record()["moment"], (19, 2), np.nan)}, ["t = 60.95 s", "mz is nan"]),
+        ({"shaft_speed": np.full(20, 1800.0)}, ["shaft_speed is 1800 rad/s", "up to 100 rad/s", "rpm", "generator"]),
+        ({"force": _replace(_record()["force"], (2, 2), -2.6e8)}, ["t = 60.1 s", "fz is -2.6e+08 N", "kN"]),
+        ({"moment": _replace(_record()["moment"], (2, 0), 7e9)}, ["mx is 7e+09 N m", "up to 1e+09 N m"]),
+    ],
+)
 def test_bad_hub_loads_are_told_apart(changes, words):
     with pytest.raises(InputError) as caught:
         HubLoads(**_record(**changes))
@@ -79,8 +92,8 @@ def test_window_keeps_exactly_the_samples_inside(first, length):
     loads = HubLoads(**_record())
     last = min(first + length, 19)
     part = loads.window(loads.time[first] + 1e-12, loads.time[last] - 1e-12)
-    assert np.array_equal(part.time, loads.time[first:last + 1])
-    assert np.array_equal(part.moment, loads.moment[first:last + 1])
+    assert np.array_equal(part.time, loads.time[first : last + 1])
+    assert np.array_equal(part.moment, loads.moment[first : last + 1])
     assert part.duration == pytest.approx(0.05 * (last - first))
 
 
@@ -111,12 +124,15 @@ def test_constant_ends_at_the_duration(duration, step):
     assert (loads.force == [1, 2, 3]).all() and (loads.moment == [4, 5, 6]).all() and (loads.shaft_speed == -1.5).all()
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    (([1, 2], [0, 0, 0], 2.0, 1.0), "the force has shape (2,)"),
-    (([1, 2, 3], 0.0, 2.0, 1.0), "the moment has shape ()"),
-    (([1, 2, 3], [0, 0, 0], 2.0, 0.0), "the duration of a constant load is 0.0 s"),
-    (([1, 2, 3], [0, 0, 0], np.nan, 1.0), "shaft_speed is nan"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (([1, 2], [0, 0, 0], 2.0, 1.0), "the force has shape (2,)"),
+        (([1, 2, 3], 0.0, 2.0, 1.0), "the moment has shape ()"),
+        (([1, 2, 3], [0, 0, 0], 2.0, 0.0), "the duration of a constant load is 0.0 s"),
+        (([1, 2, 3], [0, 0, 0], np.nan, 1.0), "shaft_speed is nan"),
+    ],
+)
 def test_bad_constant(arguments, words):
     with pytest.raises(InputError) as caught:
         HubLoads.constant(*arguments)
@@ -135,18 +151,23 @@ def test_import_is_cheap():
     import subprocess
     import sys
 
-    code = ("import sys, macroslip.loads; "
-            "print([m for m in ('pandas', 'pyarrow', 'openfast_io', 'scipy', 'numba') if m in sys.modules])")
+    code = (
+        "import sys, macroslip.loads; "
+        "print([m for m in ('pandas', 'pyarrow', 'openfast_io', 'scipy', 'numba') if m in sys.modules])"
+    )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"
 
 
-@pytest.mark.parametrize(("name", "content", "words"), [
-    ("nothing.outb", None, ["nothing.outb: no such file", "current folder"]),
-    ("empty.outb", b"", ["empty.outb: the file is empty"]),
-    ("empty.csv", b"", ["empty.csv: the file is empty"]),
-    ("loads.xlsx", b"x", ["'.xlsx' is not known", ".outb (OpenFAST binary output)", ".csv"]),
-])
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("nothing.outb", None, ["nothing.outb: no such file", "current folder"]),
+        ("empty.outb", b"", ["empty.outb: the file is empty"]),
+        ("empty.csv", b"", ["empty.csv: the file is empty"]),
+        ("loads.xlsx", b"x", ["'.xlsx' is not known", ".outb (OpenFAST binary output)", ".csv"]),
+    ],
+)
 def test_files_that_cannot_be_read(tmp_path, name, content, words):
     if content is not None:
         (tmp_path / name).write_bytes(content)

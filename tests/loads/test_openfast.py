@@ -25,8 +25,12 @@ def _selection(sample_out, keep, rename=None, units_of=None, rows=None):
     head, names, units, data = _split_text(sample_out)
     index = [i for i, name in enumerate(names) if keep(name)]
     units = [(units_of or {}).get(names[i], units[i]) for i in index]
-    return (head, [(rename or {}).get(names[i], names[i]) for i in index], units,
-            [[row[i] for i in index] for row in data[:rows]])
+    return (
+        head,
+        [(rename or {}).get(names[i], names[i]) for i in index],
+        units,
+        [[row[i] for i in index] for row in data[:rows]],
+    )
 
 
 def _message(path):
@@ -94,8 +98,16 @@ def test_rotating_forces_that_do_not_point_down_are_refused(tmp_path, sample_out
 
 
 def test_aliases_and_letter_case(tmp_path, sample_out):
-    needed = {"Time": "TIME", "RotSpeed": "LSSTipVxa", "LSShftFxa": "rotthrust", "LSShftFys": "LSSGAGFYS",
-              "LSShftFzs": "lsshftfzs", "LSShftMxa": "RotTorq", "LSSTipMys": "lsstipmys", "LSSTipMzs": "LSSTIPMZS"}
+    needed = {
+        "Time": "TIME",
+        "RotSpeed": "LSSTipVxa",
+        "LSShftFxa": "rotthrust",
+        "LSShftFys": "LSSGAGFYS",
+        "LSShftFzs": "lsshftfzs",
+        "LSShftMxa": "RotTorq",
+        "LSSTipMys": "lsstipmys",
+        "LSSTipMzs": "LSSTIPMZS",
+    }
     path = _write_text(tmp_path / "a.out", *_selection(sample_out, needed.__contains__, needed, rows=50))
     renamed, plain = HubLoads.read(path), HubLoads.read(sample_out).window(60, 62.45)
     for name in ("time", "shaft_speed", "force", "moment"):
@@ -111,12 +123,15 @@ def test_declared_units_are_used(tmp_path, sample_out):
     assert other.shaft_speed == pytest.approx(plain.shaft_speed * 30 / np.pi)
 
 
-@pytest.mark.parametrize(("channel", "unit", "words"), [
-    ("LSShftFys", "(lbf)", ["channel LSShftFys has the unit (lbf)", "(N), (kN)"]),
-    ("LSSTipMzs", "(kN)", ["channel LSSTipMzs has the unit (kN)", "(N-m), (kN-m)"]),
-    ("RotSpeed", "(m/s)", ["channel RotSpeed has the unit (m/s)", "(rpm)"]),
-    ("LSShftMxa", "(INVALID)", ["channel LSShftMxa has the unit (INVALID)", "cannot compute"]),
-])
+@pytest.mark.parametrize(
+    ("channel", "unit", "words"),
+    [
+        ("LSShftFys", "(lbf)", ["channel LSShftFys has the unit (lbf)", "(N), (kN)"]),
+        ("LSSTipMzs", "(kN)", ["channel LSSTipMzs has the unit (kN)", "(N-m), (kN-m)"]),
+        ("RotSpeed", "(m/s)", ["channel RotSpeed has the unit (m/s)", "(rpm)"]),
+        ("LSShftMxa", "(INVALID)", ["channel LSShftMxa has the unit (INVALID)", "cannot compute"]),
+    ],
+)
 def test_unknown_units(tmp_path, sample_out, channel, unit, words):
     path = _write_text(tmp_path / "a.out", *_selection(sample_out, lambda name: True, units_of={channel: unit}, rows=5))
     message = _message(path)
@@ -124,16 +139,30 @@ def test_unknown_units(tmp_path, sample_out, channel, unit, words):
         assert word in message
 
 
-@pytest.mark.parametrize(("absent", "words"), [
-    (["RotSpeed"], ["RotSpeed is not in the file (34 channels)", '"RotSpeed"      - (rpm)', "RotSpeed or LSSTipVxa"]),
-    (["LSShftFxa", "RotThrust"], ["LSShftFxa is not in the file", '"LSShftFxa"     - (kN)', "or RotThrust"]),
-    (["LSSTipMys", "LSSTipMya"], ["LSSTipMys is not in the file", '"LSSTipMys"     - (kN-m)',
-                                  "LSSTipMys (or LSSTipMya, LSSTipMza and Azimuth)",
-                                  "LSSGagMys and LSSGagMzs cannot stand in"]),
-    (["LSShftFys", "LSSTipMzs", "Azimuth"],
-     ["LSShftFys, LSSTipMzs are not in the file (32 channels)", '"LSShftFys"     -', '\n"LSSTipMzs"     -']),
-    (["Time"], ["no channel Time"]),
-])
+@pytest.mark.parametrize(
+    ("absent", "words"),
+    [
+        (
+            ["RotSpeed"],
+            ["RotSpeed is not in the file (34 channels)", '"RotSpeed"      - (rpm)', "RotSpeed or LSSTipVxa"],
+        ),
+        (["LSShftFxa", "RotThrust"], ["LSShftFxa is not in the file", '"LSShftFxa"     - (kN)', "or RotThrust"]),
+        (
+            ["LSSTipMys", "LSSTipMya"],
+            [
+                "LSSTipMys is not in the file",
+                '"LSSTipMys"     - (kN-m)',
+                "LSSTipMys (or LSSTipMya, LSSTipMza and Azimuth)",
+                "LSSGagMys and LSSGagMzs cannot stand in",
+            ],
+        ),
+        (
+            ["LSShftFys", "LSSTipMzs", "Azimuth"],
+            ["LSShftFys, LSSTipMzs are not in the file (32 channels)", '"LSShftFys"     -', '\n"LSSTipMzs"     -'],
+        ),
+        (["Time"], ["no channel Time"]),
+    ],
+)
 def test_missing_channels_name_the_outlist_line(tmp_path, sample_out, absent, words):
     path = _write_text(tmp_path / "a.out", *_selection(sample_out, lambda name: name not in absent, rows=5))
     message = _message(path)
@@ -160,8 +189,27 @@ RECORD = 34 * 2  # bytes of one packed sample
 HEADER = 82890 - 1201 * RECORD
 
 
-@pytest.mark.parametrize("size", [1, 3, 9, 25, 60, 200, 296, 700, HEADER - 1, HEADER, HEADER + 1, HEADER + 600 * RECORD,
-                                  HEADER + 600 * RECORD + 33, 82890 - RECORD, 82890 - 2, 82890 - 1])
+@pytest.mark.parametrize(
+    "size",
+    [
+        1,
+        3,
+        9,
+        25,
+        60,
+        200,
+        296,
+        700,
+        HEADER - 1,
+        HEADER,
+        HEADER + 1,
+        HEADER + 600 * RECORD,
+        HEADER + 600 * RECORD + 33,
+        82890 - RECORD,
+        82890 - 2,
+        82890 - 1,
+    ],
+)
 def test_truncated_binary(tmp_path, sample_outb, size):
     path = tmp_path / "cut.outb"
     path.write_bytes(sample_outb.read_bytes()[:size])
@@ -176,12 +224,22 @@ def test_binary_with_bytes_to_spare(tmp_path, sample_outb):
 
 
 def _poke(content, offset, layout, value):
-    return content[:offset] + struct.pack(layout, value) + content[offset + struct.calcsize(layout):]
+    return content[:offset] + struct.pack(layout, value) + content[offset + struct.calcsize(layout) :]
 
 
-@pytest.mark.parametrize(("offset", "layout", "value"), [
-    (0, "<h", 7), (2, "<h", 0), (4, "<i", -1), (4, "<i", 35), (8, "<i", 0), (8, "<i", 2_000_000_000), (8, "<i", 1200),
-    (28 + 34 * 8, "<i", -5)])
+@pytest.mark.parametrize(
+    ("offset", "layout", "value"),
+    [
+        (0, "<h", 7),
+        (2, "<h", 0),
+        (4, "<i", -1),
+        (4, "<i", 35),
+        (8, "<i", 0),
+        (8, "<i", 2_000_000_000),
+        (8, "<i", 1200),
+        (28 + 34 * 8, "<i", -5),
+    ],
+)
 def test_damaged_binary_header(tmp_path, sample_outb, offset, layout, value):
     path = tmp_path / "bad.outb"
     path.write_bytes(_poke(sample_outb.read_bytes(), offset, layout, value))
@@ -230,16 +288,19 @@ def test_all_four_binary_formats(tmp_path, sample_out, file_format, name_length)
     assert loads.time == pytest.approx(plain.time, abs=1e-9)
     assert loads.force == pytest.approx(plain.force, abs=5.0)
     assert loads.moment == pytest.approx(plain.moment, abs=30.0)
-    path.write_bytes(content[:-packed[0].nbytes])
+    path.write_bytes(content[: -packed[0].nbytes])
     assert "cut off" in _message(path)
 
 
-@pytest.mark.parametrize(("cut", "words"), [
-    (-200, ["line 1209 has", "values for 35 channels", "incomplete last line"]),
-    (-3, ["line 1209 holds '8.143E+'", "instead of a number"]),
-    (-5, ["the last line is cut off"]),  # what is left, 8.143, is a number: the exponent is lost without a sign
-    (-2, ["the last line is cut off"]),
-])
+@pytest.mark.parametrize(
+    ("cut", "words"),
+    [
+        (-200, ["line 1209 has", "values for 35 channels", "incomplete last line"]),
+        (-3, ["line 1209 holds '8.143E+'", "instead of a number"]),
+        (-5, ["the last line is cut off"]),  # what is left, 8.143, is a number: the exponent is lost without a sign
+        (-2, ["the last line is cut off"]),
+    ],
+)
 def test_text_cut_within_its_last_line(tmp_path, sample_out, cut, words):
     path = tmp_path / "cut.out"
     path.write_bytes(sample_out.read_bytes()[:cut])

@@ -14,9 +14,15 @@ from macroslip.loads import Drivetrain, HubLoads, main_bearing_load
 component = st.floats(-1e6, 1e6)
 vector = st.tuples(component, component, component)
 drivetrains = st.builds(
-    lambda h, g, tilt, mass, part: Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g, tilt=tilt, shaft_mass=mass,
-                                              shaft_mass_station=part * (h + g)),
-    st.floats(0.0, 5.0), st.floats(0.5, 5.0), st.floats(-0.2, 0.2), st.floats(0.0, 2e4), st.floats(0.0, 1.0))
+    lambda h, g, tilt, mass, part: Drivetrain(
+        hub_to_bearing=h, bearing_to_gearbox=g, tilt=tilt, shaft_mass=mass, shaft_mass_station=part * (h + g)
+    ),
+    st.floats(0.0, 5.0),
+    st.floats(0.5, 5.0),
+    st.floats(-0.2, 0.2),
+    st.floats(0.0, 2e4),
+    st.floats(0.0, 1.0),
+)
 
 
 def _load(force, moment, drivetrain):
@@ -25,6 +31,7 @@ def _load(force, moment, drivetrain):
 
 def _solve_free_body(force, moment, drivetrain):
     """Bearing and gearbox force and torque on the shaft from its 6 x 6 equilibrium about the hub, and its weight."""
+
     def cross(x, axis):
         return np.cross([x, 0, 0], np.eye(3)[axis])
 
@@ -52,8 +59,11 @@ def test_shaft_is_in_equilibrium_about_any_point(force, moment, drivetrain, poin
     on_ring = _load(force, moment, drivetrain)
     bearing = -on_ring[[2, 0, 1]]
     _, gearbox, torque, weight = _solve_free_body(force, moment, drivetrain)
-    h, a, s = (drivetrain.hub_to_bearing, drivetrain.hub_to_bearing + drivetrain.bearing_to_gearbox,
-               drivetrain.shaft_mass_station)
+    h, a, s = (
+        drivetrain.hub_to_bearing,
+        drivetrain.hub_to_bearing + drivetrain.bearing_to_gearbox,
+        drivetrain.shaft_mass_station,
+    )
     acting = [(0.0, np.array(force)), (h, bearing), (a, gearbox), (s, weight)]
     assert np.abs(sum(f for _, f in acting)).max() < 1e-4
     for point in ([0, 0, 0], [h, 0, 0], *(np.array(points) * 1e-5)):
@@ -66,8 +76,9 @@ def test_a_moment_and_its_couple_give_the_same_reaction(my, mz, h, g, part):
     """A couple: a force at the hub and its opposite at x = d, which is the hub of a shaft shorter by d."""
     d = part * h
     force = np.array([0, -mz / d, my / d])  # about any point, the couple has the moment (0, my, mz)
-    couple = (_load(force, [0, 0, 0], Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g))
-              + _load(-force, [0, 0, 0], Drivetrain(hub_to_bearing=h - d, bearing_to_gearbox=g)))
+    couple = _load(force, [0, 0, 0], Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g)) + _load(
+        -force, [0, 0, 0], Drivetrain(hub_to_bearing=h - d, bearing_to_gearbox=g)
+    )
     moment = _load([0, 0, 0], [0, my, mz], Drivetrain(hub_to_bearing=h, bearing_to_gearbox=g))
     assert couple == pytest.approx(moment, rel=1e-9, abs=1e-9 * np.abs(force).max() * (h + g) / g + 1e-9)
 
@@ -93,7 +104,8 @@ def test_mass_at_the_gearbox_leaves_only_its_axial_part_and_at_the_hub_acts_as_r
     assert _load([0, 0, 0], [0, 0, 0], base) == pytest.approx([0, 0, weight * math.sin(base.tilt)], abs=1e-6)
     rotor = [weight * math.sin(base.tilt), 0, -weight * math.cos(base.tilt)]
     assert _load([0, 0, 0], [0, 0, 0], replace(base, shaft_mass_station=0.0)) == pytest.approx(
-        _load(rotor, [0, 0, 0], Drivetrain()))
+        _load(rotor, [0, 0, 0], Drivetrain())
+    )
 
 
 def test_signs_of_the_main_terms():
@@ -111,16 +123,19 @@ def test_torque_does_not_load_the_bearing_and_the_record_is_kept():
     assert bearing.source == "main bearing under bundled case 12C"
 
 
-@pytest.mark.parametrize(("changes", "words"), [
-    ({"hub_to_bearing": 1260.0}, ["hub_to_bearing is 1260.0", "0 to 20 m", "metres"]),
-    ({"hub_to_bearing": -1.0}, ["0 to 20 m"]),
-    ({"bearing_to_gearbox": 0.0}, ["bearing_to_gearbox is 0.0", "above 0"]),
-    ({"tilt": 5.0}, ["tilt is 5.0", "radians"]),
-    ({"shaft_mass": -1.0}, ["shaft_mass is -1.0", "0 to 1e6 kg"]),
-    ({"shaft_mass_station": 4.0}, ["shaft_mass_station is 4.0", "0 to 3.46 m"]),
-    ({"tilt": math.nan}, ["tilt is nan", "finite"]),
-    ({"shaft_mass": "12"}, ["shaft_mass is '12'", "finite"]),
-])
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"hub_to_bearing": 1260.0}, ["hub_to_bearing is 1260.0", "0 to 20 m", "metres"]),
+        ({"hub_to_bearing": -1.0}, ["0 to 20 m"]),
+        ({"bearing_to_gearbox": 0.0}, ["bearing_to_gearbox is 0.0", "above 0"]),
+        ({"tilt": 5.0}, ["tilt is 5.0", "radians"]),
+        ({"shaft_mass": -1.0}, ["shaft_mass is -1.0", "0 to 1e6 kg"]),
+        ({"shaft_mass_station": 4.0}, ["shaft_mass_station is 4.0", "0 to 3.46 m"]),
+        ({"tilt": math.nan}, ["tilt is nan", "finite"]),
+        ({"shaft_mass": "12"}, ["shaft_mass is '12'", "finite"]),
+    ],
+)
 def test_bad_drivetrain(changes, words):
     with pytest.raises(InputError) as caught:
         Drivetrain(**changes)

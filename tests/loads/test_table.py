@@ -12,11 +12,23 @@ from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.loads.table import _rebuild_uniform
 
-HUB = {"time_s": [0.0, 0.1, 0.2], "rotor_speed_rpm": [19.0, 20.0, 21.0], "fx_N": [1e5, 2e5, 3e5],
-       "fy_N": [1.0, 2.0, 3.0], "fz_N": [-1e5, -1e5, -1e5], "mx_Nm": [7e5, 7e5, 7e5], "my_Nm": [1e5, 0.0, -1e5],
-       "mz_Nm": [0.0, 1.0, 2.0]}
-BEARING = {"time_s": [0.0, 0.1, 0.2], "shaft_speed_rad_s": [2.0, 2.0, -2.0], "F_X0_N": [1e3, 2e3, 3e3],
-           "F_Y0_N": [-3e5, -3e5, -3e5], "F_Z0_N": [1e5, 1e5, 1e5]}
+HUB = {
+    "time_s": [0.0, 0.1, 0.2],
+    "rotor_speed_rpm": [19.0, 20.0, 21.0],
+    "fx_N": [1e5, 2e5, 3e5],
+    "fy_N": [1.0, 2.0, 3.0],
+    "fz_N": [-1e5, -1e5, -1e5],
+    "mx_Nm": [7e5, 7e5, 7e5],
+    "my_Nm": [1e5, 0.0, -1e5],
+    "mz_Nm": [0.0, 1.0, 2.0],
+}
+BEARING = {
+    "time_s": [0.0, 0.1, 0.2],
+    "shaft_speed_rad_s": [2.0, 2.0, -2.0],
+    "F_X0_N": [1e3, 2e3, 3e3],
+    "F_Y0_N": [-3e5, -3e5, -3e5],
+    "F_Z0_N": [1e5, 1e5, 1e5],
+}
 
 
 def _write(path, columns):
@@ -42,12 +54,20 @@ def test_hub_and_bearing_tables(tmp_path, extension):
     assert bearing.shaft_speed.tolist() == [2.0, -2.0]
 
 
-@pytest.mark.parametrize(("old", "new", "factor"), [
-    ("fx_N", "fx_kN", 1e-3), ("mz_Nm", "mz_kNm", 1e-3), ("rotor_speed_rpm", "shaft_speed_rpm", 1.0),
-    ("rotor_speed_rpm", "shaft_speed_radps", np.pi / 30), ("rotor_speed_rpm", "rotor_speed_rad_s", np.pi / 30)])
+@pytest.mark.parametrize(
+    ("old", "new", "factor"),
+    [
+        ("fx_N", "fx_kN", 1e-3),
+        ("mz_Nm", "mz_kNm", 1e-3),
+        ("rotor_speed_rpm", "shaft_speed_rpm", 1.0),
+        ("rotor_speed_rpm", "shaft_speed_radps", np.pi / 30),
+        ("rotor_speed_rpm", "rotor_speed_rad_s", np.pi / 30),
+    ],
+)
 def test_every_unit_gives_the_same_loads(tmp_path, old, new, factor):
-    columns = {new if name == old else name: np.array(values) * (factor if name == old else 1)
-               for name, values in HUB.items()}
+    columns = {
+        new if name == old else name: np.array(values) * (factor if name == old else 1) for name, values in HUB.items()
+    }
     plain, other = (HubLoads.read(_write(tmp_path / f"{i}.csv", c)) for i, c in enumerate((HUB, columns)))
     for name in ("time", "shaft_speed", "force", "moment"):
         assert getattr(other, name) == pytest.approx(getattr(plain, name))
@@ -57,19 +77,22 @@ def _renamed(old, new):
     return {new if name == old else name: values for name, values in HUB.items()}
 
 
-@pytest.mark.parametrize(("columns", "words"), [
-    (_renamed("fx_N", "fx_lbf"), ["column fx_lbf has no known unit", "fx_N, fx_kN"]),
-    (_renamed("mx_Nm", "mx"), ["column mx has no known unit", "mx_Nm, mx_kNm"]),
-    (_renamed("time_s", "time_ms"), ["column time_ms has no known unit", "time_s"]),
-    (_renamed("my_Nm", "bending_Nm"), ["no column for my_Nm or my_kNm", "The columns are: time_s"]),
-    (_renamed("rotor_speed_rpm", "speed"), ["shaft_speed_rpm or shaft_speed_rad_s", "rotor_speed_rpm"]),
-    (HUB | {"fx_kN": HUB["fx_N"]}, ["columns fx_N and fx_kN both give fx"]),
-    (HUB | {"shaft_speed_rpm": HUB["fx_N"]}, ["columns rotor_speed_rpm and shaft_speed_rpm both give shaft_speed"]),
-    (HUB | {"fz_N": ["a", "b", "c"]}, ["column fz_N holds string, not numbers"]),
-    (HUB | {"fz_N": [1.0, None, 2.0]}, ["t = 0.1 s: fz is nan"]),
-    (HUB | {"time_s": [0.0, 0.1, 0.1]}, ["time does not increase"]),
-    (BEARING, ["BearingLoads.read"]),
-])
+@pytest.mark.parametrize(
+    ("columns", "words"),
+    [
+        (_renamed("fx_N", "fx_lbf"), ["column fx_lbf has no known unit", "fx_N, fx_kN"]),
+        (_renamed("mx_Nm", "mx"), ["column mx has no known unit", "mx_Nm, mx_kNm"]),
+        (_renamed("time_s", "time_ms"), ["column time_ms has no known unit", "time_s"]),
+        (_renamed("my_Nm", "bending_Nm"), ["no column for my_Nm or my_kNm", "The columns are: time_s"]),
+        (_renamed("rotor_speed_rpm", "speed"), ["shaft_speed_rpm or shaft_speed_rad_s", "rotor_speed_rpm"]),
+        (HUB | {"fx_kN": HUB["fx_N"]}, ["columns fx_N and fx_kN both give fx"]),
+        (HUB | {"shaft_speed_rpm": HUB["fx_N"]}, ["columns rotor_speed_rpm and shaft_speed_rpm both give shaft_speed"]),
+        (HUB | {"fz_N": ["a", "b", "c"]}, ["column fz_N holds string, not numbers"]),
+        (HUB | {"fz_N": [1.0, None, 2.0]}, ["t = 0.1 s: fz is nan"]),
+        (HUB | {"time_s": [0.0, 0.1, 0.1]}, ["time does not increase"]),
+        (BEARING, ["BearingLoads.read"]),
+    ],
+)
 @pytest.mark.parametrize("extension", [".csv", ".parquet"])
 def test_bad_columns(tmp_path, columns, words, extension):
     message = _message(_write(tmp_path / f"a{extension}", columns))
@@ -89,13 +112,16 @@ def test_a_column_that_stands_twice(tmp_path):
     assert "columns fy_N and fy_N both give fy" in _message(_write(tmp_path / "a.parquet", table))
 
 
-@pytest.mark.parametrize(("text", "words"), [
-    ("time_s;fx_N\n0;1\n", ["separated by semicolons or tabs", "commas between columns"]),
-    ("time_s,fx_N\n0,1\n0.1\n", ["not readable as a CSV table", "Expected 2 columns, got 1"]),
-    ("time_s,fx_N\n0,1\n0.1,2,3\n", ["Expected 2 columns, got 3"]),
-    ("\n\n", ["not readable as a CSV table"]),
-    (",".join(HUB) + "\n", ["time has shape (0,)", "at least 2 samples"]),
-])
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time_s;fx_N\n0;1\n", ["separated by semicolons or tabs", "commas between columns"]),
+        ("time_s,fx_N\n0,1\n0.1\n", ["not readable as a CSV table", "Expected 2 columns, got 1"]),
+        ("time_s,fx_N\n0,1\n0.1,2,3\n", ["Expected 2 columns, got 3"]),
+        ("\n\n", ["not readable as a CSV table"]),
+        (",".join(HUB) + "\n", ["time has shape (0,)", "at least 2 samples"]),
+    ],
+)
 def test_bad_csv(tmp_path, text, words):
     path = tmp_path / "a.csv"
     path.write_text(text)
@@ -116,12 +142,13 @@ def test_csv_as_people_write_it(tmp_path):
 def test_truncated_parquet(tmp_path, clip_50hz, part):
     content = clip_50hz.read_bytes()
     path = tmp_path / "cut.parquet"
-    path.write_bytes(content[:int(part * len(content))])
+    path.write_bytes(content[: int(part * len(content))])
     assert "not readable as a Parquet table" in _message(path)
 
 
-@pytest.mark.parametrize(("first", "rate", "n"), [(0.0, 50, 30000), (60.0, 20, 12001), (0.02, 30, 18000),
-                                                  (1e4, 7, 3000)])
+@pytest.mark.parametrize(
+    ("first", "rate", "n"), [(0.0, 50, 30000), (60.0, 20, 12001), (0.02, 30, 18000), (1e4, 7, 3000)]
+)
 def test_float32_time_is_rebuilt(tmp_path, first, rate, n):
     exact = first + np.arange(n) / rate
     columns = {name: np.zeros(n, dtype=np.float32) for name in HUB} | {"time_s": exact.astype(np.float32)}

@@ -68,13 +68,17 @@ def constant_friction(contact, load, slip, ring_speed):
     return (pull * v).sum(), pull.sum(), (pull * (1 - drop / RADIUS)).sum(), (pull * z).sum(), np.abs(v).max(), mean
 
 
-@pytest.mark.parametrize(("ring", "power", "fastest", "mean"), [("inner", 8.7, 23e-3, 3.5e-3), ("outer", 7.1, 19e-3, 2.9e-3)])
+@pytest.mark.parametrize(
+    ("ring", "power", "fastest", "mean"), [("inner", 8.7, 23e-3, 3.5e-3), ("outer", 7.1, 19e-3, 2.9e-3)]
+)
 def test_a_loaded_contact_dissipates_what_constant_friction_does(coulomb, ring, power, fastest, mean):
     contact = getattr(coulomb, ring)
     ring_speed = -RATED * coulomb.orbit_ratio * coulomb.outer_radius
 
     def film(slip):
-        return microslip_traction(contact.traction, 5e4, 1e-11, slip_field(contact.shape, slip, ring_speed), contact.shape, False)
+        return microslip_traction(
+            contact.traction, 5e4, 1e-11, slip_field(contact.shape, slip, ring_speed), contact.shape, False
+        )
 
     still = brentq(lambda s: film(s).force - film(s).lag, -0.02, 0.02, xtol=1e-12)
     found = film(still)
@@ -99,6 +103,7 @@ def test_film_at_its_limit_by_its_own_thickness_comes_close(coulomb):
     contact = coulomb.inner
     powers = []
     for thickness in (1e-11, 6e-7):
+
         def film(slip, thickness=thickness):
             field = slip_field(contact.shape, slip, ring_speed)
             return microslip_traction(contact.traction, 5e4, thickness, field, contact.shape, False)
@@ -119,7 +124,9 @@ def gusty():
 
 @pytest.fixture(scope="module")
 def blown(gusty):
-    return simulate(Case(loads=gusty, laws=FULL, rollers=[0, 9, 20], traces=Traces(step=0.01), window=Window(start=30.0)))
+    return simulate(
+        Case(loads=gusty, laws=FULL, rollers=[0, 9, 20], traces=Traces(step=0.01), window=Window(start=30.0))
+    )
 
 
 def test_energies_add_up(blown):
@@ -215,7 +222,9 @@ def test_reversed_thrust_swaps_the_rows():
     assert there[..., ::-1] == pytest.approx(here, rel=1e-6, abs=1e-9)
     # The end at which curvature and contact angle add up is the other one in the other row.
     assert not np.allclose(there, here, rtol=0.1)
-    assert push.energy.sel(row="downwind").values[0] == pytest.approx(push.energy.sel(row="downwind").values[1], rel=1e-6)
+    assert push.energy.sel(row="downwind").values[0] == pytest.approx(
+        push.energy.sel(row="downwind").values[1], rel=1e-6
+    )
 
 
 def test_no_load_no_friction():
@@ -333,7 +342,11 @@ def test_slip_settles_where_moments_balance(name, force):
 
 def test_slip_of_an_orbiting_roller_is_the_balance_of_the_instant():
     loads = BearingLoads.constant([0.0, -343e3, 160e3], RATED, 7.0)
-    found = run(loads, rollers=[0], traces=Traces(step=0.5), integrator=Radau(tolerance=1e-6)).sel(row="downwind").isel(roller=0)
+    found = (
+        run(loads, rollers=[0], traces=Traces(step=0.5), integrator=Radau(tolerance=1e-6))
+        .sel(row="downwind")
+        .isel(roller=0)
+    )
     model = roller_model(BEARING, OIL, 1, tilt=Drivetrain().tilt, laws=FULL)
     from macroslip.roller.model import truncation_load
 
@@ -470,8 +483,14 @@ def test_contact_angle_and_curvature_share_the_friction(energies):
     ("change", "message"),
     [
         ({"viscosity": "water"}, "laws.viscosity: 'water' does not exist. Allowed: barus, roelands"),
-        ({"rheology": "bingham"}, "laws.rheology: 'bingham' does not exist. Allowed: newtonian, limiting-shear, eyring"),
-        ({"asperities": "rough"}, "laws.asperities: 'rough' does not exist. Allowed: film-ratio, masjedi-khonsari, none"),
+        (
+            {"rheology": "bingham"},
+            "laws.rheology: 'bingham' does not exist. Allowed: newtonian, limiting-shear, eyring",
+        ),
+        (
+            {"asperities": "rough"},
+            "laws.asperities: 'rough' does not exist. Allowed: film-ratio, masjedi-khonsari, none",
+        ),
         ({"heating": 1}, "laws.heating: it is 1. Allowed: true or false"),
         ({"microslip": "yes"}, "laws.microslip: it is 'yes'. Allowed: true or false"),
         ({"starvation": None}, "laws.starvation: it is None. Allowed: true or false"),

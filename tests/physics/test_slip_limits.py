@@ -16,14 +16,21 @@ ORBIT_RATIO = 0.4539395888955974
 @pytest.fixture(scope="module")
 def gusty():
     loads = main_bearing_load(HubLoads.bundled("12A").window(30.0, 70.0), Drivetrain())
-    case = Case(loads=loads, rollers=[0, 11, 19], traces=Traces(step=0.01, start=30.005), integrator=Radau(tolerance=1e-7))
+    case = Case(
+        loads=loads, rollers=[0, 11, 19], traces=Traces(step=0.01, start=30.005), integrator=Radau(tolerance=1e-7)
+    )
     return loads, simulate(case)
 
 
 def test_pure_rolling_has_no_slip_by_hand():
     bearing = Bearing.read("skf-240-600-bc")
     found = simulate(
-        Case(loads=BearingLoads.constant([0, -343e3, 160e3], 2.0, 2.0), rollers=[0], traces=Traces(step=0.5), window=Window(start=0.0))
+        Case(
+            loads=BearingLoads.constant([0, -343e3, 160e3], 2.0, 2.0),
+            rollers=[0],
+            traces=Traces(step=0.5),
+            window=Window(start=0.0),
+        )
     )
     orbital = 2.0 * 0.338367 / (0.338367 + 0.407033)
     spin = -orbital * geometry.outer_contact_radius(bearing) / 0.035
@@ -54,8 +61,16 @@ def test_coast_down_rate_by_hand():
     speed = 2.0
     loads = BearingLoads.constant([0, 0, 0], speed, 0.1, step=0.01)
     found = simulate(
-        Case(loads=loads, bearing=bearing, lubricant=lubricant, gravity=False, rollers=[0],
-             traces=Traces(step=0.001), window=Window(start=0.0), integrator=Radau(tolerance=1e-8))
+        Case(
+            loads=loads,
+            bearing=bearing,
+            lubricant=lubricant,
+            gravity=False,
+            rollers=[0],
+            traces=Traces(step=0.001),
+            window=Window(start=0.0),
+            integrator=Radau(tolerance=1e-8),
+        )
     ).isel(roller=0)
     assert AXIAL_SIGNS["downwind"] == 1
     orbital = ORBIT_RATIO * speed
@@ -148,7 +163,11 @@ def test_rollers_of_a_row_take_turns_under_a_steady_load():
     pitch = 2 * math.pi / 28 / (ORBIT_RATIO * 2.143)
     loads = BearingLoads.constant([0.0, -343e3, 50e3], 2.143, 26.0, step=pitch / 4)
     case = Case(
-        loads=loads, rollers=[0, 1], integrator=Radau(tolerance=1e-8), traces=Traces(step=pitch / 4), window=Window(start=0.0)
+        loads=loads,
+        rollers=[0, 1],
+        integrator=Radau(tolerance=1e-8),
+        traces=Traces(step=pitch / 4),
+        window=Window(start=0.0),
     )
     found = simulate(case)
     first, second = found.spin.isel(roller=0).values, found.spin.isel(roller=1).values

@@ -33,8 +33,12 @@ def table():
     energy = np.array([[[2.0, 1.0], [1.0, 1.0], [0.5, 1.0]], [[1.1, 4.0], [1.0, 1.0], [1.0, 1.0]]])
     return xr.Dataset(
         {"value": (("variation", "level"), value), "energy": (("variation", "level", "row"), energy)},
-        {"variation": ["clearance", "film"], "level": ["low", "base", "high"], "row": ROWS,
-         "unit": ("variation", ["mm", "1"])},
+        {
+            "variation": ["clearance", "film"],
+            "level": ["low", "base", "high"],
+            "row": ROWS,
+            "unit": ("variation", ["mm", "1"]),
+        },
     )
 
 
@@ -121,8 +125,10 @@ def test_tornado_has_the_widest_bar_on_top_and_both_ends(axes, table):
 
 def test_cage_energy_stands_beside_the_converged_one(axes):
     experiment = xr.Dataset(
-        {"cage_energy": (("stopping_tolerance", "row"), [[0.2, 0.1], [20.0, 0.1]]),
-         "cage_energy_converged": ("row", [0.2, 0.1])},
+        {
+            "cage_energy": (("stopping_tolerance", "row"), [[0.2, 0.1], [20.0, 0.1]]),
+            "cage_energy_converged": ("row", [0.2, 0.1]),
+        },
         {"stopping_tolerance": [1e-12, 1e-7], "row": ROWS},
     )
     plot_cage_energy(axes, experiment)
@@ -171,8 +177,10 @@ def test_bars_differ_in_grey(result):
 
 def test_every_set_of_figures_has_units_on_every_axis(profile, table):
     figures = [
-        bearing_sets.film_over_orbit_figure(profile), bearing_sets.load_zone_figure(profile),
-        bearing_sets.roller_spread_figure(profile), bearing_sets.outside_film_range_figure(profile),
+        bearing_sets.film_over_orbit_figure(profile),
+        bearing_sets.load_zone_figure(profile),
+        bearing_sets.roller_spread_figure(profile),
+        bearing_sets.outside_film_range_figure(profile),
         bearing_sets.sensitivity_figure(table.assign(peak_power=table.energy)),
         bearing_sets.energy_over_orbit_figure(profile),
     ]

@@ -231,8 +231,11 @@ def test_no_kind_of_block_makes_the_page_scroll_sideways(browser, tmp_path, widt
     long = "word " * 40 + "a" * 80
     found = (("differs", long, long), ("not computed", "nothing", ""))
     blocks = (
-        Statements(("paper", "physical"), ((long, found),)), Beside(long, (long,), (drawn[0],) * 3, long),
-        Pictures(tuple(drawn), long), Points((long,)), Verbatim(f"@misc{{a, note = {{{long}}}}}"),
+        Statements(("paper", "physical"), ((long, found),)),
+        Beside(long, (long,), (drawn[0],) * 3, long),
+        Pictures(tuple(drawn), long),
+        Points((long,)),
+        Verbatim(f"@misc{{a, note = {{{long}}}}}"),
         Table(tuple("abcdefgh"), (("a long cell of text",) * 8,), long),
     )
     path = tmp_path / "page.html"

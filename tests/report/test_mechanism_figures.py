@@ -32,10 +32,18 @@ def parts():
     energy[:, :, 4] = -0.5
     along = np.arange(3.0 * 2 * 2 * 4).reshape(3, 2, 2, 4)
     return xr.Dataset(
-        {"part_energy": (("case", "row", "part"), energy),
-         "station_energy": (("case", "row", "raceway", "station"), along)},
-        {"case": CASES, "row": ROWS, "part": list(PARTS), "raceway": ["inner", "outer"],
-         "station": [-0.03, -0.01, 0.01, 0.03], "wind_speed": ("case", [12.0, 12.0, 24.0])},
+        {
+            "part_energy": (("case", "row", "part"), energy),
+            "station_energy": (("case", "row", "raceway", "station"), along),
+        },
+        {
+            "case": CASES,
+            "row": ROWS,
+            "part": list(PARTS),
+            "raceway": ["inner", "outer"],
+            "station": [-0.03, -0.01, 0.01, 0.03],
+            "wind_speed": ("case", [12.0, 12.0, 24.0]),
+        },
     )
 
 
@@ -54,12 +62,18 @@ def numbers():
 @pytest.fixture
 def summary():
     return xr.Dataset(
-        {"base": ("quantity", [2.0, 100.0]),
-         "range": (("quantity", "quantile"), [[1.0, 2.0, 4.0], [50.0, 80.0, 100.0]]),
-         "rank_correlation": (("quantity", "parameter"), [[0.9, -0.2], [np.nan, -0.8]]),
-         "probability": (("quantity", "parameter"), [[1e-6, 0.4], [np.nan, 1e-4]])},
-        {"quantity": ["energy", "ratio"], "units": ("quantity", ["J", "1"]), "quantile": [0.05, 0.5, 0.95],
-         "parameter": ["clearance", "osculation"]},
+        {
+            "base": ("quantity", [2.0, 100.0]),
+            "range": (("quantity", "quantile"), [[1.0, 2.0, 4.0], [50.0, 80.0, 100.0]]),
+            "rank_correlation": (("quantity", "parameter"), [[0.9, -0.2], [np.nan, -0.8]]),
+            "probability": (("quantity", "parameter"), [[1e-6, 0.4], [np.nan, 1e-4]]),
+        },
+        {
+            "quantity": ["energy", "ratio"],
+            "units": ("quantity", ["J", "1"]),
+            "quantile": [0.05, 0.5, 0.95],
+            "parameter": ["clearance", "osculation"],
+        },
     )
 
 

@@ -68,8 +68,9 @@ def test_plain_and_curved_contacts_agree_with_everything_off(bearing, lubricant,
             assert there.detail[:3] == (0.0, 0.0, 0.0) and here.detail is None
             spent = (friction_power(c, slip, -0.4, f.spin, f.detail) for c, f in ((one, here), (other, there)))
             assert next(spent) == pytest.approx(next(spent), rel=1e-12)
-    cage, bare = cage_force(rich.cage._replace(traction=plain.cage.traction), load, slip, 0.2, 0.5), cage_force(
-        plain.cage, load, slip, 0.2, 0.5
+    cage, bare = (
+        cage_force(rich.cage._replace(traction=plain.cage.traction), load, slip, 0.2, 0.5),
+        cage_force(plain.cage, load, slip, 0.2, 0.5),
     )
     assert cage[:3] == pytest.approx(bare[:3], rel=1e-12)
 
@@ -114,19 +115,25 @@ def test_roller_as_a_whole_loses_what_heats_its_contacts(physical, load, slip, r
     spent = sum(
         friction_power(contact, slip, ring_speed, force, detail)
         for contact, force, detail in (
-            (model.inner, forces.inner, forces.inner_detail), (model.outer, forces.outer, forces.outer_detail)
+            (model.inner, forces.inner, forces.inner_detail),
+            (model.outer, forces.outer, forces.outer_detail),
         )
     ) + abs(forces.cage * surface)
     into_spin = surface * (forces.inner + forces.outer + forces.cage)
     given_by_rings = 0.0
     for contact, place, up, normal in (
-        (model.inner, INNER_RADIUS, 1.0, at.inner_load), (model.outer, OUTER_RADIUS, -1.0, at.outer_load)
+        (model.inner, INNER_RADIUS, 1.0, at.inner_load),
+        (model.outer, OUTER_RADIUS, -1.0, at.outer_load),
     ):
         mean = ring_speed - 0.5 * slip
         found = raceway_force(contact, normal, slip, ring_speed, abs(mean), 0.0)
-        arm = place * found.pull - math.sin(ALPHA) * found.detail.skew + up * math.cos(ALPHA) * RADIUS * found.detail.lag
+        arm = (
+            place * found.pull - math.sin(ALPHA) * found.detail.skew + up * math.cos(ALPHA) * RADIUS * found.detail.lag
+        )
         given_by_rings += ring_speed / place * arm
-    assert given_by_rings == pytest.approx(spent + into_spin, abs=1e-10 * (abs(spent) + abs(into_spin) + abs(given_by_rings)))
+    assert given_by_rings == pytest.approx(
+        spent + into_spin, abs=1e-10 * (abs(spent) + abs(into_spin) + abs(given_by_rings))
+    )
 
 
 @rings

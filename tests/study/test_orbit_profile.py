@@ -30,9 +30,7 @@ def constant():
 
 
 def test_position_is_that_of_a_uniform_orbit(constant):
-    ratio = geometry.inner_contact_radius(run_input(constant).bearing) / (
-        2 * run_input(constant).bearing.pitch_radius
-    )
+    ratio = geometry.inner_contact_radius(run_input(constant).bearing) / (2 * run_input(constant).bearing.pitch_radius)
     turned = np.degrees(SPEED * ratio * constant.time.values)
     angle = position(constant)
     np.testing.assert_allclose(angle.sel(row="downwind", roller=0), turned % 360.0, atol=1e-6)

@@ -167,8 +167,10 @@ def test_peak_power_verdicts_follow_the_numbers():
 def test_ratio_to_static_verdict_follows_the_numbers(study):
     numbers = paper_numbers(study)
     energy = float(numbers.orbit_energy.sel(case="14B", row="downwind"))
-    found = {scale: verdicts.varying_over_static(numbers, "14B", {"downward": {"downwind": energy / scale}})
-             for scale in (1.0, 100.0)}
+    found = {
+        scale: verdicts.varying_over_static(numbers, "14B", {"downward": {"downwind": energy / scale}})
+        for scale in (1.0, 100.0)
+    }
     assert found[1.0].verdict == verdicts.DIFFERS
     assert found[100.0].verdict == verdicts.AGREES
     assert found[100.0].numbers["downward_downwind"] == pytest.approx(100.0)
@@ -307,8 +309,10 @@ def test_everything_is_written_says_the_same_and_is_used_again(quick, study, mon
     assert plotted["data"] == paper_numbers(study).energy_ratio.values.tolist()
     assert plotted["attrs"]["units"] == "1"
     assert len(summary["headline"]) == 10
-    assert [one["models"]["paper"]["found"] in line for one, line in
-            zip(summary["statements"], summary["headline"][1:9], strict=True)] == [True] * 8
+    assert [
+        one["models"]["paper"]["found"] in line
+        for one, line in zip(summary["statements"], summary["headline"][1:9], strict=True)
+    ] == [True] * 8
     assert summary["failed_rollers"]["study"] == 0
     assert calls[-1] == ("report", 1, 1)
     assert {label for label, _, _ in calls} <= set(module.stages())
@@ -351,17 +355,33 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study,
     assert "anywhere in their ranges" not in rows["paper"]["found"]
     assert euler["physical"]["verdict"] == verdicts.NOT_COMPUTED
     assert "paper: " in summary["headline"][1] and "; physical: " in summary["headline"][1]
-    for name in ("study_physical.nc", "figure_4a_physical.svg", "sensitivity_physical.png", "figure_3a_physical.svg",
-                 "mechanisms_physical.png", "uncertainty_physical.svg", "figures_4_5_models.png", "friction_torque.svg"):
+    for name in (
+        "study_physical.nc",
+        "figure_4a_physical.svg",
+        "sensitivity_physical.png",
+        "figure_3a_physical.svg",
+        "mechanisms_physical.png",
+        "uncertainty_physical.svg",
+        "figures_4_5_models.png",
+        "friction_torque.svg",
+    ):
         assert (tmp_path / "results" / name).is_file()
     torque = summary["figures"]["friction_torque_physical"]["data_vars"]["torque"]
     assert 1.0 < torque["data"] < 1e3
     assert torque["attrs"]["units"] == "N m"
     assert summary["figures"]["uncertainty_physical"]["attrs"] == {"completed": 2, "failed": 0, "refused": 0}
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
-    for words in ("Under <em>physical</em>", 'id="rollers-physical"', "Figure 4a: energy over mean wind speed (model physical)",
-                  "case 14B, model physical", "Figure 3a: constant load and speed (model physical)",
-                  'id="mechanisms"', 'id="uncertainty"', 'id="torque"', "2 of 2 samples completed"):
+    for words in (
+        "Under <em>physical</em>",
+        'id="rollers-physical"',
+        "Figure 4a: energy over mean wind speed (model physical)",
+        "case 14B, model physical",
+        "Figure 3a: constant load and speed (model physical)",
+        'id="mechanisms"',
+        'id="uncertainty"',
+        'id="torque"',
+        "2 of 2 samples completed",
+    ):
         assert words in page
 
 

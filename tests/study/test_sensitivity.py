@@ -117,7 +117,10 @@ def test_what_is_refused_all_the_way_is_an_error(case):
 
 def test_a_variation_of_ones_own(case):
     density = Variation(
-        name="roller density", unit="kg/m3", low=7000.0, high=8000.0,
+        name="roller density",
+        unit="kg/m3",
+        low=7000.0,
+        high=8000.0,
         base=lambda case: case.bearing.density,
         apply=lambda case, value: dataclasses.replace(case, bearing=case.bearing.replace(density=value)),
     )

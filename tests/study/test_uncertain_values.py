@@ -10,10 +10,17 @@ from macroslip.study.uncertain_values import VALUES, with_values
 from macroslip.study.uncertainty import _base_values
 
 KEYS = {
-    module.CLEARANCE: "diametral_clearance", module.OSCULATION: "osculation_inner", module.DIAMETER: "roller_diameter",
-    module.LENGTH: "roller_length", module.ROUGHNESS: "composite_roughness", module.HARDNESS: "hardness",
-    module.CAGE: "cage_youngs_modulus", module.LIMITING: "limiting_shear", module.BOUNDARY: "boundary_friction",
-    module.STARVATION: "starvation", module.TEMPERATURE: "inlet_temperature",
+    module.CLEARANCE: "diametral_clearance",
+    module.OSCULATION: "osculation_inner",
+    module.DIAMETER: "roller_diameter",
+    module.LENGTH: "roller_length",
+    module.ROUGHNESS: "composite_roughness",
+    module.HARDNESS: "hardness",
+    module.CAGE: "cage_youngs_modulus",
+    module.LIMITING: "limiting_shear",
+    module.BOUNDARY: "boundary_friction",
+    module.STARVATION: "starvation",
+    module.TEMPERATURE: "inlet_temperature",
 }
 
 

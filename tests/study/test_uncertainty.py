@@ -102,9 +102,12 @@ def synthetic(sample, count=32):
     window = np.broadcast_to(np.array([2.0, 1.0]), (count + 1, 2))
     dims = {"orbit_energy": ("sample", "case", "row", "interface"), "peak_power": ("sample", "case", "row")}
     new = {
-        "orbit_energy": (dims["orbit_energy"], energy), "peak_power": (dims["peak_power"], peak),
-        "window_energy": (("sample", "case"), window), "torque": (("sample", "case"), window),
-        "value": (("sample", "parameter"), values), "outcome": ("sample", np.zeros(count + 1, dtype=np.int8)),
+        "orbit_energy": (dims["orbit_energy"], energy),
+        "peak_power": (dims["peak_power"], peak),
+        "window_energy": (("sample", "case"), window),
+        "torque": (("sample", "case"), window),
+        "value": (("sample", "parameter"), values),
+        "outcome": ("sample", np.zeros(count + 1, dtype=np.int8)),
         "reason": ("sample", [""] * (count + 1)),
     }
     kept = sample.drop_dims("sample").drop_vars("sample", errors="ignore")

@@ -37,7 +37,10 @@ def test_parts_add_up_and_have_units(result):
     np.testing.assert_allclose(parts, found.torque, rtol=1e-12)
     assert (found.contact_torque >= 0.0).all()
     assert {name: one.attrs["units"] for name, one in found.data_vars.items()} == {
-        "shaft_speed": "rad/s", "torque": "N m", "contact_torque": "N m", "drag_torque": "N m",
+        "shaft_speed": "rad/s",
+        "torque": "N m",
+        "contact_torque": "N m",
+        "drag_torque": "N m",
     }
 
 

@@ -21,7 +21,7 @@ def oil_of(kinematic):
 def exponent(part, factor=1.01, **changed):
     """Local power with which a part of the torque grows as one input grows."""
     case = {"radial_load": 3e5, "axial_load": 0.0, "shaft_speed": 2.0} | changed.pop("case", {})
-    (key, value), = changed.items()
+    ((key, value),) = changed.items()
     low, high = (getattr(skf_torque(BEARING, OIL, **case | {key: v}), part) for v in (value, factor * value))
     return np.log(high / low) / np.log(factor)
 

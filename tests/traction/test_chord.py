@@ -36,10 +36,17 @@ def local_stress(oil, pressure, film, slip):
 
 def adaptive(oil, pressure, film, slip):
     """∫ τ(p cos θ) cos θ dθ over a quarter turn, the pressure's decades apart."""
-    places = [math.acos(min(1.0, p / pressure)) for p in (1e-4 * pressure, 1e-2 * pressure, 0.1 * pressure, 0.5 * pressure)]
+    places = [
+        math.acos(min(1.0, p / pressure)) for p in (1e-4 * pressure, 1e-2 * pressure, 0.1 * pressure, 0.5 * pressure)
+    ]
     found, error = quad(
-        lambda t: local_stress(oil, pressure * math.cos(t), film, slip) * math.cos(t), 0.0, 0.5 * math.pi,
-        points=places, limit=500, epsabs=0.0, epsrel=1e-9,
+        lambda t: local_stress(oil, pressure * math.cos(t), film, slip) * math.cos(t),
+        0.0,
+        0.5 * math.pi,
+        points=places,
+        limit=500,
+        epsabs=0.0,
+        epsrel=1e-9,
     )
     assert error < 1e-7 * found
     return found
@@ -69,7 +76,9 @@ def test_light_chord_is_isoviscous():
     """Far below the pressures that thicken oil, q = η0 Δu/h ∫cos θ dθ = η0 Δu/h."""
     for laws in CHOICES.values():
         oil = fluid(laws, OIL)
-        assert chord_stress(oil, 1e3, 1e-3, 1e-7) == pytest.approx(0.54 * 1e-7 / 1e-3, rel=4e-3 if oil.rheology == 1 else 1e-4)
+        assert chord_stress(oil, 1e3, 1e-3, 1e-7) == pytest.approx(
+            0.54 * 1e-7 / 1e-3, rel=4e-3 if oil.rheology == 1 else 1e-4
+        )
 
 
 @pytest.mark.parametrize("film", [2e-7, 1e-6])
@@ -79,7 +88,11 @@ def test_newtonian_barus_chord_is_crooks(film, slip):
     with np.errstate(all="raise"):
         exact, _ = quad(
             lambda t: math.cos(t) * shear_stress(0.54 * math.exp(21.0 * 0.9 * math.cos(t)), 0.056, 0.125, film, slip),
-            0.0, 0.5 * math.pi, epsabs=0.0, epsrel=1e-11, limit=300,
+            0.0,
+            0.5 * math.pi,
+            epsabs=0.0,
+            epsrel=1e-11,
+            limit=300,
         )
     assert chord_stress(oil, 0.9e9, film, slip) == pytest.approx(exact, rel=2e-5)
 

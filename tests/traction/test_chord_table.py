@@ -86,7 +86,9 @@ def test_light_and_thick_films_of_the_cage(name):
         assert found == pytest.approx(exact(table.fluid, pressure, film, slip), rel=1e-3), (pressure, film, slip)
 
 
-points = st.tuples(st.floats(4.0, 9.5), st.floats(-7.5, -3.5), st.floats(-13.0, 0.5)).map(lambda x: [10.0**y for y in x])
+points = st.tuples(st.floats(4.0, 9.5), st.floats(-7.5, -3.5), st.floats(-13.0, 0.5)).map(
+    lambda x: [10.0**y for y in x]
+)
 
 
 @choices

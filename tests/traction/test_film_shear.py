@@ -40,8 +40,14 @@ def shoot(top):
     span = (0.0, 2.0 * math.sqrt(2.0 * top) + 3.0)
     step = 0.1 * min(math.sqrt(top), 1.0)
     found = solve_ivp(
-        lambda _, s: [s[1], -math.exp(s[0])], span, [top, 0.0], events=wall, method="DOP853",
-        rtol=3e-14, atol=1e-17, max_step=step,
+        lambda _, s: [s[1], -math.exp(s[0])],
+        span,
+        [top, 0.0],
+        events=wall,
+        method="DOP853",
+        rtol=3e-14,
+        atol=1e-17,
+        max_step=step,
     )
     half, slope = found.t[-1], found.y[1, -1]
     return half - found.y[0, -1] / slope, -slope
@@ -188,8 +194,10 @@ def test_stress_peaks_where_power_reaches_eight_k_over_beta_h(rheology, viscosit
     grid = np.linspace(math.log(1e-6), math.log(1e4), 2000)
     best = grid[np.argmax([heated_shear(rheology, *parts(x))[0] for x in grid])]
     found = minimize_scalar(
-        lambda x: -math.log(heated_shear(rheology, *parts(x))[0]), bounds=(best - 0.05, best + 0.05),
-        method="bounded", options={"xatol": 1e-9},
+        lambda x: -math.log(heated_shear(rheology, *parts(x))[0]),
+        bounds=(best - 0.05, best + 0.05),
+        method="bounded",
+        options={"xatol": 1e-9},
     )
     stress, _, feedback = heated_shear(rheology, *parts(found.x))
     flat = 1e-3 if rheology == LIMITING_SHEAR else 1e-6

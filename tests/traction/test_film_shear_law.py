@@ -13,7 +13,13 @@ from macroslip.lubricant import Lubricant
 from macroslip.roller.contact_force import slip_field
 from macroslip.roller.model import roller_model
 from macroslip.traction.barus_crook import traction as barus_crook_traction
-from macroslip.traction.film_shear_law import FilmShear, chord_traction, microslip_traction, rising_slip, uniform_traction
+from macroslip.traction.film_shear_law import (
+    FilmShear,
+    chord_traction,
+    microslip_traction,
+    rising_slip,
+    uniform_traction,
+)
 from macroslip.traction.slip_field import SlipField, slip_at
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
@@ -154,7 +160,9 @@ def test_power_is_never_negative(name):
         load, film = 10.0 ** rng.uniform([0.0, -7.0], [5.3, -5.0])
         ring_speed = rng.uniform(-1.0, 1.0)
         slip = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-9.0, -0.5)
-        found = microslip_traction(here.traction, load, film, slip_field(here.shape, slip, ring_speed), here.shape, False)
+        found = microslip_traction(
+            here.traction, load, film, slip_field(here.shape, slip, ring_speed), here.shape, False
+        )
         spent = power(found, here.shape, slip, ring_speed)
         scale = abs(slip * found.force) + abs(ring_speed * (found.lag + found.skew * here.shape.spin_ratio))
         assert spent >= -1e-12 * scale
@@ -181,12 +189,18 @@ def test_no_heat_and_no_slip_are_beyond_the_bound():
             for slip in (0.0, 1e-300, 1e-12, 10.0, 1e6):
                 force, *slopes = uniform_traction(here.traction, load, film, slip)
                 assert abs(force) <= GAMMA * load * (1 + 1e-4) and np.isfinite(slopes).all(), (load, film, slip)
-                found = microslip_traction(here.traction, load, film, slip_field(here.shape, slip, -0.4), here.shape, False)
+                found = microslip_traction(
+                    here.traction, load, film, slip_field(here.shape, slip, -0.4), here.shape, False
+                )
                 assert np.isfinite(found).all() and abs(found.force) <= GAMMA * load * (1 + 1e-4), (load, film, slip)
 
 
 @choices
-@given(load=decades(0.5, 5.0), slip=st.floats(-0.06, 0.06).map(lambda x: round(x, 9)), ring_speed=st.sampled_from([-0.4, 0.15]))
+@given(
+    load=decades(0.5, 5.0),
+    slip=st.floats(-0.06, 0.06).map(lambda x: round(x, 9)),
+    ring_speed=st.sampled_from([-0.4, 0.15]),
+)
 @settings(deadline=None, max_examples=60)
 def test_slopes_are_differences_of_the_function_itself(name, load, slip, ring_speed):
     here = contact(CHOICES[name])
@@ -219,8 +233,12 @@ def test_uniform_slopes_are_differences():
             s = 1e-5
 
             def log_change(*factors):
-                ends = [math.log(uniform_traction(law, *(x * math.exp(g * y) for x, y in zip((load, film, slip), factors)))[0])
-                        for g in (s, -s)]
+                ends = [
+                    math.log(
+                        uniform_traction(law, *(x * math.exp(g * y) for x, y in zip((load, film, slip), factors)))[0]
+                    )
+                    for g in (s, -s)
+                ]
                 return (ends[0] - ends[1]) / (2 * s)
 
             tolerance = {"rel": 1e-4, "abs": 2e-5}
@@ -235,7 +253,9 @@ def test_uniform_slopes_are_differences():
 def test_everything_turns_its_sign_with_all_speeds(name, load, slip, ring_speed):
     here = contact(CHOICES[name])
     ahead, back = (
-        microslip_traction(here.traction, load, 5e-7, slip_field(here.shape, s * slip, s * ring_speed), here.shape, False)
+        microslip_traction(
+            here.traction, load, 5e-7, slip_field(here.shape, s * slip, s * ring_speed), here.shape, False
+        )
         for s in (1, -1)
     )
     odd = ("force", "lag", "skew", "force_by_film", "lag_by_film")
@@ -250,7 +270,8 @@ def test_the_other_row_is_the_mirror_image(ring):
     one, other = (contact(FULL, ring, sign) for sign in (1, -1))
     for slip in (-0.01, 1e-4, 0.02):
         here, there = (
-            microslip_traction(c.traction, 3e4, 6e-7, slip_field(c.shape, slip, -0.4), c.shape, False) for c in (one, other)
+            microslip_traction(c.traction, 3e4, 6e-7, slip_field(c.shape, slip, -0.4), c.shape, False)
+            for c in (one, other)
         )
         assert there == pytest.approx(here._replace(skew=-here.skew), rel=1e-9)
 

@@ -117,7 +117,9 @@ def speeds_up_to(largest):
     return st.floats(-largest, largest).map(lambda x: round(x, 12))
 
 
-fields = st.builds(SlipField, speeds_up_to(0.05), speeds_up_to(30.0), speeds_up_to(0.6), st.sampled_from([0.0, -1 / RADIUS]))
+fields = st.builds(
+    SlipField, speeds_up_to(0.05), speeds_up_to(30.0), speeds_up_to(0.6), st.sampled_from([0.0, -1 / RADIUS])
+)
 
 
 @given(fields)
@@ -137,7 +139,9 @@ def test_lines_are_the_places_where_slip_changes_sign(field):
         if abs(line) < HALF:
             value = slip_at(field, CONTOUR, line)
             slope = field.curvature_rate * line / CONTOUR - field.spin_rate
-            assert abs(value) <= 1e-12 * scale or (lines.first == lines.second and abs(slope) <= 1e-9 * (1 + abs(slope)))
+            assert abs(value) <= 1e-12 * scale or (
+                lines.first == lines.second and abs(slope) <= 1e-9 * (1 + abs(slope))
+            )
     # Between the ends and the lines slip keeps its sign.
     for left, right in ((-HALF, lines.first), (lines.first, lines.second), (lines.second, HALF)):
         if right - left > 1e-6:
@@ -178,7 +182,10 @@ def test_movement_of_lines_is_their_difference(field):
     # has no zero the division at its extremum has no bearing on the integral.
     bend = 0.5 * field.curvature_rate / CONTOUR
     assume(abs(bend) > 1e-3 and lines.first < lines.second)
-    assume(abs(field.spin_rate**2 - 4.0 * bend * field.sliding) > 1e-3 * (abs(field.spin_rate) + abs(bend) * HALF) ** 2 + 1e-5)
+    assume(
+        abs(field.spin_rate**2 - 4.0 * bend * field.sliding)
+        > 1e-3 * (abs(field.spin_rate) + abs(bend) * HALF) ** 2 + 1e-5
+    )
     for name in ("first", "second"):
         here = getattr(lines, name)
         if min(abs(abs(getattr(x, name)) - HALF) for x in (lines, ahead, behind)) < 1e-5 and abs(here) < HALF:

@@ -36,9 +36,7 @@ def split(place, count):
 
 def weights(place, derivative=0):
     """Weights of the four coefficients around a place in [0, 1]."""
-    return tuple(
-        float(BSpline(np.arange(-3.0, 5.0), np.eye(4)[n], 3)(place, nu=derivative)) for n in range(4)
-    )
+    return tuple(float(BSpline(np.arange(-3.0, 5.0), np.eye(4)[n], 3)(place, nu=derivative)) for n in range(4))
 
 
 @given(place=places[2])

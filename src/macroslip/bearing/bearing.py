@@ -74,9 +74,9 @@ class Bearing(Record):
     axial_factor_y2: Annotated[
         float | None, NUMBER, Field(gt=0, le=100, description="axial load factor Y2, above e")
     ] = None
-    axial_factor_y0: Annotated[
-        float | None, NUMBER, Field(gt=0, le=100, description="static axial load factor Y0")
-    ] = None
+    axial_factor_y0: Annotated[float | None, NUMBER, Field(gt=0, le=100, description="static axial load factor Y0")] = (
+        None
+    )
     mass: Annotated[float | None, MASS, Field(gt=0, le=1e6, description="mass of the bearing")] = None
 
     rollers_per_row: Annotated[int, NUMBER, Field(ge=3, le=500, description="number of rollers in each row")]
@@ -90,9 +90,7 @@ class Bearing(Record):
     pitch_radius: Annotated[
         float, LENGTH, Field(gt=0, le=5, description="distance of the roller centres from the bearing axis")
     ]
-    outer_raceway_radius: Annotated[
-        float, LENGTH, Field(gt=0, le=10, description="radius of the outer raceway sphere")
-    ]
+    outer_raceway_radius: Annotated[float, LENGTH, Field(gt=0, le=10, description="radius of the outer raceway sphere")]
     row_offset: Annotated[
         float, LENGTH, Field(ge=0, le=5, description="axial distance of the roller centres from the mid-plane")
     ]

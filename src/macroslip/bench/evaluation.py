@@ -196,9 +196,7 @@ def quadrature_times(histories: list[History], tolerance: float) -> dict[str, fl
     points = np.array(exponents), np.array(heatings)
     closed = _nanoseconds(_closed_form_again, *points, count=points[0].size)
     summed = _nanoseconds(_quadrature_again, *points, count=points[0].size)
-    worst = max(
-        abs(patch_by_quadrature(p, q)[0] / patch_integral(p, q)[0] - 1.0) for p, q in zip(*points, strict=True)
-    )
+    worst = max(abs(patch_by_quadrature(p, q)[0] / patch_integral(p, q)[0] - 1.0) for p, q in zip(*points, strict=True))
     return {
         "closed_form_ns": closed,
         "quadrature_ns": summed,

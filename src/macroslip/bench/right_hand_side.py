@@ -49,9 +49,21 @@ def unpack(d):
     """Model and motion from the array that `pack` makes; the motion's arrays are views of it."""
     k = _MODEL
     model = RollerModel(
-        d[k], d[k + 1], d[k + 2], d[k + 3], d[k + 4], d[k + 5],
-        d[k + 6], d[k + 7], d[k + 8], d[k + 9], d[k + 10], d[k + 11],
-        _contact(d, _INNER), _contact(d, _OUTER), _contact(d, _CAGE),
+        d[k],
+        d[k + 1],
+        d[k + 2],
+        d[k + 3],
+        d[k + 4],
+        d[k + 5],
+        d[k + 6],
+        d[k + 7],
+        d[k + 8],
+        d[k + 9],
+        d[k + 10],
+        d[k + 11],
+        _contact(d, _INNER),
+        _contact(d, _OUTER),
+        _contact(d, _CAGE),
     )
     n = int(d[SAMPLES])
     k = _MOTION

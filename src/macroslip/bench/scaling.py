@@ -50,7 +50,9 @@ def real_time(histories: list[History], tolerance: float, report: Callable[[int,
         seconds = cpu_seconds([history], tolerance)
         energy, spin = errors(own.solve(history, tolerance), own.reference(history))
         found[history.name] = {
-            "factor": (history.end - history.start) / seconds, "energy_error": energy, "spin_error": spin,
+            "factor": (history.end - history.start) / seconds,
+            "energy_error": energy,
+            "spin_error": spin,
             "cpu_seconds": seconds,
         }
         simulated, spent = simulated + history.end - history.start, spent + seconds

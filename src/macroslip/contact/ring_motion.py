@@ -55,9 +55,7 @@ def largest_load(ring, angle, displacement):
     return largest, sample
 
 
-def ring_motion(
-    loads: BearingLoads, bearing: Bearing, model: RollerModel, highest_load: float
-) -> tuple[Motion, float]:
+def ring_motion(loads: BearingLoads, bearing: Bearing, model: RollerModel, highest_load: float) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
     Parameters

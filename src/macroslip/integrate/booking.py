@@ -61,8 +61,26 @@ def book_energy(record, orbit, new_orbit, before, found):
 
 @jit_part
 def book_peaks(
-    record, model, motion, start_angle, interval, limits, time, h, slip, at, forces, stages, times,
-    before, found, orbit, peaks, top_power, edge, jumps,
+    record,
+    model,
+    motion,
+    start_angle,
+    interval,
+    limits,
+    time,
+    h,
+    slip,
+    at,
+    forces,
+    stages,
+    times,
+    before,
+    found,
+    orbit,
+    peaks,
+    top_power,
+    edge,
+    jumps,
 ):
     """Follow the powers over a step, between the stages too where the roller may just be snapping back.
 
@@ -105,9 +123,7 @@ def book_details(record, model, h, orbit, steps, at1, at2, at3, stages, found):
     book_stage(record, model, at1, stages.f1, stages.v1, h * WEIGHTS[0])
     book_stage(record, model, at2, stages.f2, stages.v2, h * WEIGHTS[1])
     book_stage(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])
-    book_step(
-        record, model, at3, stages.f3, stages.v3, h, orbit, found.inner_energy, found.outer_energy, steps
-    )
+    book_step(record, model, at3, stages.f3, stages.v3, h, orbit, found.inner_energy, found.outer_energy, steps)
 
 
 @jit_part

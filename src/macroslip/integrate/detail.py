@@ -193,4 +193,3 @@ def _book_step_of(record, model, at, forces, slip, span, orbit, inner, outer, st
             record, model, at, forces, slip, span, orbit, inner, outer, steps
         )
     return lambda record, model, at, forces, slip, span, orbit, inner, outer, steps: None
-

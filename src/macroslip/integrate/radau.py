@@ -95,7 +95,9 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
             last = interval
             sample_step = motion.time[interval + 1] - motion.time[interval]
             if zone != EDGE and step > 2.0 * sample_step and (jumps or zone != FIRM):
-                while last < classes.size - 1 and classes[last + 1] == zone and motion.time[last + 1] < stops[next_stop]:
+                while (
+                    last < classes.size - 1 and classes[last + 1] == zone and motion.time[last + 1] < stops[next_stop]
+                ):
                     last += 1
             barrier = min(motion.time[last + 1], stops[next_stop])
             if jumps and at.interference > limits.firm and time == motion.time[interval]:

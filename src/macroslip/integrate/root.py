@@ -18,12 +18,8 @@ _HOT_CHANGE, _SMALL_CHANGE = 0.2, 1e-6
 @jit
 def rising_at(model, inner_load, outer_load, ring_speed, entrainment_speed):
     """Slip up to which traction rises at both raceways at the given loads [N] and speeds [m/s]."""
-    inner = steady_slip(
-        model.inner, inner_load, entrainment_speed, slip_variation(model.inner, inner_load, ring_speed)
-    )
-    outer = steady_slip(
-        model.outer, outer_load, entrainment_speed, slip_variation(model.outer, outer_load, ring_speed)
-    )
+    inner = steady_slip(model.inner, inner_load, entrainment_speed, slip_variation(model.inner, inner_load, ring_speed))
+    outer = steady_slip(model.outer, outer_load, entrainment_speed, slip_variation(model.outer, outer_load, ring_speed))
     return min(inner, outer)
 
 

@@ -75,12 +75,14 @@ class BearingLoads:
         array([      0., -343000.,       0.])
         """
         time = series.uniform_time(duration, step)
-        return cls(time, np.full(time.size, shaft_speed), series.constant_vector("force", force, time.size),
-                   "constant load")
+        return cls(
+            time, np.full(time.size, shaft_speed), series.constant_vector("force", force, time.size), "constant load"
+        )
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str], *, start: float | None = None,
-             end: float | None = None) -> BearingLoads:
+    def read(
+        cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None
+    ) -> BearingLoads:
         """Read a table of main-bearing loads (``.parquet``, ``.csv``) with units in its column names.
 
         Parameters
@@ -95,8 +97,11 @@ class BearingLoads:
         InputError
             The file is absent, empty or damaged, lacks a column, or holds values that `BearingLoads` refuses.
         """
-        path, _ = source_file(path, _FILE_KINDS, "Hub loads from OpenFAST become bearing loads by "
-                                                 "main_bearing_load(HubLoads.read(path), Drivetrain()).")
+        path, _ = source_file(
+            path,
+            _FILE_KINDS,
+            "Hub loads from OpenFAST become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain()).",
+        )
         from macroslip.loads.table import read_bearing_table
 
         return cls(**series.cut(read_bearing_table(path), start, end, str(path)), source=str(path))

@@ -26,8 +26,16 @@ from macroslip.loads.hub_loads import bundled_cases
 
 SOURCE_RATE, RATE = 50, 20
 PASS_BAND, STOP_BAND = 8.5, 10.0
-COLUMNS = {"rotor_speed_rpm": "rpm", "fx_N": "N", "fy_N": "N", "fz_N": "N", "mx_Nm": "N m", "my_Nm": "N m",
-           "mz_Nm": "N m", "wind_mps": "m/s"}
+COLUMNS = {
+    "rotor_speed_rpm": "rpm",
+    "fx_N": "N",
+    "fy_N": "N",
+    "fz_N": "N",
+    "mx_Nm": "N m",
+    "my_Nm": "N m",
+    "mz_Nm": "N m",
+    "wind_mps": "m/s",
+}
 
 
 def anti_alias_filter() -> NDArray[np.float64]:
@@ -49,8 +57,9 @@ def decimate(values: NDArray) -> NDArray[np.float64]:
     """Bring a record (n,) or (n, k), sampled at 50 Hz, to 20 Hz; sample 0 stays at its time."""
     from scipy.signal import resample_poly
 
-    return resample_poly(np.asarray(values, dtype=np.float64), 2, 5, axis=0, window=anti_alias_filter(),
-                         padtype="antireflect")
+    return resample_poly(
+        np.asarray(values, dtype=np.float64), 2, 5, axis=0, window=anti_alias_filter(), padtype="antireflect"
+    )
 
 
 def write_case(case: str, columns: Mapping[str, NDArray], provenance: Mapping[str, str], target: Path) -> None:
@@ -66,17 +75,23 @@ def write_case(case: str, columns: Mapping[str, NDArray], provenance: Mapping[st
         **provenance,
         "nature": "simulated hub loads, not measurements",
         "frame": "rotor on shaft at the hub centre; non-rotating shaft axes: x downwind along the shaft, z up, "
-                 "y = z cross x",
+        "y = z cross x",
         "time": "0 s is simulation time 60 s",
         "decimation": f"{SOURCE_RATE} Hz to {RATE} Hz, symmetric Kaiser FIR, gain 1 within 1e-4 up to {PASS_BAND} Hz "
-                      f"and below 1e-4 from {STOP_BAND:g} Hz, point-reflected ends",
+        f"and below 1e-4 from {STOP_BAND:g} Hz, point-reflected ends",
         "units": json.dumps({"time_s": "s"} | COLUMNS),
         "made_by": "macroslip.loads.bundle",
     }
     table = pa.table({"time_s": time} | values).replace_schema_metadata(metadata)
     # Byte-stream split groups the exponents of neighbouring samples, which compress; their mantissas do not.
-    pq.write_table(table, target / f"{case}.parquet", compression="zstd", compression_level=19, use_dictionary=False,
-                   use_byte_stream_split=True)
+    pq.write_table(
+        table,
+        target / f"{case}.parquet",
+        compression="zstd",
+        compression_level=19,
+        use_dictionary=False,
+        use_byte_stream_split=True,
+    )
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -79,8 +79,9 @@ class HubLoads:
         return HubLoads(**series.cut(columns, start, end, self.source), source=self.source)
 
     @classmethod
-    def constant(cls, force: ArrayLike, moment: ArrayLike, shaft_speed: float, duration: float, *,
-                 step: float = 0.05) -> HubLoads:
+    def constant(
+        cls, force: ArrayLike, moment: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05
+    ) -> HubLoads:
         """The same force (3,) [N], moment (3,) [N m] and shaft speed [rad/s] from t = 0 to `duration` [s].
 
         The samples are equally spaced, by at most `step` [s].
@@ -91,8 +92,13 @@ class HubLoads:
         12001
         """
         time = series.uniform_time(duration, step)
-        return cls(time, np.full(time.size, shaft_speed), series.constant_vector("force", force, time.size),
-                   series.constant_vector("moment", moment, time.size), "constant load")
+        return cls(
+            time,
+            np.full(time.size, shaft_speed),
+            series.constant_vector("force", force, time.size),
+            series.constant_vector("moment", moment, time.size),
+            "constant load",
+        )
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None) -> HubLoads:
@@ -130,8 +136,11 @@ class HubLoads:
         2.1431 rad/s, 164.4 kN
         """
         if case not in bundled_cases():
-            raise InputError(f"there is no bundled case {case!r}", allowed=", ".join(bundled_cases()),
-                             remedy="Use HubLoads.read for a file of your own.")
+            raise InputError(
+                f"there is no bundled case {case!r}",
+                allowed=", ".join(bundled_cases()),
+                remedy="Use HubLoads.read for a file of your own.",
+            )
         from macroslip.loads.table import read_hub_table
 
         folder = importlib.resources.files("macroslip.loads") / "cases"

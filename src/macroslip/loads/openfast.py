@@ -44,11 +44,15 @@ _ROTATING_SHEAR = (("LSShftFya", "LSSGagFya"), ("LSShftFza", "LSSGagFza"))
 _BENDING = (("LSSTipMys",), ("LSSTipMzs",))
 _ROTATING_BENDING = (("LSSTipMya",), ("LSSTipMza",))
 
-_MEANING = {"RotSpeed": "(rpm); rotor speed", "LSShftFxa": "(kN); shaft thrust force",
-            "LSShftFys": "(kN); shaft shear force along ys, non-rotating",
-            "LSShftFzs": "(kN); shaft shear force along zs, non-rotating", "LSShftMxa": "(kN-m); shaft torque",
-            "LSSTipMys": "(kN-m); shaft bending moment at the hub about ys, non-rotating",
-            "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating"}
+_MEANING = {
+    "RotSpeed": "(rpm); rotor speed",
+    "LSShftFxa": "(kN); shaft thrust force",
+    "LSShftFys": "(kN); shaft shear force along ys, non-rotating",
+    "LSShftFzs": "(kN); shaft shear force along zs, non-rotating",
+    "LSShftMxa": "(kN-m); shaft torque",
+    "LSSTipMys": "(kN-m); shaft bending moment at the hub about ys, non-rotating",
+    "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating",
+}
 
 
 def read_openfast(path: Path) -> dict[str, NDArray[np.float64]]:
@@ -71,8 +75,12 @@ def read_openfast(path: Path) -> dict[str, NDArray[np.float64]]:
     channels.raise_if_missing()
     if not channels.has_all(_SHEAR):
         _check_weight(*shear, str(path))
-    return {"time": time, "shaft_speed": speed, "force": np.column_stack([thrust, *shear]),
-            "moment": np.column_stack([torque, *bending])}
+    return {
+        "time": time,
+        "shaft_speed": speed,
+        "force": np.column_stack([thrust, *shear]),
+        "moment": np.column_stack([torque, *bending]),
+    }
 
 
 class _Channels:
@@ -98,15 +106,19 @@ class _Channels:
         if unit not in factors:
             invalid = unit.upper() == "INVALID"
             raise InputError(
-                f"channel {self.names[i]} has the unit ({self.units[i]})", where=self.where,
+                f"channel {self.names[i]} has the unit ({self.units[i]})",
+                where=self.where,
                 allowed=", ".join(f"({name})" for name in factors),
                 remedy="OpenFAST writes INVALID for a channel that it cannot compute with this model; check that "
-                       "ElastoDyn is in use." if invalid
-                else "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel.")
+                "ElastoDyn is in use."
+                if invalid
+                else "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel.",
+            )
         return self.data[:, i] * factors[unit]
 
-    def across(self, fixed: tuple[tuple[str, ...], ...], rotating: tuple[tuple[str, ...], ...],
-               factors: dict[str, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def across(
+        self, fixed: tuple[tuple[str, ...], ...], rotating: tuple[tuple[str, ...], ...], factors: dict[str, float]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The components along y and z, from the non-rotating pair or else from the rotating pair."""
         if self.has_all(fixed):
             return self.column(fixed[0], factors), self.column(fixed[1], factors)
@@ -124,17 +136,23 @@ class _Channels:
         if not self.missing:
             return
         if "time" not in self.index:
-            raise InputError("there is no channel Time", where=self.where,
-                             remedy="This is not an OpenFAST time series.")
+            raise InputError(
+                "there is no channel Time", where=self.where, remedy="This is not an OpenFAST time series."
+            )
         lines = "\n".join(f'"{name}"{" " * (14 - len(name))}- {_MEANING[name]}' for name in self.missing)
         gauge = [name for name in self.names if name.lower() in ("lssgagmys", "lssgagmzs", "lssgagmya", "lssgagmza")]
-        note = (f" The file's {' and '.join(gauge)} cannot stand in: they belong to the strain gauge, not to the hub."
-                if gauge and any(name.startswith("LSSTip") for name in self.missing) else "")
+        note = (
+            f" The file's {' and '.join(gauge)} cannot stand in: they belong to the strain gauge, not to the hub."
+            if gauge and any(name.startswith("LSSTip") for name in self.missing)
+            else ""
+        )
         raise InputError(
             f"of the channels needed, {', '.join(self.missing)} {'are' if len(self.missing) > 1 else 'is'} not in the "
-            f"file ({len(self.names)} channels)", where=self.where,
+            f"file ({len(self.names)} channels)",
+            where=self.where,
             allowed=f"{'; '.join(self.looked_for)}, in upper or lower case.{note}",
-            remedy=f"Add to the OutList of the ElastoDyn input file\n{lines}\nand run OpenFAST again.")
+            remedy=f"Add to the OutList of the ElastoDyn input file\n{lines}\nand run OpenFAST again.",
+        )
 
 
 def turn_to_fixed(along_ya: NDArray, along_za: NDArray, azimuth: NDArray) -> tuple[NDArray, NDArray]:
@@ -158,11 +176,13 @@ def _check_weight(fy: NDArray, fz: NDArray, where: str) -> None:
     # The file does not tell AzimB1Up. A value other than zero turns the rotor's weight away from -z: plain to see.
     mean_y, mean_z = float(fy.mean()), float(fz.mean())
     if np.isfinite(mean_y + mean_z) and mean_z >= -abs(mean_y):
-        raise InputError(f"LSShftFya and LSShftFza turned by Azimuth do not point down: mean fy {mean_y:.4g} N, "
-                         f"mean fz {mean_z:.4g} N, where the weight of the rotor should give a negative fz",
-                         where=where, allowed="AzimB1Up = 0 in the ElastoDyn input file, and gravity",
-                         remedy="Add LSShftFys, LSShftFzs, LSSTipMys and LSSTipMzs to the OutList and run OpenFAST "
-                                "again.")
+        raise InputError(
+            f"LSShftFya and LSShftFza turned by Azimuth do not point down: mean fy {mean_y:.4g} N, "
+            f"mean fz {mean_z:.4g} N, where the weight of the rotor should give a negative fz",
+            where=where,
+            allowed="AzimB1Up = 0 in the ElastoDyn input file, and gravity",
+            remedy="Add LSShftFys, LSShftFzs, LSSTipMys and LSSTipMzs to the OutList and run OpenFAST again.",
+        )
 
 
 def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
@@ -171,24 +191,34 @@ def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
     actual, expected = path.stat().st_size, _binary_size(path)
     if actual != expected:
         state = "cut off" if actual < expected else "damaged"
-        raise InputError(f"the file is {state}: its header announces {expected} bytes, it has {actual}",
-                         where=str(path), remedy="Copy the file again, or run OpenFAST again.")
+        raise InputError(
+            f"the file is {state}: its header announces {expected} bytes, it has {actual}",
+            where=str(path),
+            remedy="Copy the file again, or run OpenFAST again.",
+        )
     try:
         # A scale of zero makes values that are not finite; those are reported with their channel and time.
         with np.errstate(all="ignore"):
             data, info, _ = load_binary_output(str(path))
     except Exception as error:  # the reader raises whatever its parsing stumbles over
-        raise InputError(f"not readable as OpenFAST binary output ({error})", where=str(path),
-                         remedy="Copy the file again, or run OpenFAST again.") from error
+        raise InputError(
+            f"not readable as OpenFAST binary output ({error})",
+            where=str(path),
+            remedy="Copy the file again, or run OpenFAST again.",
+        ) from error
     return info["attribute_names"], info["attribute_units"], data
 
 
 def _binary_size(path: Path) -> int:
     """Size [bytes] the file must have by its own header: the official reader trusts the counts in it."""
-    damaged = InputError("the header is not that of an OpenFAST binary file", where=str(path),
-                         allowed="file formats 1 to 4 of OpenFAST",
-                         remedy="Text output must be named .out; otherwise copy the file again or run OpenFAST again.")
+    damaged = InputError(
+        "the header is not that of an OpenFAST binary file",
+        where=str(path),
+        allowed="file formats 1 to 4 of OpenFAST",
+        remedy="Text output must be named .out; otherwise copy the file again or run OpenFAST again.",
+    )
     with path.open("rb") as file:
+
         def take(layout: str) -> tuple:
             return struct.unpack("<" + layout, file.read(struct.calcsize("<" + layout)))
 
@@ -204,8 +234,11 @@ def _binary_size(path: Path) -> int:
             file.seek(8 * channels if packed else 0, io.SEEK_CUR)
             (description,) = take("i")
         except struct.error:
-            raise InputError("the file is cut off within its header", where=str(path),
-                             remedy="Copy the file again, or run OpenFAST again.") from None
+            raise InputError(
+                "the file is cut off within its header",
+                where=str(path),
+                remedy="Copy the file again, or run OpenFAST again.",
+            ) from None
         if description < 0:
             raise damaged
         header = file.tell() + description + 2 * (channels + 1) * name_length
@@ -222,16 +255,22 @@ def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
         data, info = load_ascii_output(str(path))
     except Exception as error:  # the reader raises whatever its parsing stumbles over
         bad_line = _first_bad_line(path)
-        remedy = ("If the run was stopped or the copy cut off, delete the incomplete last line; otherwise run OpenFAST "
-                  "again." if bad_line else "Write the description in the file's head in plain ASCII.")
-        raise InputError(f"not readable as OpenFAST text output ({bad_line or error})", where=str(path),
-                         remedy=remedy) from error
+        remedy = (
+            "If the run was stopped or the copy cut off, delete the incomplete last line; otherwise run OpenFAST again."
+            if bad_line
+            else "Write the description in the file's head in plain ASCII."
+        )
+        raise InputError(
+            f"not readable as OpenFAST text output ({bad_line or error})", where=str(path), remedy=remedy
+        ) from error
     names, units = info["attribute_names"], info["attribute_units"]
     if not names or data.ndim != 2 or data.shape[1] != len(names) or len(units) != len(names):
-        raise InputError(f"not an OpenFAST text output: {len(names)} channel names, {len(units)} units, "
-                         f"data of shape {data.shape}", where=str(path),
-                         allowed="6 lines of description, a line of names, a line of units, then the data",
-                         remedy="Copy the file again, or run OpenFAST again.")
+        raise InputError(
+            f"not an OpenFAST text output: {len(names)} channel names, {len(units)} units, data of shape {data.shape}",
+            where=str(path),
+            allowed="6 lines of description, a line of names, a line of units, then the data",
+            remedy="Copy the file again, or run OpenFAST again.",
+        )
     _check_last_line(path)
     return names, units, data
 
@@ -241,8 +280,11 @@ def _check_last_line(path: Path) -> None:
     with path.open("rb") as file:
         lines = file.read().splitlines(keepends=True)[-2:]
     if not lines[-1].endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip(b"\r\n")):
-        raise InputError("the last line is cut off", where=str(path),
-                         remedy="Copy the file again, run OpenFAST again, or delete that line.")
+        raise InputError(
+            "the last line is cut off",
+            where=str(path),
+            remedy="Copy the file again, run OpenFAST again, or delete that line.",
+        )
 
 
 def _first_bad_line(path: Path) -> str:

@@ -43,8 +43,12 @@ def validate(record: Any, vectors: Mapping[str, Sequence[str]]) -> None:
     source = record.source
     time = _numbers("time", record.time, source)
     if time.ndim != 1 or time.size < 2:
-        raise InputError(f"time has shape {time.shape}", where=source, allowed="one dimension with at least 2 samples",
-                         remedy="Give one time stamp [s] a sample.")
+        raise InputError(
+            f"time has shape {time.shape}",
+            where=source,
+            allowed="one dimension with at least 2 samples",
+            remedy="Give one time stamp [s] a sample.",
+        )
     _check_time(time, source)
     object.__setattr__(record, "time", time)
     for field in ("shaft_speed", *vectors):
@@ -52,9 +56,13 @@ def validate(record: Any, vectors: Mapping[str, Sequence[str]]) -> None:
         components = vectors.get(field)
         shape = (time.size,) if components is None else (time.size, 3)
         if array.shape != shape:
-            raise InputError(f"{field} has shape {array.shape}", where=source, allowed=f"shape {shape}",
-                             remedy=f"Give one value for each of the {time.size} time stamps"
-                                    + ("." if components is None else f" and component ({', '.join(components)})."))
+            raise InputError(
+                f"{field} has shape {array.shape}",
+                where=source,
+                allowed=f"shape {shape}",
+                remedy=f"Give one value for each of the {time.size} time stamps"
+                + ("." if components is None else f" and component ({', '.join(components)})."),
+            )
         for name, values in zip(components or (field,), array.reshape(time.size, -1).T, strict=True):
             _check_finite(name, values, time, source)
             _check_magnitude(name, values, *MAGNITUDE_LIMITS[field], time, source)
@@ -74,13 +82,20 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
     slack = 1e-6 * (last - first) / (stamps.size - 1)  # a stamp such as 0.30000000000000004 s must not lose its sample
     low, high = first if start is None else start, last if end is None else end
     if not (first - slack <= low < high <= last + slack):
-        raise InputError(f"the window from {low:.10g} s to {high:.10g} s cannot be cut out", where=source,
-                         allowed=f"start before end, both within {first:.10g} s to {last:.10g} s",
-                         remedy="Choose a window on the record's own time axis, which need not begin at zero.")
+        raise InputError(
+            f"the window from {low:.10g} s to {high:.10g} s cannot be cut out",
+            where=source,
+            allowed=f"start before end, both within {first:.10g} s to {last:.10g} s",
+            remedy="Choose a window on the record's own time axis, which need not begin at zero.",
+        )
     keep = (columns["time"] >= low - slack) & (columns["time"] <= high + slack)
     if np.count_nonzero(keep) < 2:
-        raise InputError(f"the window from {low:.10g} s to {high:.10g} s holds {np.count_nonzero(keep)} sample(s)",
-                         where=source, allowed="at least 2 samples", remedy="Widen the window.")
+        raise InputError(
+            f"the window from {low:.10g} s to {high:.10g} s holds {np.count_nonzero(keep)} sample(s)",
+            where=source,
+            allowed="at least 2 samples",
+            remedy="Widen the window.",
+        )
     return {name: values[keep] for name, values in columns.items()}
 
 
@@ -104,8 +119,9 @@ def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
     try:
         array = np.array(values, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name} does not convert to an array of numbers ({error})", where=source,
-                         allowed="real numbers") from error
+        raise InputError(
+            f"{name} does not convert to an array of numbers ({error})", where=source, allowed="real numbers"
+        ) from error
     array.setflags(write=False)
     return array
 
@@ -113,38 +129,57 @@ def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
 def _check_time(time: NDArray, source: str) -> None:
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
-        raise InputError(f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)", where=source,
-                         allowed="finite numbers [s]", remedy="Remove or repair that sample.")
+        raise InputError(
+            f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)",
+            where=source,
+            allowed="finite numbers [s]",
+            remedy="Remove or repair that sample.",
+        )
     steps = np.diff(time)
     bad = np.flatnonzero(steps <= 0)
     if bad.size:
         i = bad[0]
-        raise InputError(f"time does not increase: sample {i} (counted from 0) is at {time[i]:.10g} s, "
-                         f"sample {i + 1} at {time[i + 1]:.10g} s", where=source, allowed="strictly increasing time",
-                         remedy="Remove repeated samples; a restart leaves them, or a time written with too few "
-                                "digits.")
+        raise InputError(
+            f"time does not increase: sample {i} (counted from 0) is at {time[i]:.10g} s, "
+            f"sample {i + 1} at {time[i + 1]:.10g} s",
+            where=source,
+            allowed="strictly increasing time",
+            remedy="Remove repeated samples; a restart leaves them, or a time written with too few digits.",
+        )
     typical = float(np.median(steps))
     bad = np.flatnonzero(steps > GAP_FACTOR * typical)
     if bad.size:
         i = bad[0]
-        raise InputError(f"gap of {steps[i]:.6g} s after t = {time[i]:.10g} s (median step {typical:.6g} s)",
-                         where=source, allowed=f"steps up to {GAP_FACTOR:g} times the median step",
-                         remedy="Read the part before or after the gap (start=, end=), or resample the record.")
+        raise InputError(
+            f"gap of {steps[i]:.6g} s after t = {time[i]:.10g} s (median step {typical:.6g} s)",
+            where=source,
+            allowed=f"steps up to {GAP_FACTOR:g} times the median step",
+            remedy="Read the part before or after the gap (start=, end=), or resample the record.",
+        )
 
 
 def _check_finite(name: str, values: NDArray, time: NDArray, source: str) -> None:
     bad = np.flatnonzero(~np.isfinite(values))
     if bad.size:
-        raise InputError(f"{name} is {values[bad[0]]} ({bad.size} of {values.size} samples are not finite)",
-                         where=f"{source}, t = {time[bad[0]]:.10g} s", allowed="finite numbers",
-                         remedy="Repair the channel, or read only the part without such samples (start=, end=).")
+        raise InputError(
+            f"{name} is {values[bad[0]]} ({bad.size} of {values.size} samples are not finite)",
+            where=f"{source}, t = {time[bad[0]]:.10g} s",
+            allowed="finite numbers",
+            remedy="Repair the channel, or read only the part without such samples (start=, end=).",
+        )
 
 
 def _check_magnitude(name: str, values: NDArray, limit: float, unit: str, time: NDArray, source: str) -> None:
     worst = int(np.abs(values).argmax())
     if abs(values[worst]) > limit:
-        hint = ("Is it in rpm, or the speed of the generator?" if unit == "rad/s"
-                else "Is a value already in newtons declared as kN?")
-        raise InputError(f"{name} is {values[worst]:.6g} {unit}, beyond any wind turbine",
-                         where=f"{source}, t = {time[worst]:.10g} s", allowed=f"magnitudes up to {limit:g} {unit}",
-                         remedy=f"Check the unit. {hint}")
+        hint = (
+            "Is it in rpm, or the speed of the generator?"
+            if unit == "rad/s"
+            else "Is a value already in newtons declared as kN?"
+        )
+        raise InputError(
+            f"{name} is {values[worst]:.6g} {unit}, beyond any wind turbine",
+            where=f"{source}, t = {time[worst]:.10g} s",
+            allowed=f"magnitudes up to {limit:g} {unit}",
+            remedy=f"Check the unit. {hint}",
+        )

@@ -27,8 +27,12 @@ def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: 
         raise InputError(what, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}.")
     extension = path.suffix.lower()
     if extension not in kinds:
-        raise InputError(f"the extension {path.suffix!r} is not known", where=str(path),
-                         allowed=", ".join(f"{ext} ({meaning})" for ext, meaning in kinds.items()), remedy=remedy)
+        raise InputError(
+            f"the extension {path.suffix!r} is not known",
+            where=str(path),
+            allowed=", ".join(f"{ext} ({meaning})" for ext, meaning in kinds.items()),
+            remedy=remedy,
+        )
     if path.stat().st_size == 0:
         raise InputError("the file is empty", where=str(path), remedy="Write or copy the file again.")
     return path, extension

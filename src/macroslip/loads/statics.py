@@ -58,8 +58,9 @@ class Drivetrain:
         for name, reminder in _REMINDERS.items():
             value, allowed = getattr(self, name), allowed_range(name, self.hub_to_bearing, self.bearing_to_gearbox)
             if not allowed.holds(value):
-                raise InputError(f"{name} is {value!r}", where="drivetrain", allowed=allowed.text(),
-                                 remedy=f"Note that {reminder}.")
+                raise InputError(
+                    f"{name} is {value!r}", where="drivetrain", allowed=allowed.text(), remedy=f"Note that {reminder}."
+                )
 
 
 _LENGTH = "lengths are in metres"
@@ -171,7 +172,7 @@ def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoa
     fx, fy, fz = hub_loads.force.T
     _, my, mz = hub_loads.moment.T
     weight_moment = (arm - drivetrain.shaft_mass_station) * weight * math.cos(drivetrain.tilt)
-    force = np.column_stack([(arm * fy - mz) / span,
-                             (arm * fz + my - weight_moment) / span,
-                             fx + weight * math.sin(drivetrain.tilt)])
+    force = np.column_stack(
+        [(arm * fy - mz) / span, (arm * fz + my - weight_moment) / span, fx + weight * math.sin(drivetrain.tilt)]
+    )
     return BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, f"main bearing under {hub_loads.source}")

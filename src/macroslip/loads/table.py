@@ -29,25 +29,35 @@ _SPEED = {"rpm": math.pi / 30.0, "rad_s": 1.0, "radps": 1.0}
 _FORCE = {"N": 1.0, "kN": 1e3}
 _MOMENT = {"Nm": 1.0, "kNm": 1e3}
 _BASE = {"time": (("time",), {"s": 1.0}), "shaft_speed": (("shaft_speed", "rotor_speed"), _SPEED)}
-_HUB = _BASE | {name: ((name,), _FORCE) for name in ("fx", "fy", "fz")} | {
-    name: ((name,), _MOMENT) for name in ("mx", "my", "mz")}
+_HUB = (
+    _BASE
+    | {name: ((name,), _FORCE) for name in ("fx", "fy", "fz")}
+    | {name: ((name,), _MOMENT) for name in ("mx", "my", "mz")}
+)
 _BEARING = _BASE | {name: ((name,), _FORCE) for name in ("F_X0", "F_Y0", "F_Z0")}
 
 
 def read_hub_table(path: Path) -> dict[str, NDArray[np.float64]]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the hub."""
     columns = _read(path, _HUB, "F_X0", "This table holds main-bearing loads: read it with BearingLoads.read.")
-    return {"time": columns["time"], "shaft_speed": columns["shaft_speed"],
-            "force": np.column_stack([columns[name] for name in ("fx", "fy", "fz")]),
-            "moment": np.column_stack([columns[name] for name in ("mx", "my", "mz")])}
+    return {
+        "time": columns["time"],
+        "shaft_speed": columns["shaft_speed"],
+        "force": np.column_stack([columns[name] for name in ("fx", "fy", "fz")]),
+        "moment": np.column_stack([columns[name] for name in ("mx", "my", "mz")]),
+    }
 
 
 def read_bearing_table(path: Path) -> dict[str, NDArray[np.float64]]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s] and force (n, 3) [N] on the inner ring."""
-    columns = _read(path, _BEARING, "fx",
-                    "This table holds hub loads: read it with HubLoads.read, then main_bearing_load.")
-    return {"time": columns["time"], "shaft_speed": columns["shaft_speed"],
-            "force": np.column_stack([columns[name] for name in ("F_X0", "F_Y0", "F_Z0")])}
+    columns = _read(
+        path, _BEARING, "fx", "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
+    )
+    return {
+        "time": columns["time"],
+        "shaft_speed": columns["shaft_speed"],
+        "force": np.column_stack([columns[name] for name in ("F_X0", "F_Y0", "F_Z0")]),
+    }
 
 
 def _read(path: Path, quantities: Mapping, other_kind: str, other_remedy: str) -> dict[str, NDArray[np.float64]]:
@@ -56,38 +66,54 @@ def _read(path: Path, quantities: Mapping, other_kind: str, other_remedy: str) -
     table = _open(path)
     names = [name.strip() for name in table.column_names]
     if len(names) == 1 and (";" in names[0] or "\t" in names[0]):
-        raise InputError("the columns are separated by semicolons or tabs", where=str(path),
-                         allowed="commas between columns and points as decimal marks",
-                         remedy="Write the file again so.")
+        raise InputError(
+            "the columns are separated by semicolons or tabs",
+            where=str(path),
+            allowed="commas between columns and points as decimal marks",
+            remedy="Write the file again so.",
+        )
     chosen: dict[str, tuple[int, float]] = {}
     missing = []
     for quantity, (prefixes, factors) in quantities.items():
         spellings = {f"{prefix}_{unit}": factor for prefix in prefixes for unit, factor in factors.items()}
         found = [i for i, name in enumerate(names) if name in spellings]
         if len(found) > 1:
-            raise InputError(f"columns {' and '.join(names[i] for i in found)} both give {quantity}", where=str(path),
-                             allowed=f"one of {', '.join(spellings)}", remedy="Remove or rename all but one of them.")
+            raise InputError(
+                f"columns {' and '.join(names[i] for i in found)} both give {quantity}",
+                where=str(path),
+                allowed=f"one of {', '.join(spellings)}",
+                remedy="Remove or rename all but one of them.",
+            )
         if found:
             chosen[quantity] = found[0], spellings[names[found[0]]]
             continue
         near = [name for name in names if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes)]
         if near:
-            raise InputError(f"column {near[0]} has no known unit", where=str(path), allowed=", ".join(spellings),
-                             remedy="Convert the values and rename the column.")
+            raise InputError(
+                f"column {near[0]} has no known unit",
+                where=str(path),
+                allowed=", ".join(spellings),
+                remedy="Convert the values and rename the column.",
+            )
         missing.append(" or ".join(spellings))
     if missing:
         other = any(name.startswith(f"{other_kind}_") for name in names)
-        raise InputError(f"no column for {'; '.join(missing)}. The columns are: {', '.join(names) or 'none'}",
-                         where=str(path),
-                         remedy=other_remedy if other else "Add or rename the columns; the unit is part of the name.")
+        raise InputError(
+            f"no column for {'; '.join(missing)}. The columns are: {', '.join(names) or 'none'}",
+            where=str(path),
+            remedy=other_remedy if other else "Add or rename the columns; the unit is part of the name.",
+        )
     result = {}
     for quantity, (i, factor) in chosen.items():
         column = table.column(i)
         kind = column.type
         if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
-            raise InputError(f"column {names[i]} holds {kind}, not numbers", where=str(path),
-                             allowed="numbers with a decimal point",
-                             remedy="Look for text among the values, such as a second header line or a unit line.")
+            raise InputError(
+                f"column {names[i]} holds {kind}, not numbers",
+                where=str(path),
+                allowed="numbers with a decimal point",
+                remedy="Look for text among the values, such as a second header line or a unit line.",
+            )
         # Empty cells become NaN here and are reported with their time.
         values = column.cast(pa.float64()).to_numpy() * factor
         result[quantity] = _rebuild_uniform(values) if quantity == "time" and kind == pa.float32() else values
@@ -108,8 +134,11 @@ def _open(path: Path):
             return file.read()
     except (pa.ArrowException, OSError, ValueError) as error:
         kind = "CSV" if path.suffix.lower() == ".csv" else "Parquet"
-        raise InputError(f"not readable as a {kind} table ({error})", where=str(path),
-                         remedy="Write or copy the file again, if it was cut off.") from error
+        raise InputError(
+            f"not readable as a {kind} table ({error})",
+            where=str(path),
+            remedy="Write or copy the file again, if it was cut off.",
+        ) from error
 
 
 def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -60,7 +60,11 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
         values = 1e6 * one.sel(interface=interface)
         style = INTERFACE[interface]
         axes.fill_between(
-            one.angle.values, values.isel(quantile=0), values.isel(quantile=-1), color=style["color"], alpha=0.18,
+            one.angle.values,
+            values.isel(quantile=0),
+            values.isel(quantile=-1),
+            color=style["color"],
+            alpha=0.18,
             linewidth=0.0,
         )
         axes.plot(one.angle.values, values.isel(quantile=1), label=interface, linewidth=1.6, **style)
@@ -85,8 +89,15 @@ def plot_load_zone(axes: Axes, load: xr.DataArray, row: str) -> Axes:
     one = load.sel(row=row)
     largest = max(float(one.max()), 1.0)
     image = axes.imshow(
-        1e-3 * one.values.T, origin="lower", aspect="auto", cmap="cividis", vmin=0.0, vmax=1e-3 * largest,
-        extent=(float(one.time[0]), float(one.time[-1]), 0.0, 360.0), interpolation="nearest", rasterized=True,
+        1e-3 * one.values.T,
+        origin="lower",
+        aspect="auto",
+        cmap="cividis",
+        vmin=0.0,
+        vmax=1e-3 * largest,
+        extent=(float(one.time[0]), float(one.time[-1]), 0.0, 360.0),
+        interpolation="nearest",
+        rasterized=True,
     )
     axes.set_yticks([0, 90, 180, 270, 360])
     scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
@@ -132,8 +143,14 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
         axes.bar(x[known], mean, 0.9 * width, color=ROW[row]["color"], edgecolor="white", label=f"{row} row", **hatch)
         axes.errorbar(x[known], mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3)
         for place, value in zip(x[known], mean, strict=True):
-            axes.annotate(f"{value:.3g}", (place, max(value, 0.0)), xytext=(0, 5), textcoords="offset points",
-                          ha="center", fontsize=9)
+            axes.annotate(
+                f"{value:.3g}",
+                (place, max(value, 0.0)),
+                xytext=(0, 5),
+                textcoords="offset points",
+                ha="center",
+                fontsize=9,
+            )
     axes.set_xticks(places, share.interface.values.tolist())
     axes.set_ylim(0.0, 118.0)
     return finish(axes, "interface", "share of loaded time [%]")
@@ -154,8 +171,9 @@ def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") 
         axes.bar(x, values, 0.9 * width, color=ROW[row]["color"], edgecolor="white", label=f"{row} row", **hatch)
         for place, value in zip(x, values, strict=True):
             if value > 0.0:
-                axes.annotate(told(value), (place, value), xytext=(0, 2), textcoords="offset points", ha="center",
-                              fontsize=9)
+                axes.annotate(
+                    told(value), (place, value), xytext=(0, 2), textcoords="offset points", ha="center", fontsize=9
+                )
     if np.nanmax(energy.values, initial=0.0) > 0.0:
         axes.set_yscale("log")
         axes.margins(y=0.12)
@@ -174,8 +192,14 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
         if peak.size:
             style = {key: ROW[row][key] for key in ("color", "linestyle")}
             share = 1.0 - np.arange(peak.size) / peak.size
-            axes.step(np.concatenate([[0.5 * peak[0]], peak]), np.concatenate([[1.0], share]), where="pre",
-                      label=f"{row} row", linewidth=1.6, **style)
+            axes.step(
+                np.concatenate([[0.5 * peak[0]], peak]),
+                np.concatenate([[1.0], share]),
+                where="pre",
+                label=f"{row} row",
+                linewidth=1.6,
+                **style,
+            )
     axes.set_xscale("log")
     axes.set_yscale("log")
     return finish(axes, r"$P_\mathrm{max}$ of an orbit [W]", "share of orbits above [–]")
@@ -192,8 +216,18 @@ def plot_case_energies(axes: Axes, study: xr.Dataset) -> Axes:
         one = total.sel(row=row)
         mean = one.mean("roller", skipna=False).values
         bars = [mean - one.min("roller").values, one.max("roller").values - mean]
-        axes.errorbar(places + 0.16 * (k - 0.5), mean, yerr=bars, linewidth=0.0, elinewidth=1.0, capsize=2.5,
-                      markersize=5, label=f"{row} row", color=ROW[row]["color"], marker=ROW[row]["marker"])
+        axes.errorbar(
+            places + 0.16 * (k - 0.5),
+            mean,
+            yerr=bars,
+            linewidth=0.0,
+            elinewidth=1.0,
+            capsize=2.5,
+            markersize=5,
+            label=f"{row} row",
+            color=ROW[row]["color"],
+            marker=ROW[row]["marker"],
+        )
     axes.set_xticks(places, [str(name) for name in study.case.values], rotation=90 if study.sizes["case"] > 8 else 0)
     axes.set_ylim(0.0, 1.08 * max(axes.get_ylim()[1], 1e-12))
     return finish(axes, "case", "energy of a roller [J]")
@@ -212,8 +246,15 @@ def plot_by_mechanism(axes: Axes, energy: xr.DataArray) -> Axes:
     width = 0.8 / len(rows)
     for k, row in enumerate(rows):
         hatch = {"hatch": "///"} if k else {}
-        axes.barh(places + width * k, mean.sel(row=row).values, 0.9 * width, color=ROW[row]["color"],
-                  edgecolor="white", label=f"{row} row", **hatch)
+        axes.barh(
+            places + width * k,
+            mean.sel(row=row).values,
+            0.9 * width,
+            color=ROW[row]["color"],
+            edgecolor="white",
+            label=f"{row} row",
+            **hatch,
+        )
     axes.set_yticks(places + 0.5 * width * (len(rows) - 1), [str(name) for name in mean.mechanism.values])
     return finish(axes, f"energy of a roller [{energy.attrs.get('units', 'J')}]", "mechanism")
 
@@ -245,6 +286,14 @@ def mark_level(axes: Axes, low: float, high: float, words: str) -> Axes:
     axes.axhspan(low, high, color=BLUE, alpha=0.10, linewidth=0.0, zorder=-1)
     bottom, top = axes.get_ylim()
     axes.set_ylim(min(bottom, 0.8 * low), max(top, 1.25 * high))
-    axes.text(0.98, (low * high) ** 0.5, words, transform=axes.get_yaxis_transform(), ha="right", va="center",
-              fontsize=9, color=BLUE)
+    axes.text(
+        0.98,
+        (low * high) ** 0.5,
+        words,
+        transform=axes.get_yaxis_transform(),
+        ha="right",
+        va="center",
+        fontsize=9,
+        color=BLUE,
+    )
     return axes

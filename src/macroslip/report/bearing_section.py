@@ -56,7 +56,10 @@ def orbit_blocks(profile: Mapping[str, xr.Dataset], of: str = "") -> tuple[Block
         picture(
             lambda axes, row=row: draw.plot_energy_over_orbit(axes, energy, row),
             f"Polar plot of the energy of the {row} row over the orbit, by interface",
-            width=3.9, height=4.4, polar=True, legend="below",
+            width=3.9,
+            height=4.4,
+            polar=True,
+            legend="below",
         )
         for row in rows
     )
@@ -64,14 +67,16 @@ def orbit_blocks(profile: Mapping[str, xr.Dataset], of: str = "") -> tuple[Block
         picture(
             lambda axes, row=row: draw.plot_load_zone(axes, load, row),
             f"Heat map of the roller load of the {row} row over angle and time",
-            width=4.4, height=2.9,
+            width=4.4,
+            height=2.9,
         )
         for row in rows
     )
     films = tuple(
         picture(
             lambda axes, row=row: draw.plot_film_over_orbit(axes, orbit, row),
-            f"Film thickness and film parameter of the {row} row over the orbit, by interface", legend="above",
+            f"Film thickness and film parameter of the {row} row over the orbit, by interface",
+            legend="above",
         )
         for row in rows
     )
@@ -110,17 +115,24 @@ def result_blocks(result: xr.Dataset, of: str = "") -> tuple[Block, ...]:
     known = [
         f"{row} {float(one.min()):.4g} to {float(one.max()):.4g} J "
         f"({100 * float(one.max() / one.min() - 1):.2g} % apart)"
-        for row, one in spread if one.size and float(one.min()) > 0.0
+        for row, one in spread
+        if one.size and float(one.min()) > 0.0
     ]
     blocks: list[Block] = [
         Pictures(
             (
-                picture(lambda axes: draw.plot_energy_by_interface(axes, result.energy),
-                        "Bars of a mean roller's energy by interface and row", legend="above"),
+                picture(
+                    lambda axes: draw.plot_energy_by_interface(axes, result.energy),
+                    "Bars of a mean roller's energy by interface and row",
+                    legend="above",
+                ),
                 *(
-                    picture(lambda axes, row=row: draw.plot_roller_spread(axes, result.energy, row),
-                            f"Energy of each roller of the {row} row over the mean of the row")
-                    for row, one in spread if one.size and float(one.mean()) > 0.0
+                    picture(
+                        lambda axes, row=row: draw.plot_roller_spread(axes, result.energy, row),
+                        f"Energy of each roller of the {row} row over the mean of the row",
+                    )
+                    for row, one in spread
+                    if one.size and float(one.mean()) > 0.0
                 ),
             ),
             f"Energy{of} by interface, and of each roller over the mean of its row; from the least to the most: "
@@ -128,15 +140,21 @@ def result_blocks(result: xr.Dataset, of: str = "") -> tuple[Block, ...]:
         )
     ]
     pictures = [
-        picture(lambda axes: draw.plot_outside_film_range(axes, result.outside_film_range),
-                "Bars of the share of loaded time outside the film formula's range", legend="above")
+        picture(
+            lambda axes: draw.plot_outside_film_range(axes, result.outside_film_range),
+            "Bars of the share of loaded time outside the film formula's range",
+            legend="above",
+        )
     ]
     caption = f"Share of the loaded time{of} in which load or speed is outside the range of the film formula"
     peak = result.peak_power.values
     if peak.size and np.nanmax(peak, initial=0.0) > 0.0:
         pictures.append(
-            picture(lambda axes: draw.plot_peak_exceedance(axes, result),
-                    "Share of orbits whose largest power exceeds a value", legend="above")
+            picture(
+                lambda axes: draw.plot_peak_exceedance(axes, result),
+                "Share of orbits whose largest power exceeds a value",
+                legend="above",
+            )
         )
         caption += "; and how many orbits of a roller have a largest power above a value"
     return (*blocks, Pictures(tuple(pictures), f"{caption}."))
@@ -149,11 +167,21 @@ def further_blocks(dataset: xr.Dataset, of: str = "") -> tuple[Block, ...]:
         if "row" not in values.dims or values.attrs.get("units") not in ("J", "J/m"):
             continue
         if "mechanism" in values.dims and "station" not in values.dims:
-            pictures.append(picture(lambda axes, values=values: draw.plot_by_mechanism(axes, values),
-                                    f"Energy by mechanism and row, {name}", legend="above"))
+            pictures.append(
+                picture(
+                    lambda axes, values=values: draw.plot_by_mechanism(axes, values),
+                    f"Energy by mechanism and row, {name}",
+                    legend="above",
+                )
+            )
         elif "station" in values.dims:
-            pictures.append(picture(lambda axes, values=values: draw.plot_over_station(axes, values),
-                                    f"Energy along the roller by row, {name}", legend="above"))
+            pictures.append(
+                picture(
+                    lambda axes, values=values: draw.plot_over_station(axes, values),
+                    f"Energy along the roller by row, {name}",
+                    legend="above",
+                )
+            )
     if not pictures:
         return ()
     return (Pictures(tuple(pictures), f"Energy{of} by mechanism, and along the roller."),)

@@ -77,8 +77,14 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
             low, high = 0.0, max(1e-6, finite.max(initial=0.0))
         codes = base64.b64encode(quantise(values, low, high)).decode("ascii")
         quantities.append(
-            {"heading": heading, "unit": unit, "logarithmic": logarithmic, "low": float(low), "high": float(high),
-             "codes": codes}
+            {
+                "heading": heading,
+                "unit": unit,
+                "logarithmic": logarithmic,
+                "low": float(low),
+                "high": float(high),
+                "codes": codes,
+            }
         )
     ramp = colormaps["cividis"](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
     return {

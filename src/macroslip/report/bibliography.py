@@ -10,36 +10,62 @@ import macroslip
 #: Fields of works that the package cites, by a part of the citation that names them.
 _KNOWN = {
     "Dynamic modelling of slip in a wind turbine spherical roller main bearing": (
-        "misc", "hart_slip",
-        {"author": "Hart, E. and others",
-         "title": "Dynamic modelling of slip in a wind turbine spherical roller main bearing"},
+        "misc",
+        "hart_slip",
+        {
+            "author": "Hart, E. and others",
+            "title": "Dynamic modelling of slip in a wind turbine spherical roller main bearing",
+        },
     ),
     "10.1017/CBO9781139171731": (
-        "book", "johnson_1985",
-        {"author": "Johnson, K. L.", "title": "Contact Mechanics", "publisher": "Cambridge University Press",
-         "year": "1985", "doi": "10.1017/CBO9781139171731"},
+        "book",
+        "johnson_1985",
+        {
+            "author": "Johnson, K. L.",
+            "title": "Contact Mechanics",
+            "publisher": "Cambridge University Press",
+            "year": "1985",
+            "doi": "10.1017/CBO9781139171731",
+        },
     ),
     "10.1007/978-3-642-05221-7": (
-        "book", "hairer_wanner_1996",
-        {"author": "Hairer, E. and Wanner, G.",
-         "title": "Solving Ordinary Differential Equations {II}: Stiff and Differential-Algebraic Problems",
-         "publisher": "Springer", "year": "1996", "doi": "10.1007/978-3-642-05221-7"},
+        "book",
+        "hairer_wanner_1996",
+        {
+            "author": "Hairer, E. and Wanner, G.",
+            "title": "Solving Ordinary Differential Equations {II}: Stiff and Differential-Algebraic Problems",
+            "publisher": "Springer",
+            "year": "1996",
+            "doi": "10.1007/978-3-642-05221-7",
+        },
     ),
     "10.1098/rsta.1961.0014": (
-        "article", "crook_1961",
-        {"author": "Crook, A. W.",
-         "title": "The lubrication of rollers {III}. A theoretical discussion of friction and the temperatures in the "
-         "oil film",
-         "journal": "Philosophical Transactions of the Royal Society A", "volume": "254", "pages": "237--258",
-         "year": "1961", "doi": "10.1098/rsta.1961.0014"},
+        "article",
+        "crook_1961",
+        {
+            "author": "Crook, A. W.",
+            "title": "The lubrication of rollers {III}. A theoretical discussion of friction and the temperatures in the "
+            "oil film",
+            "journal": "Philosophical Transactions of the Royal Society A",
+            "volume": "254",
+            "pages": "237--258",
+            "year": "1961",
+            "doi": "10.1098/rsta.1961.0014",
+        },
     ),
     "10.1115/1.4005514": (
-        "article", "masjedi_khonsari_2012",
-        {"author": "Masjedi, M. and Khonsari, M. M.",
-         "title": "Film Thickness and Asperity Load Formulas for Line-Contact Elastohydrodynamic Lubrication With "
-         "Provision for Surface Roughness",
-         "journal": "Journal of Tribology", "volume": "134", "pages": "011503", "year": "2012",
-         "doi": "10.1115/1.4005514"},
+        "article",
+        "masjedi_khonsari_2012",
+        {
+            "author": "Masjedi, M. and Khonsari, M. M.",
+            "title": "Film Thickness and Asperity Load Formulas for Line-Contact Elastohydrodynamic Lubrication With "
+            "Provision for Surface Roughness",
+            "journal": "Journal of Tribology",
+            "volume": "134",
+            "pages": "011503",
+            "year": "2012",
+            "doi": "10.1115/1.4005514",
+        },
     ),
 }
 _DOI = re.compile(r"doi:\s*(10\.\S+?)[.;,)]?(?=\s|$)")
@@ -81,6 +107,8 @@ def bibtex(citations: Iterable[str]) -> str:
 
 def _entry(kind: str, key: str, fields: dict[str, str]) -> str:
     # Braces of an unknown text would end the field.
-    lines = [f"  {name} = {{{value if value.count('{') == value.count('}') else re.sub('[{}]', '', value)}}}"
-             for name, value in fields.items()]
+    lines = [
+        f"  {name} = {{{value if value.count('{') == value.count('}') else re.sub('[{}]', '', value)}}}"
+        for name, value in fields.items()
+    ]
     return f"@{kind}{{{key},\n" + ",\n".join(lines) + "\n}"

@@ -83,9 +83,11 @@ def plot_models(
             part = values if which is None else values.sel(row=which)
             by_speed = part.groupby("wind_speed")
             mean, low, high = (getattr(by_speed, name)(skipna=False) for name in ("mean", "min", "max"))
-            style = {"color": BLACK, "marker": "o"} if which is None else {
-                key: ROW[which][key] for key in ("color", "marker")
-            }
+            style = (
+                {"color": BLACK, "marker": "o"}
+                if which is None
+                else {key: ROW[which][key] for key in ("color", "marker")}
+            )
             name = model if len(rows) == 1 else f"{model}, {which}"
             speeds = mean.wind_speed.values
             axes.plot(speeds, mean.values, linestyle=line, markersize=4, label=name, **style)

@@ -62,7 +62,13 @@ def shade_loaded(axes: Axes, turn: xr.Dataset) -> Axes:
     """Shade the angles at which the rings press on the roller."""
     loaded = turn.roller_load.values > 0.0
     axes.fill_between(
-        turn.angle.values, 0.0, 1.0, where=loaded, transform=axes.get_xaxis_transform(), color="0.88", linewidth=0.0,
+        turn.angle.values,
+        0.0,
+        1.0,
+        where=loaded,
+        transform=axes.get_xaxis_transform(),
+        color="0.88",
+        linewidth=0.0,
         label="loaded",
     )
     return axes

@@ -40,11 +40,16 @@ def sections(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]
             "Figure A1: explicit and backward Euler",
             ("Explicit Euler is unstable in the load zone; backward Euler is not.",),
             (
-                picture(lambda axes: _near_limit(solver_figures.plot_stability(axes, stability), stability),
-                        "Spin over pure rolling entering the load zone, by both Euler methods and converged",
-                        legend="above"),
-                picture(lambda axes: _near_limit(solver_figures.plot_deviation(axes, stability), stability),
-                        "Distance of both Euler methods from the converged spin", legend="above"),
+                picture(
+                    lambda axes: _near_limit(solver_figures.plot_stability(axes, stability), stability),
+                    "Spin over pure rolling entering the load zone, by both Euler methods and converged",
+                    legend="above",
+                ),
+                picture(
+                    lambda axes: _near_limit(solver_figures.plot_deviation(axes, stability), stability),
+                    "Distance of both Euler methods from the converged spin",
+                    legend="above",
+                ),
             ),
             f"At a step of {1e3 * stability.attrs['step_s']:g} ms. At the dash-dotted line the step exceeds twice the "
             f"relaxation time of slip, the limit of explicit Euler, at {stability.attrs['limit_load_N'] / 1e3:.2g} kN.",
@@ -60,26 +65,47 @@ def _turns(run: ModelRun, of: str) -> list[Block]:
     blocks: list[Block] = []
     static = {f"{name} load": run.turns["static"][f"{name}, downwind"] for name in STATIC_LOADS}
     groups = (
-        (f"Figure 3a: constant load and speed{of}", static,
-         ("An unloaded roller is slowed by friction at the cage, with an inflexion at the top.",
-          "It snaps back to pure rolling on entering the load zone."),
-         "Grey: the rings press on the roller. The load is the mean of case 14B, with and without its thrust."),
-        (f"Figure 3b: time-varying load{of}", run.turns["typical"],
-         ("The same roller under the loads of 14 m/s, turbulence B.",
-          "Time-varying loads give about 100 times the energy of the static ones."),
-         "The turns whose energy is nearest the median of the row."),
-        (f"Figure 3b, the turns with the largest power{of}", run.turns["peak"],
-         ("Brief forces in the load zone make up the large energies.",),
-         "The turns with the row's largest power at any interface."),
+        (
+            f"Figure 3a: constant load and speed{of}",
+            static,
+            (
+                "An unloaded roller is slowed by friction at the cage, with an inflexion at the top.",
+                "It snaps back to pure rolling on entering the load zone.",
+            ),
+            "Grey: the rings press on the roller. The load is the mean of case 14B, with and without its thrust.",
+        ),
+        (
+            f"Figure 3b: time-varying load{of}",
+            run.turns["typical"],
+            (
+                "The same roller under the loads of 14 m/s, turbulence B.",
+                "Time-varying loads give about 100 times the energy of the static ones.",
+            ),
+            "The turns whose energy is nearest the median of the row.",
+        ),
+        (
+            f"Figure 3b, the turns with the largest power{of}",
+            run.turns["peak"],
+            ("Brief forces in the load zone make up the large energies.",),
+            "The turns with the row's largest power at any interface.",
+        ),
     )
     for title, turns, stated, caption in groups:
         pictures: list[Picture] = []
         for name, turn in turns.items():
-            pictures.append(picture(lambda axes, turn=turn, name=name: orbit_figures.plot_spin(axes, turn, name),
-                                    f"Spin speed over a turn, {name}", legend="above"))
             pictures.append(
-                picture(lambda axes, turn=turn, name=name: orbit_figures.plot_cumulative_energy(axes, turn, name),
-                        f"Cumulative energy over a turn, {name}", height=2.8)
+                picture(
+                    lambda axes, turn=turn, name=name: orbit_figures.plot_spin(axes, turn, name),
+                    f"Spin speed over a turn, {name}",
+                    legend="above",
+                )
+            )
+            pictures.append(
+                picture(
+                    lambda axes, turn=turn, name=name: orbit_figures.plot_cumulative_energy(axes, turn, name),
+                    f"Cumulative energy over a turn, {name}",
+                    height=2.8,
+                )
             )
         energies = ", ".join(
             f"{name} {told_energy(turn.attrs['energy_J'])} and at most {turn.attrs['peak_power_W']:.3g} W"
@@ -93,7 +119,9 @@ def _over_static(run: ModelRun, of: str) -> Beside:
     rows = run.study.row.values.tolist()
     varying = run.numbers.orbit_energy.sel(case=DETAILED_CASE)
     ratios = {
-        name: {row: float(varying.sel(row=row)) / run.turns["static"][f"{name}, {row}"].attrs["energy_J"] for row in rows}
+        name: {
+            row: float(varying.sel(row=row)) / run.turns["static"][f"{name}, {row}"].attrs["energy_J"] for row in rows
+        }
         for name in STATIC_LOADS
     }
 
@@ -131,8 +159,11 @@ def _over_wind_speed(run: ModelRun, of: str) -> list[Block]:
             f"Figure 4a: energy over mean wind speed{of}",
             ("Energy is highest at mean wind speeds of 12 and 14 m/s.",),
             tuple(
-                picture(lambda axes, row=row: energy(axes, row), f"Energy over that in case 12C, {row or 'both rows'}",
-                        legend="above")
+                picture(
+                    lambda axes, row=row: energy(axes, row),
+                    f"Energy over that in case 12C, {row or 'both rows'}",
+                    legend="above",
+                )
                 for row in rows
             ),
             "Turbulence classes A, B and C; bars: range over the rollers. Each row over its own value in 12C.",
@@ -147,8 +178,11 @@ def _over_wind_speed(run: ModelRun, of: str) -> list[Block]:
             f"Figure 5a: largest power per orbit{of}",
             ("No trend over wind speed.", "High variance."),
             tuple(
-                picture(lambda axes, row=row: winds.plot_peak_power(axes, numbers, row),
-                        f"Largest power per orbit over its mean in 14A, {row} row", legend="above")
+                picture(
+                    lambda axes, row=row: winds.plot_peak_power(axes, numbers, row),
+                    f"Largest power per orbit over its mean in 14A, {row} row",
+                    legend="above",
+                )
                 for row in run.study.row.values.tolist()
             ),
             "Mean and standard deviation over all rollers and orbits, bars cut at zero.",
@@ -163,7 +197,9 @@ def _over_wind_speed(run: ModelRun, of: str) -> list[Block]:
 
 
 def _numerical(tolerances: xr.Dataset, steps: xr.Dataset) -> Section:
-    loosest = tolerances.sel(row="downwind").isel(stopping_tolerance=int(np.argmax(tolerances.stopping_tolerance.values)))
+    loosest = tolerances.sel(row="downwind").isel(
+        stopping_tolerance=int(np.argmax(tolerances.stopping_tolerance.values))
+    )
     share = 100.0 * float(loosest.cage_energy / loosest.energy)
     converged = float(loosest.cage_energy_converged)
     return Section(
@@ -178,12 +214,18 @@ def _numerical(tolerances: xr.Dataset, steps: xr.Dataset) -> Section:
             ),
             Pictures(
                 (
-                    picture(lambda axes: solver_figures.plot_cage_energy(axes, tolerances),
-                            "Cage energy per orbit against the tolerance at which the iteration stops", height=3.6,
-                            legend="upper left"),
-                    picture(lambda axes: solver_figures.plot_step_size(axes, steps),
-                            "Mean largest power per orbit against the fixed step", height=3.6,
-                            legend="center left"),
+                    picture(
+                        lambda axes: solver_figures.plot_cage_energy(axes, tolerances),
+                        "Cage energy per orbit against the tolerance at which the iteration stops",
+                        height=3.6,
+                        legend="upper left",
+                    ),
+                    picture(
+                        lambda axes: solver_figures.plot_step_size(axes, steps),
+                        "Mean largest power per orbit against the fixed step",
+                        height=3.6,
+                        legend="center left",
+                    ),
                 ),
                 "Left: energy at the cage per orbit, time-varying load of case 14B, one roller of each row. Right: "
                 f"mean largest power per orbit, {steps.attrs['start_s']:.4g} s to {steps.attrs['end_s']:.4g} s of case 14B, "

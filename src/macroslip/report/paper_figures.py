@@ -68,8 +68,15 @@ def stability_figure(stability: xr.Dataset) -> Figure:
     plot_deviation(axes[1], stability)
     note = f"step ({1e3 * step:g} ms) above\n2 × relaxation time"
     axes[1].annotate(
-        note, (limit, 0.02), xycoords=axes[1].get_xaxis_transform(), xytext=(4, 0), textcoords="offset points",
-        ha="left", va="bottom", fontsize=9, color=GREY,
+        note,
+        (limit, 0.02),
+        xycoords=axes[1].get_xaxis_transform(),
+        xytext=(4, 0),
+        textcoords="offset points",
+        ha="left",
+        va="bottom",
+        fontsize=9,
+        color=GREY,
     )
     legend_above(figure, axes[0])
     return figure

@@ -47,9 +47,13 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
         ("peak_power_ratio", "mean largest power, downwind / upwind [–]", True),
     )
     pictures = [
-        picture(lambda axes, name=name, label=label, log=log: draw.plot_models(
-                    log_ticks(axes) if log else axes, numbers, name, label),
-                f"Over wind speed, each model: {label}", legend="above")
+        picture(
+            lambda axes, name=name, label=label, log=log: draw.plot_models(
+                log_ticks(axes) if log else axes, numbers, name, label
+            ),
+            f"Over wind speed, each model: {label}",
+            legend="above",
+        )
         for name, label, log in jobs
     ]
     blocks: list[Block] = [
@@ -58,14 +62,20 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
     for name, run in inside.items():
         parts = dissipation(run.study)
         shown = [
-            picture(lambda axes, row=row, parts=parts: draw.plot_parts(axes, parts.part_energy, row),
-                    f"Energy per orbit by interface and mechanism, {row} row", legend="below", height=4.2)
+            picture(
+                lambda axes, row=row, parts=parts: draw.plot_parts(axes, parts.part_energy, row),
+                f"Energy per orbit by interface and mechanism, {row} row",
+                legend="below",
+                height=4.2,
+            )
             for row in run.study.row.values.tolist()
         ]
         shown.append(
             picture(
                 lambda axes, parts=parts: draw.plot_stations(axes, parts.station_energy, "downwind", draw.shown(parts)),
-                "Energy along the roller, downwind row", legend="below", height=4.2,
+                "Energy along the roller, downwind row",
+                legend="below",
+                height=4.2,
             )
         )
         blocks += [
@@ -84,8 +94,11 @@ def _part_table(parts: xr.Dataset, name: str) -> Table:
             rows.append((row, part, *(f"{value:.3g}" for value in mean.values)))
         share = 100.0 * parts.asperity_share.sel(row=row).groupby("wind_speed").mean(skipna=False)
         rows.append((row, "of it at asperities [%]", *(f"{value:.2g}" for value in share.values)))
-    return Table(("row", "part", *(f"{speed:g} m/s [J]" for speed in speeds)), tuple(rows),
-                 f"Energy per orbit of a mean roller under {name}, mean of the turbulence classes")
+    return Table(
+        ("row", "part", *(f"{speed:g} m/s [J]" for speed in speeds)),
+        tuple(rows),
+        f"Energy per orbit of a mean roller under {name}, mean of the turbulence classes",
+    )
 
 
 def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
@@ -115,16 +128,27 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
         ),
         Pictures(
             (
-                picture(lambda axes: uncertainty_figures.plot_ranges(axes, summary),
-                        "Range of each result over its base", width=5.6, height=5.6),
-                picture(lambda axes: uncertainty_figures.plot_correlations(axes, summary),
-                        "Rank correlation of each result with each value", width=4.6, height=5.6),
+                picture(
+                    lambda axes: uncertainty_figures.plot_ranges(axes, summary),
+                    "Range of each result over its base",
+                    width=5.6,
+                    height=5.6,
+                ),
+                picture(
+                    lambda axes: uncertainty_figures.plot_correlations(axes, summary),
+                    "Rank correlation of each result with each value",
+                    width=4.6,
+                    height=5.6,
+                ),
             ),
             "Lines: 5 to 95 % of the samples; bar across: median. Squares, in the order of the lines: rank "
             "correlations, filled where they are no chance (p < 0.01).",
         ),
-        Table(("result", "base", "median", "5 %", "95 %", "driven by (rank correlation)"), tuple(rows),
-              "Results over the sample"),
+        Table(
+            ("result", "base", "median", "5 %", "95 %", "driven by (rank correlation)"),
+            tuple(rows),
+            "Results over the sample",
+        ),
         Points(trends),
         Table(("value", "range", "tag", "why"), ranges, "What was varied"),
     ]
@@ -145,8 +169,16 @@ def _torque(runs: Mapping[str, ModelRun]) -> Section:
             "microslip with."
         ),
         Pictures(
-            (picture(lambda axes: plot_torque(axes, histories, start, end), "Friction torque over time", legend="below",
-                     width=6.4, height=4.2, wide=True),),
+            (
+                picture(
+                    lambda axes: plot_torque(axes, histories, start, end),
+                    "Friction torque over time",
+                    legend="below",
+                    width=6.4,
+                    height=4.2,
+                    wide=True,
+                ),
+            ),
             f"From {start:g} to {end:g} s.",
         ),
         Table(("friction torque", "mean [N m]", "least [N m]", "most [N m]"), rows, "Over all 600 s"),

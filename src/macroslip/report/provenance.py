@@ -16,8 +16,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def provenance_section(datasets: Mapping[str, xr.Dataset], *, seconds: Mapping[str, float] | None = None,
-                       reused: tuple[str, ...] = ()) -> Section:
+def provenance_section(
+    datasets: Mapping[str, xr.Dataset], *, seconds: Mapping[str, float] | None = None, reused: tuple[str, ...] = ()
+) -> Section:
     """A section that says how every number of a page came about.
 
     Parameters

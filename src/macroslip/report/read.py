@@ -43,6 +43,7 @@ def _read(file: Path) -> xr.Dataset:
         return xr.load_dataset(file, engine="h5netcdf", decode_times=False)
     except (OSError, ValueError, KeyError) as error:
         raise InputError(
-            f"the file cannot be read as netCDF ({error})", where=str(file),
+            f"the file cannot be read as netCDF ({error})",
+            where=str(file),
             remedy="Name files that macroslip run wrote, whole ones; run the case again if need be.",
         ) from None

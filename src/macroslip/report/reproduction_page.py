@@ -81,7 +81,9 @@ def _answer(judged: Mapping[str, list[Statement]], summary: Mapping[str, Any]) -
         )
         others = len(statements) - sum(counts.values())
         sentence += f", {others} not computed or not to be judged" if others else ""
-        words.append(f"Under the model {name}, {sentence}." if len(judged) > 1 else f"{sentence[0].upper()}{sentence[1:]}.")
+        words.append(
+            f"Under the model {name}, {sentence}." if len(judged) > 1 else f"{sentence[0].upper()}{sentence[1:]}."
+        )
     rows = tuple(
         (together[0].paper, tuple((one.verdict, one.found, one.because) for one in together))
         for together in zip(*judged.values(), strict=True)
@@ -139,9 +141,12 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
         pictures = tuple(
             picture(
                 lambda axes, quantity=quantity, row=row, table=table: plot_tornado(axes, table, quantity, row),
-                f"Tornado chart: {words[quantity]} of the {row} row", width=4.4, height=2.7,
+                f"Tornado chart: {words[quantity]} of the {row} row",
+                width=4.4,
+                height=2.7,
             )
-            for quantity in words for row in table.row.values.tolist()
+            for quantity in words
+            for row in table.row.values.tolist()
         )
         blocks.append(Pictures(pictures, f"Energy above, largest power per orbit below{_titled('', name, runs)}."))
         blocks.append(_sensitivity_table(table))

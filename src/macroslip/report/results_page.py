@@ -48,7 +48,8 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
         missing += [one for one in ("row", "roller", "interface") if one not in dataset.dims]
         if missing:
             raise InputError(
-                f"the dataset has no {', no '.join(missing)}", where=name,
+                f"the dataset has no {', no '.join(missing)}",
+                where=name,
                 allowed="what macroslip run, macroslip.simulate or a study gives",
             )
     studies = {name: one for name, one in results.items() if "case" in one.dims}
@@ -92,12 +93,20 @@ def _overview(single: Mapping[str, xr.Dataset], studies: Mapping[str, xr.Dataset
             rows += _rows(f"{name}, {case}", study.sel(case=case))
     total = sum(int(one.status.size) for one in (*single.values(), *studies.values()))
     failed = sum(int((one.status != 0).sum()) for one in (*single.values(), *studies.values()))
-    told = f"{failed} of {total} rollers FAILED; every mean they enter is missing." if failed else (
-        f"All {total} rollers completed."
+    told = (
+        f"{failed} of {total} rollers FAILED; every mean they enter is missing."
+        if failed
+        else (f"All {total} rollers completed.")
     )
     headings = (
-        "", "row", "mean energy of a roller [J]", "least [J]", "most [J]", "highest P_max [W]",
-        "lowest spin / pure rolling", "failed rollers",
+        "",
+        "row",
+        "mean energy of a roller [J]",
+        "least [J]",
+        "most [J]",
+        "highest P_max [W]",
+        "lowest spin / pure rolling",
+        "failed rollers",
     )
     blocks: list[Block] = [Paragraph(told, strong=True), Table(headings, tuple(rows))]
     lines = [line for name, one in single.items() for line in _failures(name, one)]
@@ -140,9 +149,14 @@ def _failures(name: str, result: xr.Dataset) -> list[str]:
 
 def _study_blocks(study: xr.Dataset) -> tuple[Block, ...]:
     pictures = [
-        picture(lambda axes: plot_case_energies(axes, study), "Energy of a roller by case and row",
-                width=min(8.6, max(4.2, 0.28 * study.sizes["case"])), height=3.4, legend="above",
-                wide=study.sizes["case"] > 15)
+        picture(
+            lambda axes: plot_case_energies(axes, study),
+            "Energy of a roller by case and row",
+            width=min(8.6, max(4.2, 0.28 * study.sizes["case"])),
+            height=3.4,
+            legend="above",
+            wide=study.sizes["case"] > 15,
+        )
     ]
     caption = "Energy by case: mean over the rollers of each row, bars from the least to the most."
     mean = study.mean("case", skipna=True, keep_attrs=True)

@@ -43,8 +43,13 @@ def plot_tornado(axes: Axes, table: xr.Dataset, quantity: str, row: str) -> Axes
             axes.barh(place, value - 1.0, left=1.0, height=0.62, color=color, hatch=hatch, edgecolor="white")
             side = 1 if value > 1.0 else -1
             axes.annotate(
-                f"{float(entry.value.sel(level=level)):g}", (value, place), xytext=(4 * side, 0),
-                textcoords="offset points", ha="left" if side > 0 else "right", va="center", fontsize=9,
+                f"{float(entry.value.sel(level=level)):g}",
+                (value, place),
+                xytext=(4 * side, 0),
+                textcoords="offset points",
+                ha="left" if side > 0 else "right",
+                va="center",
+                fontsize=9,
             )
     names = [_with_unit(str(table.variation[int(k)].values), str(table.unit[int(k)].values)) for k in order]
     axes.set_yticks(np.arange(len(names)), names)

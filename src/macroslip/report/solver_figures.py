@@ -65,8 +65,14 @@ def plot_nonlinear_tolerance(axes: Axes, experiment: xr.Dataset) -> Axes:
     for x, y, ratio in zip(tolerance, downwind.energy.values, downwind.ratio.values, strict=True):
         if ratio > RAISED:
             axes.annotate(
-                f"{float(f'{ratio:.3g}'):,g} × static", (x, y), xytext=(-7, 0), textcoords="offset points",
-                ha="right", va="center", fontsize=9, color=BLUE,
+                f"{float(f'{ratio:.3g}'):,g} × static",
+                (x, y),
+                xytext=(-7, 0),
+                textcoords="offset points",
+                ha="right",
+                va="center",
+                fontsize=9,
+                color=BLUE,
             )
     static = experiment.static_energy.sel(row="downwind").values
     open_marker = {"marker": "D", "markersize": 7, "markerfacecolor": "none", "linestyle": ":"}
@@ -92,8 +98,14 @@ def plot_cage_energy(axes: Axes, experiment: xr.Dataset) -> Axes:
         for x, y in zip(tolerance, one.cage_energy.values, strict=True):
             if y > RAISED * level:
                 axes.annotate(
-                    f"{float(f'{y / level:.3g}'):,g} × converged", (x, y), xytext=(-7, 0), textcoords="offset points",
-                    ha="right", va="center", fontsize=9, color=ROW[row]["color"],
+                    f"{float(f'{y / level:.3g}'):,g} × converged",
+                    (x, y),
+                    xytext=(-7, 0),
+                    textcoords="offset points",
+                    ha="right",
+                    va="center",
+                    fontsize=9,
+                    color=ROW[row]["color"],
                 )
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -112,8 +124,14 @@ def plot_step_size(axes: Axes, experiment: xr.Dataset) -> Axes:
         axes.plot(experiment.step.values, one.mean_peak_power.values, markersize=5, label=f"{row} row", **ROW[row])
         level = (0.6, float(one.mean_peak_power_converged))
         axes.annotate(
-            "converged", level, xycoords=axes.get_yaxis_transform(), xytext=(0, 3), textcoords="offset points",
-            ha="center", fontsize=9, color=color,
+            "converged",
+            level,
+            xycoords=axes.get_yaxis_transform(),
+            xytext=(0, 3),
+            textcoords="offset points",
+            ha="center",
+            fontsize=9,
+            color=color,
         )
     axes.set_xscale("log")
     return finish(log_ticks(axes), "fixed step [s]", r"mean $P_\mathrm{max}$ per orbit [W]")

@@ -53,13 +53,25 @@ def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
             if not np.isfinite(value):
                 continue
             color, sure = (ORANGE if value > 0.0 else BLUE), chance[q, p] < DRIVER_LEVEL
-            axes.scatter(p, place, s=330.0 * abs(value), marker="s", facecolor=color if sure else "none",
-                         edgecolor=color, linewidth=0.8)
+            axes.scatter(
+                p,
+                place,
+                s=330.0 * abs(value),
+                marker="s",
+                facecolor=color if sure else "none",
+                edgecolor=color,
+                linewidth=0.8,
+            )
             if sure:
                 sign = "+" if value > 0.0 else "−"
                 axes.annotate(sign, (p, place), ha="center", va="center", color="white", fontsize=9)
-    axes.set_xticks(np.arange(rank.shape[1]), [str(name) for name in summary.parameter.values], rotation=60, ha="right",
-                    rotation_mode="anchor")
+    axes.set_xticks(
+        np.arange(rank.shape[1]),
+        [str(name) for name in summary.parameter.values],
+        rotation=60,
+        ha="right",
+        rotation_mode="anchor",
+    )
     axes.set_yticks([])
     axes.set_xlim(-0.6, rank.shape[1] - 0.4)
     axes.set_ylim(-0.6, rank.shape[0] - 0.4)

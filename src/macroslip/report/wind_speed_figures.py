@@ -48,9 +48,7 @@ def plot_peak_power(axes: Axes, numbers: xr.Dataset, row: str) -> Axes:
     for turbulence, part in _classes(numbers):
         x = part.wind_speed.values + CLASS_OFFSET[turbulence]
         one = part.sel(row=row)
-        _with_bars(
-            axes, x, one.peak_power_mean_normalised.values, one.peak_power_std_normalised.values, turbulence
-        )
+        _with_bars(axes, x, one.peak_power_mean_normalised.values, one.peak_power_std_normalised.values, turbulence)
     axes.set_ylim(bottom=0.0)
     return _finish(axes, numbers, r"$P_\mathrm{max}$ over its mean in 14A [–]", f"{row} row")
 

@@ -136,7 +136,10 @@ class Traces:
 
     def __post_init__(self) -> None:
         _check(
-            _is_number(self.step) and self.step > 0.0, f"the step is {self.step!r} s", "traces.step", "a number above 0 s"
+            _is_number(self.step) and self.step > 0.0,
+            f"the step is {self.step!r} s",
+            "traces.step",
+            "a number above 0 s",
         )
 
 

@@ -78,7 +78,9 @@ CASE = Section(
                 "heating": Plain("shear heating of the film", bool),
                 "microslip": Plain("slip that varies along the roller", bool),
                 "asperities": Choice("share of the load that asperities carry", asperity_laws),
-                "traction": Choice("mechanisms, or a traction law of your own in their place", _traction_laws, _OWN_LAW),
+                "traction": Choice(
+                    "mechanisms, or a traction law of your own in their place", _traction_laws, _OWN_LAW
+                ),
             },
         ),
         "integrator": Variants(

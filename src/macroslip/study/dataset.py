@@ -82,7 +82,9 @@ def to_dataset(
 
     data: dict[str, Any] = {}
 
-    def put(name: str, dims: tuple[str, ...], values: np.ndarray, units: str, long_name: str, **attributes: Any) -> None:
+    def put(
+        name: str, dims: tuple[str, ...], values: np.ndarray, units: str, long_name: str, **attributes: Any
+    ) -> None:
         data[name] = (dims, values, {"units": units, "long_name": long_name, **attributes})
 
     rollers = ("row", "roller")
@@ -233,11 +235,23 @@ def _put_traces(put: Any, trace: np.ndarray, model: RollerModel, rollers: tuple[
     def stack(name: str, places: tuple[str, ...]) -> np.ndarray:
         return np.stack([channel[f"{name}_{place}"] for place in places], axis=-1)
 
-    put("spin", dims, (ring_speed - slip) / radius, "rad/s", "spin about the roller's axis, relative to the orbiting frame")
+    put(
+        "spin",
+        dims,
+        (ring_speed - slip) / radius,
+        "rad/s",
+        "spin about the roller's axis, relative to the orbiting frame",
+    )
     put("spin_pure", dims, ring_speed / radius, "rad/s", "spin in pure rolling, relative to the orbiting frame")
     put("slip", dims, slip, "m/s", "slip at the middle of either raceway contact, ring less roller")
     put("roller_load", dims, channel["roller_load"], "N", "elastic load of the roller, without body forces")
-    put("cage_force", dims, channel["cage_load"], "N", "normal force of the cage on the roller, positive along the orbit")
+    put(
+        "cage_force",
+        dims,
+        channel["cage_load"],
+        "N",
+        "normal force of the cage on the roller, positive along the orbit",
+    )
     put(
         "traction",
         (*dims, "interface"),
@@ -246,7 +260,13 @@ def _put_traces(put: Any, trace: np.ndarray, model: RollerModel, rollers: tuple[
         "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
     )
     put("power", (*dims, "interface"), stack("power", INTERFACES), "W", "frictional power")
-    put("film_thickness", (*dims, "interface"), stack("film", INTERFACES), "m", "central film thickness; NaN without load")
+    put(
+        "film_thickness",
+        (*dims, "interface"),
+        stack("film", INTERFACES),
+        "m",
+        "central film thickness; NaN without load",
+    )
     if curved:
         long_name = "skew moment about the contact normal, positive where traction along +x acts at +z'"
         put("skew_moment", (*dims, "raceway"), stack("skew", INTERFACES[:2]), "N m", long_name)

@@ -13,7 +13,12 @@ if TYPE_CHECKING:
 
 #: Parts of a row's energy, in the order of the stacked figure.
 PARTS = (
-    "inner, curvature", "inner, contact angle", "outer, curvature", "outer, contact angle", "raceways, sliding", "cage",
+    "inner, curvature",
+    "inner, contact angle",
+    "outer, curvature",
+    "outer, contact angle",
+    "raceways, sliding",
+    "cage",
 )
 
 
@@ -106,8 +111,10 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
     parts = dissipation(study)
     down = parts.sel(row="downwind")
     shares = (down.part_energy / down.part_energy.sum("part")).mean("case")
-    curvature, angle = (100.0 * float(shares.sel(part=[f"inner, {one}", f"outer, {one}"]).sum())
-                        for one in ("curvature", "contact angle"))
+    curvature, angle = (
+        100.0 * float(shares.sel(part=[f"inner, {one}", f"outer, {one}"]).sum())
+        for one in ("curvature", "contact angle")
+    )
     speed = study.wind_speed.values
     low, high = speed == speed.min(), speed == speed.max()
 
@@ -166,6 +173,5 @@ def explained(found: list[Statement], study: xr.Dataset, numbers: xr.Dataset) ->
 
     words = reasons(study, numbers)
     return [
-        replace(one, because=words[subject]) if subject else one
-        for one, subject in zip(found, _SUBJECTS, strict=True)
+        replace(one, because=words[subject]) if subject else one for one, subject in zip(found, _SUBJECTS, strict=True)
     ]

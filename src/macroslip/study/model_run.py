@@ -135,7 +135,8 @@ def compute_model(name: str, reuse: Reuse, threads: int | None, report: Progress
     loads = HubLoads.bundled(DETAILED_CASE)
     whole = [Case(loads=HubLoads.bundled(one), laws=laws, rollers=model.rollers).as_dict() for one in bundled_cases()]
     study = reuse.part(
-        f"study-{name}", whole,
+        f"study-{name}",
+        whole,
         lambda: {"study": run_study(rollers=model.rollers, laws=laws, threads=threads, progress=told("study"))},
     )["study"]
     told("study")(1, 1)
@@ -154,7 +155,8 @@ def compute_model(name: str, reuse: Reuse, threads: int | None, report: Progress
     variations = variations_of(varied)
     limits = [[one.name, one.low, one.high] for one in variations]
     table = reuse.part(
-        f"sensitivity-{name}", [varied.as_dict(), limits],
+        f"sensitivity-{name}",
+        [varied.as_dict(), limits],
         lambda: {"table": sensitivity(varied, variations, threads=threads, progress=told("sensitivity"))},
     )["table"]
     told("sensitivity")(1, 1)
@@ -162,8 +164,14 @@ def compute_model(name: str, reuse: Reuse, threads: int | None, report: Progress
     if laws.microslip:
         sample = reuse.part(
             f"uncertainty-{name}",
-            [[Case(loads=HubLoads.bundled(one), laws=laws).as_dict() for one in CASES], ROLLERS, END, SAMPLES, SEED,
-             [asdict(one) for one in VALUES]],
+            [
+                [Case(loads=HubLoads.bundled(one), laws=laws).as_dict() for one in CASES],
+                ROLLERS,
+                END,
+                SAMPLES,
+                SEED,
+                [asdict(one) for one in VALUES],
+            ],
             lambda: {"sample": uncertainty(laws, threads=threads, progress=told("uncertainty"))},
         )["sample"]
         told("uncertainty")(1, 1)
@@ -193,8 +201,11 @@ def _turns(
 ) -> dict[str, xr.Dataset]:
     """Traced turns by "figure: column"; the static ones of both rows under "static"."""
     varying = varying_load()
-    jobs = {f"static: {name}, {row}": partial(static_turn, varying, row, thrust=thrust, laws=laws)
-            for name, thrust in STATIC_LOADS.items() for row in ROWS}
+    jobs = {
+        f"static: {name}, {row}": partial(static_turn, varying, row, thrust=thrust, laws=laws)
+        for name, thrust in STATIC_LOADS.items()
+        for row in ROWS
+    }
     for name, trace in (("typical", typical_turn), ("peak", peak_turn)):
         jobs |= {f"{name}: {row} row": partial(trace, varying, result, row, laws) for row in ROWS}
     with ThreadPoolExecutor(threads or usable_processors()) as pool:

@@ -66,7 +66,8 @@ def films(result: xr.Dataset) -> xr.Dataset:
         {
             "film_thickness": (dims, thickness, {"units": "m", "long_name": "film thickness"}),
             "film_parameter": (
-                dims, thickness / bearing.composite_roughness,
+                dims,
+                thickness / bearing.composite_roughness,
                 {"units": "1", "long_name": "film thickness over composite roughness, Λ"},
             ),
             "in_range": (dims, inside, {"units": "1", "long_name": "whether W and U are in the film formula's range"}),

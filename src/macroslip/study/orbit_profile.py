@@ -66,8 +66,12 @@ def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArra
         {"row": result.row, "interface": result.interface, "angle": _middles(sectors)},
         ("row", "interface", "angle"),
         "energy_over_orbit",
-        {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit", "energy_ratio": ratio,
-         "orbits": float(orbits)},
+        {
+            "units": "J/degree",
+            "long_name": "energy per orbit and per degree of the orbit",
+            "energy_ratio": ratio,
+            "orbits": float(orbits),
+        },
     )
 
 
@@ -113,8 +117,9 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
     )
 
 
-def over_orbit(values: xr.DataArray, angle: xr.DataArray, quantiles: tuple[float, ...] = (0.05, 0.5, 0.95),
-               sectors: int = SECTORS) -> xr.DataArray:
+def over_orbit(
+    values: xr.DataArray, angle: xr.DataArray, quantiles: tuple[float, ...] = (0.05, 0.5, 0.95), sectors: int = SECTORS
+) -> xr.DataArray:
     """Quantiles of a traced quantity over all rollers and times, by sector of the orbit.
 
     Parameters

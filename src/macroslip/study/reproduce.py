@@ -112,8 +112,11 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Progress
             *statement_lines(judged),
             numerical_line(experiments["nonlinear_tolerance"], experiments["step_size"]),
         ]
-        by_case = {of_model(case, name): count for name, run in runs.items()
-                   for case, count in failed_by_case(run.study).items()}
+        by_case = {
+            of_model(case, name): count
+            for name, run in runs.items()
+            for case, count in failed_by_case(run.study).items()
+        }
         summary = plain(
             {
                 "program": f"macroslip {macroslip.__version__}",
@@ -132,9 +135,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Progress
     return summary
 
 
-def _experiments(
-    run: ModelRun, reuse: Reuse, threads: int | None, report: Progress
-) -> dict[str, xr.Dataset]:
+def _experiments(run: ModelRun, reuse: Reuse, threads: int | None, report: Progress) -> dict[str, xr.Dataset]:
     """What the numerical method does, under the paper's model."""
     varying, result = varying_load(), run.profile["result"]
     _, orbit = largest_peak(result, "upwind")
@@ -160,9 +161,7 @@ def _experiments(
     return found
 
 
-def _figures(
-    runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]
-) -> dict[str, Callable[[], Figure]]:
+def _figures(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, Callable[[], Figure]]:
     """How each figure is drawn, by file name."""
     from macroslip.report import bearing_sets, mechanism_figures, uncertainty_figures
     from macroslip.report import paper_figures as draw

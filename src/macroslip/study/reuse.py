@@ -81,9 +81,7 @@ class Reuse:
         except (OSError, ValueError):
             self._known = {}
 
-    def part(
-        self, name: str, inputs: Any, compute: Callable[[], Mapping[str, xr.Dataset]]
-    ) -> dict[str, xr.Dataset]:
+    def part(self, name: str, inputs: Any, compute: Callable[[], Mapping[str, xr.Dataset]]) -> dict[str, xr.Dataset]:
         """Datasets of one part by their names, read if that part is known and unchanged, computed otherwise.
 
         Parameters

@@ -45,8 +45,13 @@ def run_input(result: xr.Dataset) -> RunInput:
         laws = Laws(**{name: choice for name, choice in settings["laws"].items() if name != "model"})
         models = {
             row: roller_model(
-                bearing, lubricant, AXIAL_SIGNS[row], tilt=settings["drivetrain"]["tilt"],
-                gravity=forces["gravity"], drag=forces["drag"], laws=laws,
+                bearing,
+                lubricant,
+                AXIAL_SIGNS[row],
+                tilt=settings["drivetrain"]["tilt"],
+                gravity=forces["gravity"],
+                drag=forces["drag"],
+                laws=laws,
             )
             for row in result.row.values.tolist()
         }

@@ -92,24 +92,36 @@ def with_film_factor(case: Case, factor: float) -> Case:
 
 VARIATIONS = (
     Variation(
-        name="diametral clearance", unit="mm", low=0.0, high=0.4,
+        name="diametral clearance",
+        unit="mm",
+        low=0.0,
+        high=0.4,
         base=lambda case: 1e3 * case.bearing.diametral_clearance,
         apply=lambda case, value: _with_bearing(case, diametral_clearance=1e-3 * value),
     ),
     Variation(
-        name="osculation", unit="1", low=0.97, high=0.99,
+        name="osculation",
+        unit="1",
+        low=0.97,
+        high=0.99,
         base=lambda case: case.bearing.osculation_outer,
         apply=lambda case, value: _with_bearing(case, osculation_inner=value, osculation_outer=value),
         note="at both raceways; the cage pocket conforms with it",
     ),
     Variation(
-        name="inlet temperature", unit="°C", low=20.0, high=60.0,
+        name="inlet temperature",
+        unit="°C",
+        low=20.0,
+        high=60.0,
         base=lambda case: case.lubricant.inlet_temperature - 273.15,
         apply=lambda case, value: with_inlet_temperature(case, value + 273.15),
         note="viscosity η0 exp(−β (T − T0)) from the base temperature T0; nothing else changes",
     ),
     Variation(
-        name="bearing to gearbox", unit="m", low=1.8, high=2.6,
+        name="bearing to gearbox",
+        unit="m",
+        low=1.8,
+        high=2.6,
         base=lambda case: case.drivetrain.bearing_to_gearbox,
         apply=lambda case, value: dataclasses.replace(
             case, drivetrain=dataclasses.replace(case.drivetrain, bearing_to_gearbox=value)
@@ -117,7 +129,10 @@ VARIATIONS = (
         note="distance between the supports of the shaft, which turns hub loads into the load on the bearing",
     ),
     Variation(
-        name="film factor", unit="1", low=STARVED, high=1.0,
+        name="film factor",
+        unit="1",
+        low=STARVED,
+        high=1.0,
         base=film_factor,
         apply=with_film_factor,
         note="film thickness over that of the law, at every interface; 0.7 is reported for a starved bearing",
@@ -126,7 +141,10 @@ VARIATIONS = (
 
 #: Of a film whose stress is limited, beside `VARIATIONS`.
 LIMITING_SHEAR = Variation(
-    name="limiting shear", unit="1", low=0.035, high=0.05,
+    name="limiting shear",
+    unit="1",
+    low=0.035,
+    high=0.05,
     base=lambda case: case.lubricant.limiting_shear,
     apply=lambda case, value: dataclasses.replace(case, lubricant=case.lubricant.replace(limiting_shear=value)),
     note="largest shear stress of the film over pressure; the range reported for PAO",

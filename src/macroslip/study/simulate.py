@@ -29,7 +29,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def simulate(case: Case, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None) -> xr.Dataset:
+def simulate(
+    case: Case, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None
+) -> xr.Dataset:
     """Compute the slip of the rollers of both rows.
 
     Parameters

@@ -79,7 +79,8 @@ def plotted(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset])
         traced = {"3a": "static", "3b": "typical", "3b_peak": "peak"}
         numbers = {
             name: {title: turn.to_dict(data="list") for title, turn in run.turns[group].items()}
-            for name, group in traced.items() if group in run.turns
+            for name, group in traced.items()
+            if group in run.turns
         } | numbers
         result = run.profile["result"]
         numbers["energy_over_orbit"] = run.profile["orbit"][["energy_over_orbit"]].to_dict(data="list")

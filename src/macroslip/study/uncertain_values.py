@@ -43,33 +43,71 @@ LIMITING, BOUNDARY, STARVATION, TEMPERATURE = "limiting shear", "boundary fricti
 HUB, GEARBOX = "hub to bearing", "bearing to gearbox"
 
 VALUES = (
-    UncertainValue(name=CLEARANCE, unit="mm", low=0.0, high=0.4, tag="E",
-                   reason="0.31 to 0.48 mm unmounted (catalogue); fit and warm inner ring take some or all of it"),
-    UncertainValue(name=OSCULATION, unit="1", low=0.97, high=0.99, tag="E",
-                   reason="usual for spherical roller bearings; at 0.99 the largest contacts just reach the roller's ends"),
-    UncertainValue(name=DIAMETER, unit="mm", low=67.0, high=73.0, tag="E",
-                   reason="back-calculated from the load ratings, which fix it within about 4 %; pitch radius and row "
-                   "offset follow the sphere of the outer raceway"),
-    UncertainValue(name=LENGTH, unit="mm", low=101.0, high=111.0, tag="E",
-                   reason="as the diameter, within 5 %; two rows and the guide ring have to fit 272 mm"),
-    UncertainValue(name=ROUGHNESS, unit="µm", low=0.15, high=0.5, tag="E",
-                   reason="honed and run in, to ground"),
-    UncertainValue(name=HARDNESS, unit="GPa", low=6.5, high=8.0, tag="E",
-                   reason="58 to 64 HRC"),
-    UncertainValue(name=CAGE, unit="GPa", low=110.0, high=210.0, tag="E",
-                   reason="grey iron to steel"),
-    UncertainValue(name=LIMITING, unit="1", low=0.035, high=0.05, tag="R",
-                   reason="reported for PAO"),
-    UncertainValue(name=BOUNDARY, unit="1", low=0.08, high=0.12, tag="E",
-                   reason="usual for steel with lubricant additives"),
-    UncertainValue(name=STARVATION, unit="1", low=0.5, high=1.0, tag="R",
-                   reason="0.7 is reported for a bearing of this size; 1 is flooded"),
-    UncertainValue(name=TEMPERATURE, unit="°C", low=20.0, high=50.0, tag="P",
-                   reason="the paper's 35 °C and 15 K either way, cold to warm; changes viscosity only"),
-    UncertainValue(name=HUB, unit="m", low=1.0, high=1.5, tag="E",
-                   reason="the turbine's model gives no bearing position; about 20 % either way"),
-    UncertainValue(name=GEARBOX, unit="m", low=1.8, high=2.6, tag="E",
-                   reason="as before"),
+    UncertainValue(
+        name=CLEARANCE,
+        unit="mm",
+        low=0.0,
+        high=0.4,
+        tag="E",
+        reason="0.31 to 0.48 mm unmounted (catalogue); fit and warm inner ring take some or all of it",
+    ),
+    UncertainValue(
+        name=OSCULATION,
+        unit="1",
+        low=0.97,
+        high=0.99,
+        tag="E",
+        reason="usual for spherical roller bearings; at 0.99 the largest contacts just reach the roller's ends",
+    ),
+    UncertainValue(
+        name=DIAMETER,
+        unit="mm",
+        low=67.0,
+        high=73.0,
+        tag="E",
+        reason="back-calculated from the load ratings, which fix it within about 4 %; pitch radius and row "
+        "offset follow the sphere of the outer raceway",
+    ),
+    UncertainValue(
+        name=LENGTH,
+        unit="mm",
+        low=101.0,
+        high=111.0,
+        tag="E",
+        reason="as the diameter, within 5 %; two rows and the guide ring have to fit 272 mm",
+    ),
+    UncertainValue(name=ROUGHNESS, unit="µm", low=0.15, high=0.5, tag="E", reason="honed and run in, to ground"),
+    UncertainValue(name=HARDNESS, unit="GPa", low=6.5, high=8.0, tag="E", reason="58 to 64 HRC"),
+    UncertainValue(name=CAGE, unit="GPa", low=110.0, high=210.0, tag="E", reason="grey iron to steel"),
+    UncertainValue(name=LIMITING, unit="1", low=0.035, high=0.05, tag="R", reason="reported for PAO"),
+    UncertainValue(
+        name=BOUNDARY, unit="1", low=0.08, high=0.12, tag="E", reason="usual for steel with lubricant additives"
+    ),
+    UncertainValue(
+        name=STARVATION,
+        unit="1",
+        low=0.5,
+        high=1.0,
+        tag="R",
+        reason="0.7 is reported for a bearing of this size; 1 is flooded",
+    ),
+    UncertainValue(
+        name=TEMPERATURE,
+        unit="°C",
+        low=20.0,
+        high=50.0,
+        tag="P",
+        reason="the paper's 35 °C and 15 K either way, cold to warm; changes viscosity only",
+    ),
+    UncertainValue(
+        name=HUB,
+        unit="m",
+        low=1.0,
+        high=1.5,
+        tag="E",
+        reason="the turbine's model gives no bearing position; about 20 % either way",
+    ),
+    UncertainValue(name=GEARBOX, unit="m", low=1.8, high=2.6, tag="E", reason="as before"),
 )
 
 
@@ -120,9 +158,7 @@ def with_values(case: Case, values: Mapping[str, float]) -> Case:
     oil = oil.at_inlet(values[TEMPERATURE] + 273.15).replace(
         limiting_shear=values[LIMITING], boundary_friction=values[BOUNDARY], starvation=values[STARVATION]
     )
-    drivetrain = dataclasses.replace(
-        case.drivetrain, hub_to_bearing=values[HUB], bearing_to_gearbox=values[GEARBOX]
-    )
+    drivetrain = dataclasses.replace(case.drivetrain, hub_to_bearing=values[HUB], bearing_to_gearbox=values[GEARBOX])
     return dataclasses.replace(case, bearing=bearing, lubricant=oil, drivetrain=drivetrain)
 
 

@@ -122,10 +122,19 @@ def uncertainty(
 def _base_values(case: Case) -> list[float]:
     bearing, oil, drivetrain = case.bearing, case.lubricant, case.drivetrain
     return [
-        1e3 * bearing.diametral_clearance, bearing.osculation_outer, 1e3 * bearing.roller_diameter,
-        1e3 * bearing.roller_length, 1e6 * bearing.composite_roughness, 1e-9 * bearing.hardness,
-        1e-9 * bearing.cage_youngs_modulus, oil.limiting_shear, oil.boundary_friction, oil.starvation,
-        oil.inlet_temperature - 273.15, drivetrain.hub_to_bearing, drivetrain.bearing_to_gearbox,
+        1e3 * bearing.diametral_clearance,
+        bearing.osculation_outer,
+        1e3 * bearing.roller_diameter,
+        1e3 * bearing.roller_length,
+        1e6 * bearing.composite_roughness,
+        1e-9 * bearing.hardness,
+        1e-9 * bearing.cage_youngs_modulus,
+        oil.limiting_shear,
+        oil.boundary_friction,
+        oil.starvation,
+        oil.inlet_temperature - 273.15,
+        drivetrain.hub_to_bearing,
+        drivetrain.bearing_to_gearbox,
     ]
 
 
@@ -164,13 +173,20 @@ def _as_dataset(results: list, values: np.ndarray, cases: Sequence[str], laws: L
                 found[k] = [case[name] for case in one]
         data[name] = (("sample", "case", *dims), found, {"units": units, "long_name": long_name})
     data["value"] = (
-        ("sample", "parameter"), values, {"units": "1", "long_name": "value set, in the unit of its parameter"}
+        ("sample", "parameter"),
+        values,
+        {"units": "1", "long_name": "value set, in the unit of its parameter"},
     )
     outcomes = np.array([outcome for outcome, _, _ in results], dtype=np.int8)
     data["outcome"] = (
-        "sample", outcomes,
-        {"units": "1", "long_name": "what became of the sample", "flag_values": np.arange(len(OUTCOMES), dtype=np.int8),
-         "flag_meanings": " ".join(one.replace(" ", "_") for one in OUTCOMES)},
+        "sample",
+        outcomes,
+        {
+            "units": "1",
+            "long_name": "what became of the sample",
+            "flag_values": np.arange(len(OUTCOMES), dtype=np.int8),
+            "flag_meanings": " ".join(one.replace(" ", "_") for one in OUTCOMES),
+        },
     )
     reasons = [reason for _, reason, _ in results]
     data["reason"] = ("sample", reasons, {"units": "1", "long_name": "why it did not complete"})
@@ -178,10 +194,15 @@ def _as_dataset(results: list, values: np.ndarray, cases: Sequence[str], laws: L
         data,
         {
             "sample": ("sample", np.arange(len(results)), {"units": "1", "long_name": "number; 0 are the base values"}),
-            "case": list(cases), "row": list(rows), "interface": list(interfaces),
-            "parameter": [one.name for one in VALUES], "unit": ("parameter", [one.unit for one in VALUES]),
+            "case": list(cases),
+            "row": list(rows),
+            "interface": list(interfaces),
+            "parameter": [one.name for one in VALUES],
+            "unit": ("parameter", [one.unit for one in VALUES]),
             "wind_speed": (
-                "case", [float(name[:-1]) for name in cases], {"units": "m/s", "long_name": "mean wind speed"}
+                "case",
+                [float(name[:-1]) for name in cases],
+                {"units": "m/s", "long_name": "mean wind speed"},
             ),
         },
         {"title": "Study under values drawn from their ranges", "model": laws.name, "seed": SEED},

@@ -100,19 +100,29 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
             "base": ("quantity", found.result.values[0], {"units": "1", "long_name": "with the base values"}),
             "range": (("quantity", "quantile"), quantile, {"units": "1", "long_name": "quantiles over the samples"}),
             "rank_correlation": (
-                ("quantity", "parameter"), ranks, {"units": "1", "long_name": "Spearman's rank correlation"}
+                ("quantity", "parameter"),
+                ranks,
+                {"units": "1", "long_name": "Spearman's rank correlation"},
             ),
             "probability": (
-                ("quantity", "parameter"), chance, {"units": "1", "long_name": "of such a rank correlation by chance"}
+                ("quantity", "parameter"),
+                chance,
+                {"units": "1", "long_name": "of such a rank correlation by chance"},
             ),
             "trend_share": ("trend", shares, {"units": "1", "long_name": "share of the samples that show the trend"}),
             "trend_base": (
-                "trend", [int(flags[0]) for flags in trends.values()],
+                "trend",
+                [int(flags[0]) for flags in trends.values()],
                 {"units": "1", "long_name": "whether the base values show it"},
             ),
         },
-        {"quantity": found.quantity, "units": found.units, "quantile": list(QUANTILES), "trend": list(trends),
-         "parameter": sample.parameter},
+        {
+            "quantity": found.quantity,
+            "units": found.units,
+            "quantile": list(QUANTILES),
+            "trend": list(trends),
+            "parameter": sample.parameter,
+        },
         {"completed": of(0), "failed": of(1), "refused": of(2)},
     )
 
@@ -147,7 +157,8 @@ def drivers(summary: xr.Dataset, quantity: str) -> list[tuple[str, float]]:
     order = np.argsort(-np.abs(one.rank_correlation.values))
     return [
         (str(one.parameter.values[k]), float(one.rank_correlation.values[k]))
-        for k in order if one.probability.values[k] < DRIVER_LEVEL
+        for k in order
+        if one.probability.values[k] < DRIVER_LEVEL
     ]
 
 
@@ -185,6 +196,4 @@ def with_uncertainty(statements: list[Statement], summary: xr.Dataset) -> list[S
         3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most "
         f"at the lowest wind speed in {held('ratio of peak powers highest')} of the samples",
     }
-    return [
-        replace(one, found=f"{one.found}; {words[k]}") if k in words else one for k, one in enumerate(statements)
-    ]
+    return [replace(one, found=f"{one.found}; {words[k]}") if k in words else one for k, one in enumerate(statements)]

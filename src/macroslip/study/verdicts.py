@@ -165,8 +165,9 @@ def peak_power_over_wind_speed(numbers: xr.Dataset) -> Statement:
         paper="peak power has no trend over wind speed but high variance",
         verdict=verdict(parts, found),
         found="; ".join(words),
-        because="" if all(parts) else "from the lowest to the highest wind speed the mean becomes "
-        f"{' and '.join(trends)}",
+        because=""
+        if all(parts)
+        else f"from the lowest to the highest wind speed the mean becomes {' and '.join(trends)}",
         numbers=found,
     )
 
@@ -300,7 +301,11 @@ def euler_stability(stability: xr.Dataset) -> Statement:
     found = {"explicit": explicit, "backward": backward}
     failed = values["status_explicit"] != 0
     # Where it is unstable its deviation is chaotic; only the order of magnitude is the same on every machine.
-    order = "leaves the range that friction allows" if failed else f"is off by more than {10.0 ** math.floor(math.log10(explicit)):g} times"
+    order = (
+        "leaves the range that friction allows"
+        if failed
+        else f"is off by more than {10.0 ** math.floor(math.log10(explicit)):g} times"
+    )
     words = f"explicit Euler at {1e3 * values['step_s']:g} ms {order if failed else f'{order} pure rolling'}"
     if math.isfinite(values["lost_angle_deg"]):
         words += f", lost {values['lost_angle_deg']:.0f}° from the bottom at {values['lost_load_N'] / 1e3:.1f} kN"

@@ -7,6 +7,12 @@ from macroslip.torque.skf import SkfTorque, skf_torque
 from macroslip.torque.skf_drag import OilBath
 
 __all__ = [
-    "OilBath", "PalmgrenTorque", "SkfTorque", "TorqueHistory", "computed_torque", "palmgren_torque", "skf_torque",
+    "OilBath",
+    "PalmgrenTorque",
+    "SkfTorque",
+    "TorqueHistory",
+    "computed_torque",
+    "palmgren_torque",
+    "skf_torque",
     "torque_histories",
 ]

@@ -51,14 +51,18 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     import xarray as xr
 
     if "power" not in result or "time" not in result.power.dims or not result.sizes["time"]:
-        raise InputError("the result has no traces", where="friction torque",
-                         remedy="Give the case traces, such as traces: {step: 0.05 s}.")
+        raise InputError(
+            "the result has no traces",
+            where="friction torque",
+            remedy="Give the case traces, such as traces: {step: 0.05 s}.",
+        )
     bearing, models, _ = run_input(result)
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
         raise InputError(
             f"{missing} rollers of each row are missing" if missing else "a row is missing",
-            where="friction torque", allowed="a result of all rollers of both rows",
+            where="friction torque",
+            allowed="a result of all rollers of both rows",
             remedy="Simulate with rollers: all.",
         )
     model = next(iter(models.values()))
@@ -83,8 +87,11 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(
         {
             "shaft_speed": put(shaft, "rad/s", "speed of the inner ring"),
-            "torque": put(contacts.sum(("row", "interface"), skipna=False) + drag, "N m",
-                          "friction torque of the bearing, against the rotation"),
+            "torque": put(
+                contacts.sum(("row", "interface"), skipna=False) + drag,
+                "N m",
+                "friction torque of the bearing, against the rotation",
+            ),
             "contact_torque": contacts,
             "drag_torque": put(drag, "N m", "torque of the lubricant's drag on the rollers"),
         },

@@ -69,8 +69,9 @@ def operation(
     given = {"radial_load": radial_load, "axial_load": axial_load, "shaft_speed": shaft_speed}
     for name, value in given.items():
         if not np.all(np.isfinite(np.asarray(value, dtype=float))):
-            raise InputError(f"{name} holds a number that is not finite", where="friction torque",
-                             allowed="finite numbers")
+            raise InputError(
+                f"{name} holds a number that is not finite", where="friction torque", allowed="finite numbers"
+            )
     radial, axial, speed = (np.abs(np.asarray(value, dtype=float)) for value in given.values())
     return Operation(
         bore=bearing.bore_diameter * 1e3,

@@ -197,9 +197,7 @@ def microslip_traction(law, load, film_thickness, field, shape, fine):
         force += part
         lag += part * arm
         skew += part * station
-    return Patch(
-        force, lag, skew, force_slope, lag_slope, force_by_film / film_thickness, lag_by_film / film_thickness
-    )
+    return Patch(force, lag, skew, force_slope, lag_slope, force_by_film / film_thickness, lag_by_film / film_thickness)
 
 
 @jit

@@ -161,7 +161,8 @@ def in_cell(typingctx, coefficients, cells, first_place, third_place, second_wei
             planes.append(write.weighted_sum(z, lines))
             corner = builder.add(corner, strides[0])
         weights, slopes = (
-            [write.splat(weight) for weight in write.lanes(write.polynomial(terms, t))] for terms in (_CUBIC, _QUADRATIC)
+            [write.splat(weight) for weight in write.lanes(write.polynomial(terms, t))]
+            for terms in (_CUBIC, _QUADRATIC)
         )
         along_third, by_first = write.weighted_sum(weights, planes), write.weighted_sum(slopes, planes)
         over_third = write.polynomial(_CUBIC, u)

@@ -15,6 +15,15 @@ from macroslip.report.page.blocks import (
 from macroslip.report.page.render import render
 
 __all__ = [
-    "Beside", "Block", "Paragraph", "Pictures", "Points", "Section", "Statements", "Table", "Verbatim", "View",
+    "Beside",
+    "Block",
+    "Paragraph",
+    "Pictures",
+    "Points",
+    "Section",
+    "Statements",
+    "Table",
+    "Verbatim",
+    "View",
     "render",
 ]

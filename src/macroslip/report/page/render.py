@@ -36,14 +36,23 @@ def render(title: str, subtitle: str, sections: Sequence[Section]) -> str:
     script = (files / "bearing_view.js").read_text(encoding="utf-8")
     style = (files / "report.css").read_text(encoding="utf-8")
     environment = Environment(
-        loader=PackageLoader("macroslip.report", "page"), autoescape=True, undefined=StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True,
+        loader=PackageLoader("macroslip.report", "page"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
     environment.filters |= {"numeric_columns": _numeric_columns, "as_json": _as_json}
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode("ascii")
     return environment.get_template("report.html").render(
-        title=title, subtitle=subtitle, sections=sections, style=style, script=script, script_hash=digest,
-        symbols=_SYMBOLS, program=f"macroslip {macroslip.__version__}",
+        title=title,
+        subtitle=subtitle,
+        sections=sections,
+        style=style,
+        script=script,
+        script_hash=digest,
+        symbols=_SYMBOLS,
+        program=f"macroslip {macroslip.__version__}",
     )
 
 
