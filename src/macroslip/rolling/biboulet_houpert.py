@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from macroslip.compiled import elementwise, jit
+from macroslip.compiled import jit
 
 #: What to cite.
 REFERENCE = "Biboulet and Houpert, Proc. IMechE J 224 (2010) 763 and 777, doi:10.1243/13506501JET608"
 
 
-@elementwise
 @jit
 def biboulet_houpert(load):
     """Rolling resistance of an isoviscous line contact, N_F = 1.42 √M/[1 + (0.966 √M)^10]^0.1.
 
     Parameters
     ----------
-    load : float or array
+    load : float
         M = W (2U)^(−½), ≥ 0.
 
     Returns
     -------
-    float or array
+    float
         N_F = F_R/(E' R l) (2U)^(−¾) [-], F_R the force on each surface.
 
     Notes
@@ -40,19 +39,18 @@ def biboulet_houpert(load):
     return 1.42 * load**0.5 / (1.0 + (0.966 * load**0.5) ** 10.0) ** 0.1
 
 
-@elementwise
 @jit
 def starvation_factor(inlet):
     """Rolling resistance over that of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257).
 
     Parameters
     ----------
-    inlet : float or array
+    inlet : float
         S, the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite where flooded.
 
     Returns
     -------
-    float or array
+    float
         Factor on F_R [-], below 1.
 
     References

@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.rolling.gap import film_at_load
+from macroslip.rolling.martin import FLOW
+
+_LOG_FLOW = math.log(FLOW)
 
 
 @jit_inline
@@ -63,3 +67,23 @@ def log_film(log_rigid, log_load, log_material):
     by_load = -0.2 * (share * (1.0 - rigid_share) + by_ratio) - 0.125 * (1.0 - share) * (1.0 - stiff_share)
     by_material = (1.0 - share) * (0.75 - stiff_share / 12.0)
     return height, by_rigid, by_load, by_material
+
+
+@jit
+def light_film(law, log_load, log_speed):
+    """ln h of the film of the volume flow [ln m] and its derivatives by ln Q and by ln u.
+
+    Moes' blend of a contact `law` (`law.Rolling`), its rigid and isoviscous limit that of the gap of finite length with
+    its fullness: 1.2257 h0. From ln Q [ln N] and ln u [ln m/s].
+    """
+    unit = math.log(law.viscosity * law.gap.fullness) + log_speed
+    log_gap, gap_slope, _, _, _, _ = film_at_load(law.gap, log_load - unit)
+    scale = law.log_film + 0.5 * log_speed
+    height, by_rigid, by_m, by_l = log_film(
+        log_gap + _LOG_FLOW - scale,
+        law.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed,
+        law.log_material + 0.25 * log_speed,
+    )
+    by_log_load = by_rigid * gap_slope + (2.0 / 3.0) * by_m
+    by_log_speed = 0.5 + by_rigid * (-gap_slope - 0.5) - 0.5 * by_m + 0.25 * by_l
+    return height + scale, by_log_load, by_log_speed

@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-from macroslip.compiled import elementwise, jit
+from macroslip.compiled import jit
 
 #: What to cite.
 REFERENCE = "Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346 and 353, doi:10.1115/1.3453183"
 
 
-@elementwise
 @jit
 def goksem_hargreaves(load, speed, material):
     """Rolling resistance of the inlet of a line contact, F_R α_p/(R l) = 4.318 (G U)^0.658 W^0.0126.
 
     Parameters
     ----------
-    load : float or array
+    load : float
         W = w/(E' R), > 0.
-    speed : float or array
+    speed : float
         U = η0 u/(E' R), u the mean of the surface speeds, ≥ 0.
-    material : float or array
+    material : float
         G = α_p E', > 0.
 
     Returns
     -------
-    float or array
+    float
         F_R α_p/(R l) [-], F_R the force on each surface, against its motion.
 
     Notes
@@ -45,19 +44,18 @@ def goksem_hargreaves(load, speed, material):
     return 4.318 * (material * speed) ** 0.658 * load**0.0126
 
 
-@elementwise
 @jit
 def inlet_heating_of_rolling(loading):
     """Rolling resistance over that of an isothermal inlet, 1/(1 + 0.29 L_T^0.78).
 
     Parameters
     ----------
-    loading : float or array
+    loading : float
         Thermal loading parameter L_T = η0 β u²/k, ≥ 0.
 
     Returns
     -------
-    float or array
+    float
         Factor on F_R [-], above 0, at most 1.
 
     References

@@ -11,30 +11,12 @@ import math
 from typing import NamedTuple
 
 from macroslip.compiled import jit
-from macroslip.rolling.film import log_film
-from macroslip.rolling.gap import film_at_gap, film_at_load
+from macroslip.rolling.film import light_film
+from macroslip.rolling.gap import film_at_gap
 from macroslip.rolling.law import LOWEST_SPEED, RollingForces, rolling_resistance
 from macroslip.rolling.martin import FLOW
 
 _LOG_FLOW = math.log(FLOW)
-
-
-class ContactGeometry(NamedTuple):
-    """What the film of a light contact needs beside its `Rolling`.
-
-    Attributes
-    ----------
-    log_film : float
-        ln of R (2U)^½ at 1 m/s [ln m].
-    log_load : float
-        ln M at 1 N and 1 m/s of the line contact w = 3Q/(4a).
-    area : float
-        π a b per Q^(2/3) [m²/N^(2/3)].
-    """
-
-    log_film: float
-    log_load: float
-    area: float
 
 
 class LightContact(NamedTuple):
@@ -65,46 +47,13 @@ class LightContact(NamedTuple):
     sliding_power: float
 
 
-def prepare_geometry(interface) -> ContactGeometry:
-    """What the film of a light contact at an interface needs."""
-    radius, modulus = interface.rolling_radius, interface.modulus
-    doubled = 2.0 * interface.lubricant.viscosity / (modulus * radius)
-    return ContactGeometry(
-        math.log(radius) + 0.5 * math.log(doubled),
-        math.log(0.75 / interface.hertz.semi_axis_across / (modulus * radius)) - 0.5 * math.log(doubled),
-        math.pi * interface.hertz.semi_axis_across * interface.hertz.semi_axis_along,
-    )
-
-
 @jit
-def light_film(law, geometry, load, speed):
-    """Film of the volume flow [m] and its derivatives by u [s] and by Q [m/N], at Q > 0 and mean speed u > 0.
-
-    Moes' blend, its rigid and isoviscous limit that of the gap of finite length with its fullness.
-    """
-    log_load, log_speed = math.log(load), math.log(speed)
-    unit = math.log(law.viscosity * law.gap.fullness) + log_speed
-    log_gap, gap_slope, _, _, _, _ = film_at_load(law.gap, log_load - unit)
-    scale = geometry.log_film + 0.5 * log_speed
-    height, by_rigid, by_m, by_l = log_film(
-        log_gap + _LOG_FLOW - scale,
-        geometry.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed,
-        law.log_material + 0.25 * log_speed,
-    )
-    film = math.exp(height + scale)
-    by_log_speed = 0.5 + by_rigid * (-gap_slope - 0.5) - 0.5 * by_m + 0.25 * by_l
-    by_log_load = by_rigid * gap_slope + (2.0 / 3.0) * by_m
-    return film, film * by_log_speed / speed, film * by_log_load / load
-
-
-@jit
-def light_contact(law, geometry, load, u1, u2):
+def light_contact(law, load, u1, u2):
     """A contact under a normal load: the cage's, or a raceway's under little load.
 
     Parameters
     ----------
     law : Rolling
-    geometry : ContactGeometry
     load : float
         Q [N], > 0.
     u1, u2 : float
@@ -116,15 +65,15 @@ def light_contact(law, geometry, load, u1, u2):
         The mean speed is floored at `LOWEST_SPEED` for the film.
     """
     speed = max(0.5 * abs(u1 + u2), LOWEST_SPEED)
-    film, _, _ = light_film(law, geometry, load, speed)
-    _, _, _, _, log_shear, _ = film_at_gap(law.gap, math.log(film) - _LOG_FLOW)
+    log_film, _, _ = light_film(law, math.log(load), math.log(speed))
+    film = math.exp(log_film)
+    _, _, _, _, log_shear, _ = film_at_gap(law.gap, log_film - _LOG_FLOW)
     shear = law.gap.fullness * math.exp(log_shear)
-    inside = geometry.area * load ** (2.0 / 3.0) / film
+    inside = law.area * load ** (2.0 / 3.0) / film
     slope = law.viscosity * shear * shear / (shear + inside)
     slip = u2 - u1
-    return LightContact(
-        load, film, rolling_resistance(law, load, u1, u2), slope * slip, slope, slope * slip * slip
-    )
+    rolling = rolling_resistance(law, load, u1, u2)
+    return LightContact(load, film, rolling, slope * slip, slope, slope * slip * slip)
 
 
 @jit

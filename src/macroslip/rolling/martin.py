@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from macroslip.compiled import elementwise, jit
+from macroslip.compiled import jit
 
 #: Place of the film's end x_e over √(2 R h0).
 EXIT = 0.475129920093054
@@ -25,25 +25,24 @@ SHEAR = 0.5 * math.pi + math.atan(EXIT)
 FLOW = 1.0 + EXIT**2
 
 
-@elementwise
 @jit
 def martin_film(load, viscosity, speed, radius):
     """Smallest film of a rigid, isoviscous line contact, h0 = 4.895 η0 u R/w.
 
     Parameters
     ----------
-    load : float or array
+    load : float
         Load per length w [N/m], > 0.
-    viscosity : float or array
+    viscosity : float
         η0 [Pa s].
-    speed : float or array
+    speed : float
         Mean of the surface speeds u [m/s], ≥ 0.
-    radius : float or array
+    radius : float
         Relative radius of curvature R [m].
 
     Returns
     -------
-    float or array
+    float
         h0 [m].
 
     Notes
@@ -62,23 +61,22 @@ def martin_film(load, viscosity, speed, radius):
     return LOAD * viscosity * speed * radius / load
 
 
-@elementwise
 @jit
 def martin_rolling_force(load, viscosity, speed):
     """Rolling resistance of each surface of a rigid, isoviscous line contact per length, F_R/l = 2.0796 √(η0 u w).
 
     Parameters
     ----------
-    load : float or array
+    load : float
         Load per length w [N/m], ≥ 0.
-    viscosity : float or array
+    viscosity : float
         η0 [Pa s].
-    speed : float or array
+    speed : float
         Mean of the surface speeds u [m/s], ≥ 0.
 
     Returns
     -------
-    float or array
+    float
         ½ ∫ h dp/dx dx [N/m] on each surface, against its motion.
 
     References
