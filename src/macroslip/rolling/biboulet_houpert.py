@@ -60,7 +60,7 @@ def starvation_factor(inlet):
     Examples
     --------
     >>> round(starvation_factor(10.0), 4), starvation_factor(float("inf"))
-    (0.5256, 1.0)
+    (0.5255, 1.0)
     """
     inverse = 1.0 / inlet
     return (1.0 + 162.8 * inverse) / (1.0 + (193.1 + 1257.0 * inverse) * inverse)

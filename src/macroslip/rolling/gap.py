@@ -80,11 +80,13 @@ class Gap(NamedTuple):
 
 @functools.cache
 def _table() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Coordinates ln(1 + κ) and √s, and ln c over them."""
+    """Coordinates ln(1 + κ) and √s, and ln c over them; mirrored at √s = 0, where c − 1 goes with s."""
     with files("macroslip.rolling").joinpath("gap_table.csv").open(encoding="utf-8") as file:
         columns = np.loadtxt(file, delimiter=",", skiprows=1)
     curvatures, aspects = np.unique(columns[:, 0]), np.unique(columns[:, 1])
     ratios = np.log(columns[:, 2:5]).reshape(curvatures.size, aspects.size, 3)
+    aspects = np.concatenate([-aspects[:0:-1], aspects])
+    ratios = np.concatenate([ratios[:, :0:-1], ratios], axis=1)
     return curvatures, aspects, ratios
 
 

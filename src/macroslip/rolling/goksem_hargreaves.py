@@ -39,7 +39,7 @@ def goksem_hargreaves(load, speed, material):
     Examples
     --------
     >>> round(goksem_hargreaves(8.36e-5, 2.916e-11, 4846.0), 7)
-    0.0001166
+    0.0001193
     """
     return 4.318 * (material * speed) ** 0.658 * load**0.0126
 
