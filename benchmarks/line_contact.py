@@ -10,7 +10,7 @@ With Barus' law ln η̄ = L √(M/2π) P. Moes' groups are M = W (2U)^(−½) an
 and its deformation exact; flows are those of finite volumes, Couette's upwind of second order. Newton's method solves
 for all pressures and H0 at once; the set of nodes without pressure changes between its steps.
 
-Run `python benchmarks/line_contact.py` for the table of errors of `macroslip.rolling.line_contact`.
+Run `python benchmarks/line_contact.py` for the errors of the laws of `macroslip.rolling.elastic_line` (five minutes).
 """
 
 from __future__ import annotations
@@ -253,3 +253,83 @@ def climb(load: float, materials: list[float], nodes: int = 500, **rheology) -> 
                 reached, step = aim, min(2.0, 1.5 * step)
         solutions.append(solution)
     return solutions
+
+
+def inlet_share(solution: LineContact, load: float) -> float:
+    """N_F of the inlet, ½ ∫ (h − h*) dp up to X = −0.9 in Moes' groups."""
+    scale = 0.5 * math.sqrt(8.0 * load / math.pi) * load / math.pi
+    middle = 0.5 * (solution.gap[1:] + solution.gap[:-1])
+    place = 0.5 * (solution.place[1:] + solution.place[:-1])
+    work = (middle - solution.film * math.pi / (4.0 * load)) * np.diff(solution.pressure)
+    return scale * float(work[place < -0.9].sum())
+
+
+def roelands(load: float, alpha: float, exponent: float) -> Callable:
+    """`log_viscosity` over L of Roelands' law with α [1/Pa] and Z at M = `load`."""
+
+    def at(material: float):
+        scale = material * math.sqrt(load / (2.0 * math.pi)) / alpha / 1.962e8
+        factor = alpha * 1.962e8 / exponent
+        return lambda p: (
+            factor * ((1.0 + scale * p) ** exponent - 1.0),
+            factor * exponent * scale * (1.0 + scale * p) ** (exponent - 1.0),
+        )
+
+    return at
+
+
+def dowson_higginson(load: float, alpha: float) -> Callable:
+    """`density` over L of Dowson and Higginson's law at M = `load`."""
+
+    def at(material: float):
+        scale = material * math.sqrt(load / (2.0 * math.pi)) / alpha
+        return lambda p: (
+            (5.9e8 + 1.34 * scale * p) / (5.9e8 + scale * p),
+            0.34 * 5.9e8 * scale / (5.9e8 + scale * p) ** 2,
+        )
+
+    return at
+
+
+def main() -> None:
+    """Errors of the laws over the loads of a raceway contact of the base bearing, and over a grid of M and L."""
+    from macroslip import Bearing, Lubricant
+    from macroslip.roller.model import interfaces
+    from macroslip.rolling.elastic_line import Inlet, WholeFilm, line_rolling
+
+    contact = interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))[0]
+    oil, speed = contact.lubricant, 0.396
+    doubled = 2.0 * oil.viscosity * speed / (contact.modulus * contact.rolling_radius)
+    material = oil.pressure_viscosity * contact.modulus * doubled**0.25
+    exponent = oil.pressure_viscosity * 1.962e8 / (math.log(oil.viscosity) + 9.67)
+    print(f"middle slice of the inner raceway contact, L = {material:.2f}; N_F of solutions, and laws over them")
+    print("    Q [N]       M   Barus  inlet  Roelands, compressible | whole-film  inlet/inlet  inlet/whole")
+    for force in (30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5):
+        line = 0.75 * force ** (2.0 / 3.0) / contact.hertz.semi_axis_across
+        load = line / (contact.modulus * contact.rolling_radius) / math.sqrt(doubled)
+        solution = climb(load, [material], 600)[0]
+        laws = {
+            "log_viscosity": roelands(load, oil.pressure_viscosity, exponent),
+            "density": dowson_higginson(load, oil.pressure_viscosity),
+        }
+        real = climb(load, [material], 600, **laws)[0]
+        inlet = inlet_share(solution, load) if load > 1.0 else math.nan
+        whole, published = (line_rolling(law, load, material) for law in (WholeFilm(), Inlet()))
+        print(
+            f"{force:9.0f} {load:7.3f} {solution.rolling:7.4f} {inlet:6.3f} {real.rolling:10.4f} "
+            f"{whole / solution.rolling:20.3f} {published / inlet:12.3f} {published / solution.rolling:12.3f}",
+            flush=True,
+        )
+    print("whole-film over solutions with Barus' law; rows M, columns L = 0, 1, 2, 4, 7, 10, 13.4, 18")
+    materials = [1.0, 2.0, 4.0, 7.0, 10.0, 13.4, 18.0]
+    for load in (0.1, 0.3, 0.6, 1.5, 3.0, 6.0, 11.0, 20.0, 32.0, 60.0):
+        found = [solve_line(load, 0.0, 500), *climb(load, materials, 500)]
+        ratios = [
+            line_rolling(WholeFilm(), load, max(material, 1e-12)) / solution.rolling
+            for material, solution in zip([0.0, *materials], found, strict=True)
+        ]
+        print(f"{load:5.1f}", " ".join(f"{ratio:6.3f}" for ratio in ratios), flush=True)
+
+
+if __name__ == "__main__":
+    main()

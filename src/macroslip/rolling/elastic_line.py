@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from numba.extending import overload
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.rolling.martin import ROLLING
 
 #: N_R/√M.
@@ -50,7 +50,7 @@ class WholeFilm(NamedTuple):
     order: float = _ORDER_WHOLE
 
 
-@jit
+@jit_inline
 def log_inlet(log_load, log_material):
     """ln N_E of the inlet and its derivatives by ln M and ln L.
 
@@ -77,7 +77,7 @@ def log_inlet(log_load, log_material):
     return log_force, 0.0126 * share, -0.342 * share
 
 
-@jit
+@jit_inline
 def log_whole_film(log_load, log_material):
     """ln N_E of the whole film and its derivatives by ln M and ln L.
 

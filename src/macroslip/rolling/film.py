@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_inline
 from macroslip.rolling.gap import film_at_load
 from macroslip.rolling.martin import FLOW
 
@@ -22,7 +22,7 @@ def joined(first, second, order):
     return second + math.log1p(ratio) / order, ratio / (1.0 + ratio)
 
 
-@jit
+@jit_inline
 def log_film(log_rigid, log_load, log_material):
     """ln N of Moes' blend where the rigid, isoviscous limit is that of the contact itself.
 
@@ -69,7 +69,7 @@ def log_film(log_rigid, log_load, log_material):
     return height, by_rigid, by_load, by_material
 
 
-@jit
+@jit_inline
 def light_film(law, log_load, log_speed):
     """ln h of the film of the volume flow [ln m] and its derivatives by ln Q and by ln u.
 

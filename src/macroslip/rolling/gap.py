@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_inline
 from macroslip.errors import InputError
 from macroslip.rolling import martin
 
@@ -186,7 +186,7 @@ def _value(cubics, cell, which, t, beyond):
     return a + t * (b + t * (c + t * d)) + beyond * slope, slope
 
 
-@jit
+@jit_inline
 def film_at_load(film, log_group):
     """Film of a contact that carries a load.
 
@@ -209,7 +209,7 @@ def film_at_load(film, log_group):
     return gap, gap_slope * inverse, rolling, rolling_slope * inverse, shear, shear_slope * inverse
 
 
-@jit
+@jit_inline
 def film_at_gap(film, log_gap):
     """Film of a contact whose gap is given.
 

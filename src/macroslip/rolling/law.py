@@ -29,7 +29,7 @@ from typing import Any, NamedTuple
 
 from numba.extending import overload
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 from macroslip.errors import InputError
 from macroslip.rolling import biboulet_houpert, goksem_hargreaves
@@ -216,7 +216,7 @@ def prepare_rolling(
     )
 
 
-@jit
+@jit_inline
 def beside_ellipse(law, log_load, log_speed):
     """F_B [N] of a full share 1 − g, and its derivatives by ln Q and by ln u, from ln Q [ln N] and ln u [ln m/s]."""
     across = law.across * math.exp(log_load / 3.0)
@@ -237,7 +237,7 @@ def beside_ellipse(law, log_load, log_speed):
     )
 
 
-@jit
+@jit_inline
 def resistance(law, log_load, log_speed):
     """F_R [N] and its derivatives by ln Q and by ln u, from ln Q [ln N] and ln u [ln m/s]."""
     log_m = law.log_load + _LOG_SLICE + (2.0 / 3.0) * log_load - 0.5 * log_speed
