@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -53,6 +54,25 @@ def allowed_text(field: FieldInfo, dimension: Dimension | None, unit: str = "") 
         if hasattr(item, name)
     ]
     return f"a {'whole ' if field.annotation is int else ''}number {' and '.join(bounds)}"
+
+
+def is_allowed(field: FieldInfo, si_value: float) -> bool:
+    """Whether a value is within the bounds of a field.
+
+    Parameters
+    ----------
+    field : FieldInfo
+        The field, whose bounds are in SI.
+    si_value : float
+        The value [SI].
+    """
+    tests = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
+    return all(
+        test(si_value, getattr(item, name))
+        for name, test in tests.items()
+        for item in field.metadata
+        if hasattr(item, name)
+    )
 
 
 def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict[str, Any]:
