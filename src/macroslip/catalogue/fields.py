@@ -75,7 +75,9 @@ def is_allowed(field: FieldInfo, si_value: float) -> bool:
     )
 
 
-def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict[str, Any]:
+def schema(
+    record: type[BaseModel], title: str, tags: Mapping[str, str], derivable: frozenset[str] = frozenset()
+) -> dict[str, Any]:
     """Build the JSON Schema (2020-12) of the file format of a record class.
 
     Parameters
@@ -86,6 +88,8 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
         Title of the schema.
     tags : Mapping[str, str]
         Provenance tags and their meaning.
+    derivable : frozenset of str
+        Quantities that may follow from others.
 
     Returns
     -------
@@ -133,6 +137,6 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
         "title": title,
         "type": "object",
         "properties": properties,
-        "required": [key for key, field in record.model_fields.items() if field.is_required()],
+        "required": [key for key, field in record.model_fields.items() if field.is_required() and key not in derivable],
         "additionalProperties": False,
     }

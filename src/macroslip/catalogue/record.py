@@ -39,13 +39,22 @@ class Record(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
     noun: ClassVar[str] = "record"
+    # Quantities that may be left out of a file because they follow from others that it gives.
+    derivable: ClassVar[frozenset[str]] = frozenset()
     # Pairs instead of a mapping keep the record hashable and picklable.
     _provenance: tuple[tuple[str, Provenance], ...] = PrivateAttr(default=())
+    _derived: frozenset[str] = PrivateAttr(default=frozenset())
 
     def __init__(self, **values: Any):
         self._fill(values, {}, Source())
 
-    def _fill(self, values: Mapping[str, Any], provenance: Mapping[str, Provenance], source: Source) -> None:
+    def _fill(
+        self,
+        values: Mapping[str, Any],
+        provenance: Mapping[str, Provenance],
+        source: Source,
+        derived: frozenset[str] = frozenset(),
+    ) -> None:
         """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
         kinds = dimensions(type(self))
         fields = type(self).model_fields
@@ -67,7 +76,7 @@ class Record(BaseModel):
             unusable = (item for item in details.items() if item[0] not in missing)
             problems += [self._unusable(key, detail, provenance, source) for key, detail in unusable]
             raise together(problems) from None
-        self._provenance = tuple(provenance.items())
+        self._provenance, self._derived = tuple(provenance.items()), derived
         problems = [*self._unwritable(source), *self._wide(source), *self._inconsistencies(source)]
         if problems:
             raise together(problems)
@@ -283,10 +292,12 @@ class Record(BaseModel):
         -------
         dict
             Text fields as text, quantities as value and unit as written, tag, note and, where it is known, range.
-            Quantities without a value are left out. `from_dict` turns it back into an equal record.
+            Quantities without a value, and those that follow from others, are left out. `from_dict` turns it back into an equal record.
         """
         entries: dict[str, Any] = {}
         for key in type(self).model_fields:
+            if key in self._derived:
+                continue
             if key in self.provenance:
                 origin = self.provenance[key]
                 entries[key] = {"value": origin.value, "unit": origin.unit, "tag": origin.tag, "note": origin.note}
@@ -314,14 +325,15 @@ class Record(BaseModel):
             As the constructor.
         """
         kept = {key: origin for key, origin in self.provenance.items() if key not in values}
+        given = {key: getattr(self, key) for key in type(self).model_fields if key not in self._derived}
         record = type(self).__new__(type(self))
-        record._fill({key: getattr(self, key) for key in type(self).model_fields} | values, kept, Source())
+        record._fill(given | values, kept, Source())
         return record
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
-        return schema(cls, f"{cls.noun} of macroslip", TAGS)
+        return schema(cls, f"{cls.noun} of macroslip", TAGS, cls.derivable)
 
 
 def _number(value: Any, whole: bool) -> Any:
