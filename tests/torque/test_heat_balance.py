@@ -48,7 +48,9 @@ def test_no_balance_is_an_error():
 
 @pytest.mark.parametrize("power", [math.nan, math.inf, -1.0])
 def test_a_power_that_is_none(power):
-    with pytest.raises(InputError, match="^the friction power at 288.15 K is .* Allowed: a finite number, not negative"):
+    with pytest.raises(
+        InputError, match="^the friction power at 288.15 K is .* Allowed: a finite number, not negative"
+    ):
         balance_temperature(lambda _: power, 60.0, 288.15)
 
 

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Sequence
 
 from macroslip.errors import InputError
 
-
 MOST_PROBLEMS = 20
 """Problems that one message lists."""
 

@@ -7,10 +7,10 @@ from typing import Any
 from macroslip.catalogue.problems import shown
 from macroslip.errors import InputError
 from macroslip.lubricant.base_oil import BASE_OILS
+from macroslip.lubricant.density import density_at
 from macroslip.lubricant.eyring import eyring_stress
 from macroslip.lubricant.gold import gold
 from macroslip.lubricant.inlet import T15, T40, T100, viscosities
-from macroslip.lubricant.density import density_at
 from macroslip.lubricant.lubricant import Lubricant
 from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity, pressure_viscosity_at
 from macroslip.lubricant.viscosity import roelands_index
@@ -91,7 +91,9 @@ def estimate_lubricant(
         "starvation": _entry(0.7, "1", "as in the base case; 1 is a flooded inlet") | {"range": [0.5, 1.0]},
     }
     low, mean, high = family.limiting_shear
-    entries["limiting_shear"] = _entry(mean, "1", "usual for the family, see docs/lubricants.md") | {"range": [low, high]}
+    entries["limiting_shear"] = _entry(mean, "1", "usual for the family, see docs/lubricants.md") | {
+        "range": [low, high]
+    }
     index = roelands_index(viscosities(line, T40, density_at(family.density_15, T15, T40))[0], alpha)
     viscosity, _ = viscosities(line, INLET, density_at(family.density_15, T15, INLET))
     at_inlet = pressure_viscosity_at(index, viscosity)

@@ -153,7 +153,11 @@ def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dic
     if index is not None:
         alpha = pressure_viscosity_at(index, viscosity)
         follows("pressure_viscosity", alpha, "1/Pa", "from Roelands' index", "roelands_index")
-    elif line is not None and density is not None and {"reference_pressure_viscosity", "reference_temperature"} <= given.keys():
+    elif (
+        line is not None
+        and density is not None
+        and {"reference_pressure_viscosity", "reference_temperature"} <= given.keys()
+    ):
         reference = given["reference_temperature"]
         eta, _ = viscosities(line, reference, density_at(density, temperature, reference))
         index = roelands_index(eta, given["reference_pressure_viscosity"])

@@ -55,7 +55,7 @@ def walther_viscosity(line: WaltherLine, temperature: float) -> float:
     >>> round(walther_viscosity(line, 323.15) * 1e6, 1)
     179.4
     """
-    return (10.0 ** 10.0 ** (line.intercept - line.slope * math.log10(temperature)) - _SHIFT) * _MM2
+    return (10.0**10.0 ** (line.intercept - line.slope * math.log10(temperature)) - _SHIFT) * _MM2
 
 
 def walther_coefficient(line: WaltherLine, temperature: float) -> float:
