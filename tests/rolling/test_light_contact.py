@@ -113,3 +113,18 @@ def test_blend_with_the_elastic_line_has_no_step(laws):
         assert np.max(-np.diff(films)) < 2.2 * np.log(loads[1] / loads[0])
         powers = [c.rolling.power for c in found]
         assert powers == [rolling_resistance(laws[where], q, 0.3, 0.4).power for q in loads]
+
+
+def test_a_short_inlet_lets_the_free_roller_turn_faster(contacts):
+    def ratio(inlet_film):
+        law = prepare_rolling("inlet", *contacts["inner"], inlet_film=inlet_film)
+
+        def moment(u1):
+            held = contact_at_gap(law, 2e-5, u1, SPEED)
+            return held.rolling.shear + held.sliding
+
+        return brentq(moment, 1e-6, SPEED) / SPEED
+
+    flooded, long, short, least = (ratio(s) for s in (math.inf, 30.0, 10.0, 2.0))
+    assert flooded < long < short < least
+    assert (flooded, long, short, least) == pytest.approx((0.140, 0.26, 0.375, 0.81), abs=0.02)

@@ -38,3 +38,25 @@ def test_free_line_contact_slips_by_1_6_of_the_mean_speed():
     # No moment on the roller: −F_R + η Δu ∫dx/h = 0.
     slip = martin.ROLLING_AT_GAP / (martin.SHEAR * math.sqrt(2.0))
     assert slip == pytest.approx(1.615, abs=5e-4)
+
+
+@pytest.mark.parametrize("inlet", [1.2, 2.0, 10.0, 300.0])
+def test_starved_line_by_quadrature(inlet):
+    def slope(t, end):
+        return (t * t - end * end) / (1.0 + t * t) ** 3
+
+    def exit_of(start):
+        return brentq(lambda e: quad(slope, start, e, args=(e,), epsabs=1e-14)[0], 1e-6, 0.9)
+
+    start = -brentq(lambda s: 1.0 + s * s - inlet * (1.0 + exit_of(-s) ** 2), 0.1, 1e3)
+    end = exit_of(start)
+    load = -24.0 * quad(lambda t: t * slope(t, end), start, end, epsabs=1e-13)[0] / martin.LOAD
+    rolling = 6.0 * math.sqrt(2.0) * quad(lambda t: (1.0 + t * t) * slope(t, end), start, end, epsabs=1e-13)[0]
+    shear = quad(lambda t: 1.0 / (1.0 + t * t), start, end)[0] / martin.SHEAR
+    expected = load, rolling / martin.ROLLING_AT_GAP, shear
+    assert martin.starved_martin(inlet) == pytest.approx(expected, rel=1e-6)
+
+
+def test_starvation_ends_in_the_flooded_contact():
+    assert martin.starved_martin(math.inf) == (1.0, 1.0, 1.0)
+    assert martin.starved_martin(1e7) == pytest.approx((1.0, 1.0, 1.0), abs=1e-3)

@@ -13,6 +13,7 @@ is Martin's line. A given contact moves along the line κ λ² = R_x/R_y, so tha
 Fullness φ is the share of the length l over which the gap holds oil, in streaks along the motion that are wide against
 √(2R_x h0) and full to far upstream: at a given gap load, resistance and shear go with φ; at a given load h0 goes with φ
 where the contact is a line. Narrower streaks lose pressure at their sides, so that F_R and Q are then smaller still.
+An inlet that begins to be full at S times the film has the factors of `martin.starved_martin` on Q, F_R and S = ∫∫ dA/h.
 """
 
 from __future__ import annotations
@@ -103,7 +104,7 @@ def ratios(kappa: float, aspect: float) -> np.ndarray:
     return np.exp([RectBivariateSpline(curvatures, aspects, values[:, :, i])(*place)[0, 0] for i in range(3)])
 
 
-def prepare_gap(shape: GapShape, fullness: float = 1.0) -> Gap:
+def prepare_gap(shape: GapShape, fullness: float = 1.0, inlet_film: float = math.inf) -> Gap:
     """The film of a contact.
 
     Parameters
@@ -111,6 +112,8 @@ def prepare_gap(shape: GapShape, fullness: float = 1.0) -> Gap:
     shape : GapShape
     fullness : float
         φ, above 0 and at most 1: an estimate, 0.03 to 1 for contacts without load.
+    inlet_film : float
+        Gap where the inlet begins to be full over the film, > 1; infinite where flooded.
 
     Returns
     -------
@@ -122,6 +125,13 @@ def prepare_gap(shape: GapShape, fullness: float = 1.0) -> Gap:
     InputError
         If the fullness is outside its range.
     """
+    if not inlet_film > 1.0:
+        raise InputError(
+            f"the film at the inlet over that of the contact is {inlet_film!r}",
+            where="inlet_film",
+            allowed="a number above 1; .inf where flooded",
+            remedy="It is the gap where the inlet begins to be full over the gap of the contact",
+        )
     if not 0.0 < fullness <= 1.0:
         raise InputError(
             f"the fullness of a light contact is {fullness!r}",
@@ -145,6 +155,8 @@ def prepare_gap(shape: GapShape, fullness: float = 1.0) -> Gap:
     log_load = np.log(martin.LOAD * radius * length / gap) + narrow + corrections[0]
     log_rolling = np.log(martin.ROLLING_AT_GAP * length * np.sqrt(radius / gap)) + wide + corrections[1]
     log_shear = np.log(martin.SHEAR * length * np.sqrt(2.0 * radius / gap)) + wide + corrections[2]
+    starved = np.log(martin.starved_martin(inlet_film))
+    log_load, log_rolling, log_shear = log_load + starved[0], log_rolling + starved[1], log_shear + starved[2]
     by_gap = _cubics(log_gap, np.stack([log_load, log_rolling, log_shear]))
     order = slice(None, None, -1)
     even = np.linspace(log_load[-1], log_load[0], _KNOTS)

@@ -38,7 +38,7 @@ from macroslip.rolling.elastic_line import RIGID, Inlet, WholeFilm, log_elastic
 from macroslip.rolling.film import joined, light_film
 from macroslip.rolling.gap import Gap, GapShape, film_at_load, prepare_gap
 from macroslip.rolling.goksem_hargreaves import inlet_heating_of_rolling
-from macroslip.rolling.martin import FLOW, ROLLING_AT_GAP
+from macroslip.rolling.martin import FLOW, ROLLING_AT_GAP, starved_martin
 
 #: Mean speed below which forces go in proportion to speed [m/s].
 LOWEST_SPEED = 1e-6
@@ -84,7 +84,7 @@ class Rolling(NamedTuple):
     log_starvation : float
         ln of the factor of a starved inlet.
     beside : float
-        2 · 4.601 φ η0 √(2 R_x R_y) [N s/m].
+        2 · 4.601 φ η0 √(2 R_x R_y) [N s/m], less where the inlet is starved.
     double_lateral : float
         2 R_y [m].
     half_length : float
@@ -164,7 +164,8 @@ def prepare_rolling(
     fullness : float
         Share of the length over which the gap of a light contact holds oil, see `gap`.
     inlet_film : float
-        S of `starvation_factor` for the elastic contact; infinite where flooded.
+        S, the gap where the inlet begins to be full over the film, > 1; infinite where flooded. The elastic contact
+        takes Biboulet and Houpert's factor, the rigid one `martin.starved_martin`.
     heating : bool
         Whether the elastic inlet is heated by its shear.
 
@@ -180,13 +181,6 @@ def prepare_rolling(
             allowed=", ".join(REFERENCES),
             remedy="Choose one of these",
         )
-    if not inlet_film >= 1.0:
-        raise InputError(
-            f"the film at the inlet over that of the contact is {inlet_film!r}",
-            where="inlet_film",
-            allowed="a number of at least 1; .inf where flooded",
-            remedy="It is the gap where the inlet begins to be full over the gap of the contact",
-        )
     if name == "none":
         return NoRolling()
     radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
@@ -194,7 +188,7 @@ def prepare_rolling(
     doubled = 2.0 * oil.viscosity / (modulus * radius)
     return Rolling(
         elastic=_ELASTIC[name],
-        gap=prepare_gap(shape, fullness),
+        gap=prepare_gap(shape, fullness, inlet_film),
         viscosity=oil.viscosity,
         log_load=math.log(0.75 / across / (modulus * radius)) - 0.5 * math.log(doubled),
         log_material=math.log(oil.pressure_viscosity * modulus) + 0.25 * math.log(doubled),
@@ -205,6 +199,7 @@ def prepare_rolling(
         beside=2.0
         * ROLLING_AT_GAP
         * fullness
+        * starved_martin(inlet_film)[1]
         * oil.viscosity
         * math.sqrt(2.0 * shape.rolling_radius * shape.lateral_radius),
         double_lateral=2.0 * shape.lateral_radius,
