@@ -86,7 +86,7 @@ def log_whole_film(log_load, log_material):
     Notes
     -----
     N_F is within 3 % of the solutions of `benchmarks/line_contact.py` for M = 0.1 to 60, L = 0 to 18, with Barus' law.
-    With Roelands' law and a compressible oil (0.54 Pa s, 21 GPa⁻¹, L = 13.4) solutions lie within 4 % of it for M = 1
+    With Roelands' law and a compressible oil (0.54 Pa s, 21 GPa⁻¹, L = 13.4) solutions lie within 5 % of it for M = 1
     to 32.
 
     Examples
