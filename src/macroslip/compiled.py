@@ -20,7 +20,7 @@ from numba.extending import register_jitable
 
 _extra_sources: list[str] = []
 #: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
-_ROOMS_ABOVE_THE_KERNELS = ("bench", "campaign", "cli", "report", "study", "torque")
+_ROOMS_ABOVE_THE_KERNELS = ("bench", "campaign", "cli", "rating", "report", "study", "torque")
 
 
 @functools.cache

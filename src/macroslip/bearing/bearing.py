@@ -65,6 +65,9 @@ class Bearing(Record):
     static_load_rating: Annotated[
         float | None, FORCE, Field(gt=0, le=1e9, description="basic static radial load rating C0")
     ] = None
+    fatigue_load_limit: Annotated[
+        float | None, FORCE, Field(gt=0, le=1e9, description="fatigue load limit C_u, in some catalogues P_u")
+    ] = None
     axial_factor_e: Annotated[
         float | None, NUMBER, Field(gt=0, le=5, description="ratio e of axial to radial load between Y1 and Y2")
     ] = None
