@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from macroslip import Bearing, Lubricant
 from macroslip.compiled import jit
-from macroslip.film import law as film_law
+from macroslip.film import film_law as film_law
 from macroslip.roller.model import interfaces
 
 

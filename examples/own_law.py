@@ -12,7 +12,7 @@ from typing import NamedTuple
 from macroslip import Bearing, Lubricant
 from macroslip.compiled import jit
 from macroslip.roller.model import interfaces
-from macroslip.traction import law as traction_law
+from macroslip.traction import traction_law as traction_law
 
 
 class IsothermalBarus(NamedTuple):

@@ -16,30 +16,30 @@ _HOMES = {
     "Drivetrain": "macroslip.loads",
     "main_bearing_load": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
-    "Laws": "macroslip.laws",
-    "load_laws": "macroslip.law_file",
-    "Case": "macroslip.study.case",
-    "Radau": "macroslip.study.case",
-    "ExplicitEuler": "macroslip.study.case",
-    "BackwardEuler": "macroslip.study.case",
-    "Window": "macroslip.study.case",
-    "Traces": "macroslip.study.case",
-    "simulate": "macroslip.study.simulate",
-    "read_study": "macroslip.campaign.study_file",
-    "run_campaign": "macroslip.campaign.run",
-    "open_study": "macroslip.campaign.reader",
+    "Laws": "macroslip.mechanisms",
+    "load_laws": "macroslip.plugins",
+    "Case": "macroslip.case.case",
+    "Radau": "macroslip.case.case",
+    "ExplicitEuler": "macroslip.case.case",
+    "BackwardEuler": "macroslip.case.case",
+    "Window": "macroslip.case.case",
+    "Traces": "macroslip.case.case",
+    "simulate": "macroslip.result.simulate",
+    "read_study": "macroslip.study.study_file",
+    "run_study": "macroslip.study.run",
+    "open_study": "macroslip.study.reader",
     "InputError": "macroslip.errors",
     "MacroslipError": "macroslip.errors",
 }
-_ROOMS = ("film", "traction", "hertz")
+_FOLDERS = ("film", "traction", "hertz")
 
-__all__ = ["__version__", *_HOMES, *_ROOMS]
+__all__ = ["__version__", *_HOMES, *_FOLDERS]
 
 
 def __getattr__(name: str) -> Any:
     if name in _HOMES:
         value = getattr(import_module(_HOMES[name]), name)
-    elif name in _ROOMS:
+    elif name in _FOLDERS:
         value = import_module("macroslip.contact.hertz" if name == "hertz" else f"macroslip.{name}")
     else:
         raise AttributeError(f"module 'macroslip' has no attribute {name!r}")

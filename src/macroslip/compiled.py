@@ -18,21 +18,9 @@ import numpy as np
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.extending import register_jitable
 
+from macroslip.fingerprint import KERNEL_PARTS, fingerprint
+
 _extra_sources: list[str] = []
-#: Rooms that use kernels and that no kernel uses; a change there compiles nothing again.
-_ROOMS_ABOVE_THE_KERNELS = ("bench", "campaign", "cli", "rating", "report", "study", "torque")
-
-
-@functools.cache
-def _package_hash() -> str:
-    digest = hashlib.sha256()
-    root = Path(__file__).parent
-    for path in sorted(root.rglob("*.py")):
-        if path.relative_to(root).parts[0] in _ROOMS_ABOVE_THE_KERNELS:
-            continue
-        digest.update(str(path.relative_to(root)).encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
 
 
 def depend_on(*functions: Callable) -> None:
@@ -77,7 +65,7 @@ class _PackageCache(FunctionCache):
     def __init__(self, function: Callable):
         super().__init__(function)
         # The stamp outdates the whole index, so that kernels of older sources are overwritten and do not pile up.
-        self._stamp = (self._cache_file._source_stamp, _package_hash())
+        self._stamp = (self._cache_file._source_stamp, fingerprint(*KERNEL_PARTS))
         self._files: dict[str, _IndexFile] = {}
 
     def _use_file(self) -> None:

@@ -2,7 +2,7 @@
 
 from ruamel.yaml import YAML
 
-from macroslip.study.case_keys import CASE
+from macroslip.case.keys import CASE
 
 
 def test_init_then_run(folder, macroslip):
@@ -52,7 +52,7 @@ def test_the_template_shows_every_key_with_a_comment_above(folder, macroslip):
 
 def test_the_values_of_the_template_are_the_defaults(folder, macroslip):
     from macroslip import Case, HubLoads
-    from macroslip.study.case_file import read_case
+    from macroslip.case.case_file import read_case
 
     macroslip("init")
     case = read_case("case.yaml").as_dict()
@@ -63,7 +63,7 @@ def test_the_values_of_the_template_are_the_defaults(folder, macroslip):
 
 def test_what_the_template_comments_out_is_right_too(folder, macroslip):
     """Each alternative has to run the moment its comment signs are taken away."""
-    from macroslip.study.case_file import read_case
+    from macroslip.case.case_file import read_case
 
     macroslip("init")
     text = (folder / "case.yaml").read_text()

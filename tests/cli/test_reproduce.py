@@ -17,7 +17,7 @@ def study(monkeypatch):
         calls.append((directory.name, threads, progress))
         return summary
 
-    monkeypatch.setattr("macroslip.study.reproduce.reproduce", reproduce)
+    monkeypatch.setattr("macroslip.reproduction.reproduce.reproduce", reproduce)
     return calls, summary
 
 

@@ -185,7 +185,7 @@ def test_an_interrupt_leaves_nothing(quick, folder, macroslip, monkeypatch):
     def interrupted(*arguments, **options):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("macroslip.study.simulate.simulate", interrupted)
+    monkeypatch.setattr("macroslip.result.simulate.simulate", interrupted)
     done = macroslip("run", quick(), "-o", "case.nc")
     assert (done.code, done.out, done.err) == (130, "", "interrupted\n")
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
@@ -195,7 +195,7 @@ def test_a_fault_of_the_program_shows_its_traceback(quick, macroslip, monkeypatc
     def broken(*arguments, **options):
         raise ZeroDivisionError("a bug")
 
-    monkeypatch.setattr("macroslip.study.simulate.simulate", broken)
+    monkeypatch.setattr("macroslip.result.simulate.simulate", broken)
     done = macroslip("run", quick(), "-o", "case.nc")
     assert done.code == 1 and "Traceback" in done.err
     assert done.err.endswith(

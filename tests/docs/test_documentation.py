@@ -10,17 +10,17 @@ from pathlib import Path
 
 import pytest
 
-from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_campaign, simulate
-from macroslip.campaign.export import tables
-from macroslip.campaign.outcome import Outcome
-from macroslip.campaign.study_file import study_of
-from macroslip.campaign.study_keys import KINDS, METHODS, SCALES, STUDY
-from macroslip.campaign.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.campaign.weights import Weibull
+from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
+from macroslip.case.form import Choice
+from macroslip.case.keys import CASE
+from macroslip.case.section import Section, Variants
 from macroslip.integrate.status import Status
-from macroslip.study.case_form import Choice
-from macroslip.study.case_keys import CASE
-from macroslip.study.case_section import Section, Variants
+from macroslip.study.export import tables
+from macroslip.study.outcome import Outcome
+from macroslip.study.study_file import study_of
+from macroslip.study.study_keys import KINDS, METHODS, SCALES, STUDY
+from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
+from macroslip.study.weights import Weibull
 
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
@@ -169,7 +169,7 @@ def test_campaigns_page_has_the_sentence_of_every_outcome():
 def test_campaigns_page_names_every_file_every_table_and_every_variable(tmp_path):
     text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
     study = {"case": {"rollers": [0], "loads": {"end": "8 s"}}, "loads": {"bundled": ["14B"]}, "cycles": True}
-    run_campaign(study_of(study), tmp_path / "out")
+    run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
     found = tables(opened, Weibull(9.0, 2.0))
     files = [f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()]
@@ -246,7 +246,9 @@ def test_results_page_names_what_reproduce_writes():
     summary = re.search(r"summary = plain\(\s*\{(.*?)\n            \}", source, re.DOTALL).group(1)
     names = re.findall(r'^ {16}"(\w+)":', summary, re.MULTILINE)
     figures = {name.removeprefix("figure_") for name in re.findall(r'"(\w+)"\]?(?::| =) lambda', source)}
-    study = re.findall(r'put\(\s*"(\w+)"', (ROOT / "src/macroslip/study/paper_study.py").read_text(encoding="utf-8"))
+    study = re.findall(
+        r'put\(\s*"(\w+)"', (ROOT / "src/macroslip/reproduction/paper_study.py").read_text(encoding="utf-8")
+    )
     assert len(names) > 5 and len(figures) == 20 and len(study) > 4
     missing = [name for name in [*names, *study] if f"`{name}`" not in text]
     assert missing + [name for name in figures if f"`{name}`" not in text and f"`figure_{name}`" not in text] == []

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.errors import InputError
-from macroslip.film import law
+from macroslip.film import film_law as law
 from macroslip.film.asperity_load import (
     AsperityLoad,
     asperity_share,

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from macroslip.compiled import jit
 from macroslip.errors import InputError
-from macroslip.film import law
+from macroslip.film import film_law as law
 from macroslip.film.correction import CorrectedFilm, inlet_heating_factor, prepare_film
 
 log_loads, log_speeds = st.floats(-2.0, 5.0), st.floats(-6.0, 1.0)

@@ -13,7 +13,8 @@ from macroslip.bearing import Bearing
 from macroslip.contact.hertz import elliptical_contact
 from macroslip.contact.interface import Interface
 from macroslip.errors import InputError
-from macroslip.film import law, masjedi_khonsari_thickness
+from macroslip.film import film_law as law
+from macroslip.film import masjedi_khonsari_thickness
 from macroslip.film.masjedi_khonsari import masjedi_khonsari
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import interfaces
@@ -170,7 +171,7 @@ def test_unknown_law_is_told_with_the_choices():
 
 def test_groups_outside_the_range_whatever_the_load_are_told():
     from macroslip import Bearing, Lubricant
-    from macroslip.film.law import film_range_notes
+    from macroslip.film.film_law import film_range_notes
     from macroslip.roller.model import interfaces
 
     bearing, lubricant = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.bearing import Bearing
-from macroslip.film import law
+from macroslip.film import film_law as law
 from macroslip.film.masjedi_khonsari_moes import prepare
 from macroslip.lubricant.density import dowson_higginson
 

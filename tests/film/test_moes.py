@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from macroslip.film import law
+from macroslip.film import film_law as law
 from macroslip.film.moes import log_moes, moes
 
 powers = {"log_load": st.floats(-6.0, 4.0), "log_material": st.floats(-3.0, 2.0)}

@@ -12,9 +12,9 @@ from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
 from macroslip.integrate.status import Status
 from macroslip.integrate.step_control import Limits
-from macroslip.roller.load_zone import empty_classes, firm_interference
+from macroslip.ring.load_zone import empty_classes, firm_interference
+from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.roller.model import roller_model
-from macroslip.roller.orbit import Motion, shaft_angle
 
 
 def solve(bearing, lubricant, displacement, speed, start_angle, slip, times, acceleration=0.0, tolerance=1e-7):

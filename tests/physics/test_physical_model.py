@@ -18,19 +18,19 @@ from scipy.optimize import brentq
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, simulate
 from macroslip.bearing import Bearing
 from macroslip.bearing.frames import initial_angles
-from macroslip.contact.ring_motion import ring_motion
 from macroslip.errors import InputError
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
 from macroslip.integrate.status import Status
-from macroslip.laws import Laws
 from macroslip.lubricant import Lubricant
+from macroslip.mechanisms import Laws
+from macroslip.result.simulate import radau_limits
+from macroslip.ring.load_zone import empty_classes
+from macroslip.ring.motion import ring_motion
+from macroslip.ring.orbit import Motion, instant
 from macroslip.roller.contact_force import friction_power, slip_field
 from macroslip.roller.forces import slip_forces, station
-from macroslip.roller.load_zone import empty_classes
 from macroslip.roller.model import roller_model
-from macroslip.roller.orbit import Motion, instant
-from macroslip.study.simulate import radau_limits
 from macroslip.traction.film_shear_law import microslip_traction
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")

@@ -8,11 +8,11 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 
 from macroslip.report import bearing_figures as draw
-from macroslip.report import bearing_sets
-from macroslip.report.sensitivity_figures import plot_tornado
-from macroslip.report.solver_figures import plot_cage_energy
 from macroslip.report.style import INTERFACE, ROW, TURBULENCE, new_figure
-from macroslip.study.orbit_profile import orbit_profile
+from macroslip.reproduction import bearing_sets
+from macroslip.reproduction.sensitivity_figures import plot_tornado
+from macroslip.reproduction.solver_figures import plot_cage_energy
+from macroslip.result.orbit_profile import orbit_profile
 
 ROWS, INTERFACES = ["downwind", "upwind"], ["inner", "outer", "cage"]
 

@@ -11,7 +11,7 @@ from macroslip.bearing import Bearing
 from macroslip.report.page import Beside, Pictures, Points, Section, Statements, Table, Verbatim, render
 from macroslip.report.pictures import picture
 from macroslip.report.results_page import results_page
-from macroslip.study.orbit_scene import scene
+from macroslip.result.orbit_scene import scene
 
 
 @pytest.fixture(scope="module")

@@ -4,11 +4,21 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from macroslip.report import paper_figures
 from macroslip.report.orbit_figures import plot_cumulative_energy, plot_spin, plot_varying_over_static
-from macroslip.report.solver_figures import plot_deviation, plot_nonlinear_tolerance, plot_stability, plot_step_size
 from macroslip.report.style import new_figure, save
-from macroslip.report.wind_speed_figures import plot_energy, plot_energy_ratio, plot_peak_power, plot_peak_power_ratio
+from macroslip.reproduction import paper_figures
+from macroslip.reproduction.solver_figures import (
+    plot_deviation,
+    plot_nonlinear_tolerance,
+    plot_stability,
+    plot_step_size,
+)
+from macroslip.reproduction.wind_speed_figures import (
+    plot_energy,
+    plot_energy_ratio,
+    plot_peak_power,
+    plot_peak_power_ratio,
+)
 
 NAMES = ["12A", "12C", "14A", "14C"]
 ROWS = ["downwind", "upwind"]

@@ -13,7 +13,7 @@ from macroslip.report.bearing_view import LEAST_POWER, MISSING, quantise, scene_
 from macroslip.report.bibliography import bibtex
 from macroslip.report.page import Paragraph, Section, Table, View, render
 from macroslip.report.results_page import results_page
-from macroslip.study.orbit_scene import scene
+from macroslip.result.orbit_scene import scene
 
 
 @pytest.fixture(scope="module")

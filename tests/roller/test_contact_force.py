@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from macroslip.film.law import film_thickness
-from macroslip.laws import Laws
+from macroslip.film.film_law import film_thickness
+from macroslip.mechanisms import Laws
 from macroslip.roller.contact_force import (
     CurvedContact,
     PlainContact,

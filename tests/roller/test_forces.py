@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.bearing import kinematics
+from macroslip.ring.orbit import Instant
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, contact_force
 from macroslip.roller.forces import Station, interference, slip_forces, station
 from macroslip.roller.model import interfaces, roller_model
-from macroslip.roller.orbit import Instant
 
 RATED = 20.463 * 2 * math.pi / 60
 ALPHA, TILT = math.radians(11.2), math.radians(5.0)

@@ -7,10 +7,11 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from macroslip.bearing import Bearing
-from macroslip.film import law as film_law
+from macroslip.film import film_law as film_law
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import interfaces
-from macroslip.traction import barus_crook, law
+from macroslip.traction import barus_crook
+from macroslip.traction import traction_law as law
 
 RATED_SURFACE_SPEED = 0.39594  # Ω r~_out at 20.463 rpm [m/s]
 FILM = 1.2e-6

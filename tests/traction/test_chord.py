@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from macroslip.laws import Laws
 from macroslip.lubricant import Lubricant
+from macroslip.mechanisms import Laws
 from macroslip.roller.contacts import fluid
 from macroslip.traction import shear_stress
 from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity

@@ -14,8 +14,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from macroslip.laws import Laws
 from macroslip.lubricant import Lubricant
+from macroslip.mechanisms import Laws
 from macroslip.roller.contacts import fluid
 from macroslip.traction.chord import characteristic_stress, chord_stress, log_viscosity
 from macroslip.traction.chord_table import HIGHEST_PRESSURE, chord_table, film_place, interpolated_stress

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp, solve_ivp
 
-from macroslip.laws import Laws
+from macroslip.mechanisms import Laws
 from macroslip.roller.contacts import references
 from macroslip.traction import heating_number, shear_stress, shear_stress_slope
-from macroslip.traction import law as traction_law
+from macroslip.traction import traction_law as traction_law
 from macroslip.traction.crook import thermal_reduction
 
 VISCOSITY, BETA, CONDUCTIVITY, FILM = 0.7, 0.05, 0.13, 1.3e-6

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.bearing import Bearing
-from macroslip.laws import Laws
 from macroslip.lubricant import Lubricant
+from macroslip.mechanisms import Laws
 from macroslip.roller.contact_force import slip_field
 from macroslip.roller.model import roller_model
 from macroslip.traction.barus_crook import traction as barus_crook_traction

@@ -8,8 +8,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.laws import Laws
 from macroslip.lubricant import Lubricant
+from macroslip.mechanisms import Laws
 from macroslip.roller.contact_force import slip_field
 from macroslip.roller.model import roller_model
 from macroslip.traction.slip_field import SlipField, graded_rule, rolling_lines, slip_at

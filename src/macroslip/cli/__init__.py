@@ -8,7 +8,6 @@ import typer
 
 import macroslip
 from macroslip.cli.aggregate import aggregate
-from macroslip.cli.bench import bench
 from macroslip.cli.catalogue import bearing, lubricant
 from macroslip.cli.failure import command
 from macroslip.cli.init import init
@@ -32,7 +31,6 @@ command(app, study)
 command(app, aggregate)
 command(app, report)
 command(app, reproduce)
-command(app, bench)
 app.add_typer(loads)
 app.add_typer(bearing)
 app.add_typer(lubricant)

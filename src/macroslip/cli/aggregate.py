@@ -12,7 +12,7 @@ from macroslip.errors import InputError
 if TYPE_CHECKING:
     import pandas as pd
 
-    from macroslip.campaign.weights import Weights
+    from macroslip.study.weights import Weights
 
 #: Lines of the table that is printed.
 _MOST_LINES = 20
@@ -39,8 +39,8 @@ def aggregate(
     quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
 ) -> None:
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
-    from macroslip.campaign.export import FORMATS, tables, write_tables
-    from macroslip.campaign.reader import open_study
+    from macroslip.study.export import FORMATS, tables, write_tables
+    from macroslip.study.reader import open_study
 
     if form not in FORMATS:
         raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
@@ -56,7 +56,7 @@ def aggregate(
 
 
 def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) -> Weights | None:
-    from macroslip.campaign.weights import Given, Weibull
+    from macroslip.study.weights import Given, Weibull
 
     if weibull is not None and probabilities is not None:
         raise InputError("--weibull and --probabilities are given together", remedy="Give one of them.")
@@ -80,8 +80,8 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
 
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
-    from macroslip.campaign.printable import printable
     from macroslip.cli.printing import number, table
+    from macroslip.study.printable import printable
 
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
     title = f"energy of a roller in {years:g} years, mean over the row"

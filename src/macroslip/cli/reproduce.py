@@ -23,8 +23,8 @@ def reproduce(
     quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
 ) -> None:
     """Reproduce the paper: its figures, numbers and a report."""
-    from macroslip.study.reproduce import REPORT, stages
-    from macroslip.study.reproduce import reproduce as study
+    from macroslip.reproduction.reproduce import REPORT, stages
+    from macroslip.reproduction.reproduce import reproduce as study
 
     with progress_bar(quiet=quiet, stages=stages()) as report:
         summary = study(output, threads=threads, progress=report)

@@ -27,15 +27,15 @@ def run(
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
 ) -> None:
     """Compute the slip of a case's rollers, as netCDF."""
-    from macroslip.study.case_file import read_case
+    from macroslip.case.case_file import read_case
 
     check_new_file(output, force=force)
     for path in laws or ():
-        from macroslip.law_file import load_laws
+        from macroslip.plugins import load_laws
 
         load_laws(path)
     checked = read_case(case)
-    from macroslip.study.simulate import simulate
+    from macroslip.result.simulate import simulate
 
     with progress_bar(quiet=quiet) as report:
         progress = report and (lambda done, total: report("rollers", done, total))

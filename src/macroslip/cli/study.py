@@ -15,9 +15,9 @@ from macroslip.cli.failure import CASES_FAILED, tell
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
-    from macroslip.campaign.progress import Progress
-    from macroslip.campaign.session import Ended
-    from macroslip.campaign.study import Study
+    from macroslip.study.progress import Progress
+    from macroslip.study.session import Ended
+    from macroslip.study.study import Study
 
 #: Failures that are listed; the log and the summary have all.
 _LISTED = 30
@@ -37,7 +37,7 @@ def study(
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
 ) -> None:
     """Compute all cases of a study; a failed one does not stop it."""
-    from macroslip.campaign.study_file import read_study
+    from macroslip.study.study_file import read_study
 
     checked = read_study(study)
     for remark in checked.loads.remarks:
@@ -49,10 +49,10 @@ def study(
         raise InputError(
             "there is no folder for the results", where="--output", remedy="Name one, new or empty, with -o."
         )
-    from macroslip.campaign.run import run_campaign
+    from macroslip.study.run import run_study
 
     with _shown(quiet=quiet) as report:
-        ended = run_campaign(
+        ended = run_study(
             checked,
             output,
             workers=workers,
@@ -70,11 +70,11 @@ def study(
 
 
 def _dry_run(checked: Study, workers: int | None, threads: int | None) -> None:
-    from macroslip.campaign.estimate import estimate
-    from macroslip.campaign.printable import printable
-    from macroslip.campaign.progress import duration
     from macroslip.cli.printing import table
-    from macroslip.study.simulate import usable_processors
+    from macroslip.result.simulate import usable_processors
+    from macroslip.study.estimate import estimate
+    from macroslip.study.printable import printable
+    from macroslip.study.progress import duration
 
     found = estimate(checked)
     parts = [
@@ -146,7 +146,7 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
 
 
 def _summary(ended: Ended, output: Path) -> None:
-    from macroslip.campaign.progress import duration
+    from macroslip.study.progress import duration
 
     counts = ended.progress
     left = counts.total - counts.done
@@ -163,8 +163,8 @@ def _failures(ended: Ended, output: Path) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from macroslip.campaign.printable import printable
     from macroslip.cli.printing import PIPE_WIDTH
+    from macroslip.study.printable import printable
 
     shown = Table(box=None, padding=(0, 2, 0, 0))
     for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
-from macroslip.contact.law_list import LawList
+from macroslip.contact.law_registry import LawList
 
 _kinds = LawList("asperity_load")
 names, reference, prepare = _kinds.names, _kinds.reference, _kinds.prepare

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 from macroslip.errors import InputError
-from macroslip.film import law as film_law
+from macroslip.film import film_law as film_law
 
 #: What to cite where inlet shear heating was used.
 INLET_HEATING_REFERENCE = (

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
-from macroslip.film.law import register
+from macroslip.film.film_law import register
 
 #: Ranges of the dimensionless groups in which the formula was fitted.
 RANGES = {

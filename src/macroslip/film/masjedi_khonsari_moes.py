@@ -26,7 +26,7 @@ from typing import NamedTuple
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 from macroslip.film import masjedi_khonsari, moes
-from macroslip.film.law import register
+from macroslip.film.film_law import register
 from macroslip.film.masjedi_khonsari import RANGES
 from macroslip.lubricant.density import dowson_higginson
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
-from macroslip.film.law import register
+from macroslip.film.film_law import register
 
 #: Loads M and lubricant parameters L up to which the blend was compared with full numerical solutions.
 HIGHEST_COMPARED_LOAD = 20.0

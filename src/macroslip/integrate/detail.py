@@ -13,10 +13,10 @@ from numba.extending import overload
 from macroslip.compiled import jit_part
 from macroslip.contact.flash_temperature import flash_temperature
 from macroslip.film.asperity_load import asperity_share
-from macroslip.film.law import film_thickness
+from macroslip.film.film_law import film_thickness
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
-from macroslip.traction.law import chord_traction, patch_traction_microslip
 from macroslip.traction.slip_field import slip_at
+from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
 
 #: Meaning of `Record.mechanism_energy` by position.
 MECHANISMS = ("sliding", "curvature", "contact angle")

@@ -6,12 +6,12 @@ import math
 
 from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
-from macroslip.integrate.explicit_euler import explicit_euler_step
 from macroslip.integrate.detail import book_stage, book_step
+from macroslip.integrate.explicit_euler import explicit_euler_step
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_trace
 from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE
+from macroslip.ring.orbit import instant, interval_of
 from macroslip.roller.forces import slip_forces, station
-from macroslip.roller.orbit import instant, interval_of
 
 
 @jit

@@ -15,10 +15,10 @@ from macroslip.integrate.root import is_continuous
 from macroslip.integrate.stages import force_tolerance, solve_stages
 from macroslip.integrate.status import COMPLETED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
 from macroslip.integrate.step_control import defect_error, error_ratio, first_cusp, sample_after, step_factor
+from macroslip.ring.load_zone import EDGE, FIRM, FREE, classify, edge_time
+from macroslip.ring.orbit import instant, interval_of
 from macroslip.roller.forces import net_force, slip_forces, station
 from macroslip.roller.held_contact import LIMIT_EXPONENT, held_exponent, held_slip, slips_everywhere
-from macroslip.roller.load_zone import EDGE, FIRM, FREE, classify, edge_time
-from macroslip.roller.orbit import instant, interval_of
 
 #: First step of the history and first step after entering an edge of the load zone [s].
 _FIRST_STEP, _EDGE_STEP = 1e-2, 1e-3

@@ -10,7 +10,7 @@ from numba import types
 from numba.extending import overload
 
 from macroslip.compiled import jit_part
-from macroslip.film.law import film_in_range, film_thickness
+from macroslip.film.film_law import film_in_range, film_thickness
 from macroslip.integrate.detail import EXTREMES, MECHANISMS, STATIONS
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
 

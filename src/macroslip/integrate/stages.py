@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 from macroslip.compiled import jit_part
 from macroslip.integrate.radau_step import collocation, newton_update, residuals
+from macroslip.ring.orbit import instant
 from macroslip.roller.forces import magnitude, net_force, shifted, slip_forces, station
-from macroslip.roller.orbit import instant
 
 _ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage.

@@ -10,8 +10,8 @@ import numpy as np
 from macroslip.compiled import jit_part
 from macroslip.integrate.crossing import crossing
 from macroslip.integrate.stages import between_stages
+from macroslip.ring.orbit import interval_of
 from macroslip.roller.forces import net_force, slip_forces
-from macroslip.roller.orbit import interval_of
 
 #: Largest part of an orbit turned in one step [rad], so that no step sees gravity's direction only where it is alike.
 _LONGEST_TURN = 0.6

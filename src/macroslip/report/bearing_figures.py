@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.report.style import BLACK, BLUE, GREY, INTERFACE, ROW, finish, log_ticks
-from macroslip.study.wording import told
+from macroslip.report.wording import told
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,7 +23,7 @@ _ANGLE = "angle from the bottom, top at 180 [°]"
 def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> PolarAxes:
     """Energy per orbit and degree of a row at each interface, on polar axes that look downwind.
 
-    Takes the array of `macroslip.study.orbit_profile.energy_over_orbit` [J/degree]; drawn in mJ/degree. An interface
+    Takes the array of `macroslip.result.orbit_profile.energy_over_orbit` [J/degree]; drawn in mJ/degree. An interface
     that never reaches a hundredth of the largest is left to the legend, which gives the energy per orbit of each.
     """
     one = energy.sel(row=row)
@@ -84,7 +84,7 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
 def plot_load_zone(axes: Axes, load: xr.DataArray, row: str) -> Axes:
     """Roller load of a row over angle and time as a heat map, darkest where there is no load, with the row's own scale.
 
-    Takes the array of `macroslip.study.orbit_profile.load_zone` [N].
+    Takes the array of `macroslip.result.orbit_profile.load_zone` [N].
     """
     one = load.sel(row=row)
     largest = max(float(one.max()), 1.0)

@@ -11,7 +11,7 @@ from macroslip.report import bearing_figures as draw
 from macroslip.report.bearing_view import scene_data
 from macroslip.report.page import Block, Paragraph, Pictures, Section, View
 from macroslip.report.pictures import picture
-from macroslip.study.run_input import run_input
+from macroslip.result.run_input import run_input
 
 if TYPE_CHECKING:
     import xarray as xr

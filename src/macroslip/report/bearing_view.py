@@ -50,7 +50,7 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     Parameters
     ----------
     scene : xarray.Dataset
-        From `macroslip.study.orbit_scene.scene`.
+        From `macroslip.result.orbit_scene.scene`.
     bearing : Bearing
         Of which the drawing is made, to scale.
 

@@ -1,6 +1,6 @@
 """Spin and frictional energy of one roller over one turn (figure 3 of the paper).
 
-All functions take a turn from `macroslip.study.single_roller.trace_turn`; its loaded part is shaded.
+All functions take a turn from `macroslip.reproduction.single_roller.trace_turn`; its loaded part is shaded.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from macroslip.report.style import BLACK, BLUE, ORANGE, ROW, finish
-from macroslip.study.wording import told, told_energy
+from macroslip.report.wording import told, told_energy
 
 if TYPE_CHECKING:
     import xarray as xr

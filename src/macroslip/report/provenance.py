@@ -6,9 +6,9 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from macroslip.bench.machine import machine
 from macroslip.catalogue.entry import TAGS
 from macroslip.integrate.status import Status
+from macroslip.machine import machine
 from macroslip.report.bibliography import bibtex
 from macroslip.report.page import Paragraph, Section, Table, Verbatim
 

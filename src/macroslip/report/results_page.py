@@ -12,7 +12,7 @@ from macroslip.report.bearing_section import further_blocks, orbit_blocks, resul
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Table, render
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
-from macroslip.study.orbit_profile import orbit_profile
+from macroslip.result.orbit_profile import orbit_profile
 
 if TYPE_CHECKING:
     import xarray as xr

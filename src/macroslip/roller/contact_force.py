@@ -15,10 +15,10 @@ from numba.extending import overload
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.shape import ContactShape
 from macroslip.film.asperity_load import AsperityLoad, asperity_share
-from macroslip.film.law import film_thickness
+from macroslip.film.film_law import film_thickness
 from macroslip.traction.asperity_friction import AsperityFriction, asperity_friction
-from macroslip.traction.law import patch_traction, patch_traction_microslip
 from macroslip.traction.slip_field import SlipField
+from macroslip.traction.traction_law import patch_traction, patch_traction_microslip
 
 #: Entrainment speed below which the film formula is not followed further [m/s].
 LOWEST_ENTRAINMENT_SPEED = 1e-6

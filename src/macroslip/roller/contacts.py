@@ -9,12 +9,12 @@ from macroslip.bearing import geometry
 from macroslip.contact.flash_temperature import effusivity
 from macroslip.contact.shape import ContactShape, common_contour_radius, slipless
 from macroslip.film import asperity_load
-from macroslip.film import law as film_law
+from macroslip.film import film_law as film_law
 from macroslip.film.correction import INLET_HEATING_REFERENCE, prepare_film
-from macroslip.laws import MECHANISMS
 from macroslip.lubricant.viscosity import ROELANDS_PRESSURE, roelands_index
+from macroslip.mechanisms import MECHANISMS
 from macroslip.roller.contact_force import CurvedContact, PlainContact
-from macroslip.traction import law as traction_law
+from macroslip.traction import traction_law as traction_law
 from macroslip.traction.asperity_friction import AsperityFriction
 from macroslip.traction.barus_crook import prepare as prepare_barus_crook
 from macroslip.traction.chord import Fluid
@@ -25,8 +25,8 @@ from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, RHEOLOGIES
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.contact.interface import Interface
-    from macroslip.laws import Laws
     from macroslip.lubricant import Lubricant
+    from macroslip.mechanisms import Laws
 
 #: Slip [m/s] from which on asperities slide fully. Junctions of about a micrometre that cross a contact 1 mm wide at
 #: 0.4 m/s are there at some 0.1 mm/s; an engineering estimate.

@@ -7,9 +7,9 @@ import math
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_part
-from macroslip.film.law import film_thickness
+from macroslip.film.film_law import film_thickness
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved
-from macroslip.traction.law import rising_slip
+from macroslip.traction.traction_law import rising_slip
 
 #: Power of the load with which the middle of a held contact slips where stress is at its limit: that of the drop of the
 #: contour at the end of the ellipse.

@@ -9,7 +9,7 @@ from macroslip.bearing import geometry, inertia
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import effective_modulus, elliptical_contact, series_stiffness
 from macroslip.contact.interface import Interface
-from macroslip.laws import Laws
+from macroslip.mechanisms import Laws
 from macroslip.roller.contacts import prepare_contact
 
 #: Share of a roller's load that may lie beyond its ends.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.errors import InputError
-from macroslip.study.run_input import run_input
+from macroslip.result.run_input import run_input
 
 if TYPE_CHECKING:
     import xarray as xr

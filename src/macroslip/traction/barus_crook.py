@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
-from macroslip.traction.law import register_type
 from macroslip.traction.patch_integral import patch_integral
+from macroslip.traction.traction_law import register_type
 
 #: √B at which Crook's shear stress peaks (B = 2.2767).
 _ROOT_HEATING_AT_PEAK = 1.5088

@@ -18,10 +18,10 @@ from macroslip.traction.chord_table import (
     interpolated_stress,
     stress_of,
 )
-from macroslip.traction.law import register_type
 from macroslip.traction.patch import Patch
 from macroslip.traction.rheology import limited_stress
 from macroslip.traction.slip_field import graded_rule, rolling_lines
+from macroslip.traction.traction_law import register_type
 
 _NODES, _WEIGHTS = graded_rule(10)
 _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)

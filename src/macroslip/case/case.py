@@ -1,0 +1,269 @@
+"""A case: everything one simulation needs, validated once and frozen."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from macroslip.bearing import Bearing
+from macroslip.errors import InputError
+from macroslip.loads import BearingLoads, Drivetrain, HubLoads
+from macroslip.lubricant import Lubricant
+from macroslip.mechanisms import Laws
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") -> None:
+    if not good:
+        raise InputError(what, where=where, allowed=allowed, remedy=remedy)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Radau:
+    """The production integrator: Radau IIA in the slip, L-stable, order 5, error-controlled.
+
+    Parameters
+    ----------
+    tolerance : float
+        Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
+    max_steps : int
+        Steps and rejections after which a roller counts as failed.
+    """
+
+    tolerance: float = 2e-4
+    max_steps: int = 100_000_000
+
+    def __post_init__(self) -> None:
+        _check(
+            _is_number(self.tolerance) and 1e-10 <= self.tolerance <= 1e-2,
+            f"the tolerance is {self.tolerance!r}",
+            "integrator.tolerance",
+            "1e-10 to 1e-2",
+            "2e-4 gives energies and spin to 1e-4 and peak power to 1 %",
+        )
+        _check(
+            isinstance(self.max_steps, int) and self.max_steps > 0,
+            f"max_steps is {self.max_steps!r}",
+            "integrator.max_steps",
+            "a whole number above 0",
+        )
+
+
+def _check_step(step: Any) -> None:
+    _check(
+        _is_number(step) and 1e-7 <= step <= 1.0,
+        f"the step is {step!r} s",
+        "integrator.step",
+        "1e-7 to 1 s",
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExplicitEuler:
+    """Explicit Euler on the spin at a fixed step [s], as in the paper's Appendix A; unstable in the load zone."""
+
+    step: float
+
+    def __post_init__(self) -> None:
+        _check_step(self.step)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BackwardEuler:
+    """Backward Euler on the spin at a fixed step, the paper's method.
+
+    Parameters
+    ----------
+    step : float
+        [s].
+    tolerance : float
+        Relative change of spin at which the nonlinear iteration stops, 1e-16 to 1e-2.
+    """
+
+    step: float
+    tolerance: float = 1e-12
+
+    def __post_init__(self) -> None:
+        _check_step(self.step)
+        _check(
+            _is_number(self.tolerance) and 1e-16 <= self.tolerance <= 1e-2,
+            f"the tolerance is {self.tolerance!r}",
+            "integrator.tolerance",
+            "1e-16 to 1e-2",
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Window:
+    """Part of the history over which energies and peaks are taken; the simulation always starts with the history.
+
+    Parameters
+    ----------
+    start : float, optional
+        [s] on the loads' time axis. None: when the rollers have completed one orbit, or at the first sample if they
+        never do.
+    end : float, optional
+        [s]; None: the last sample.
+    """
+
+    start: float | None = None
+    end: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Traces:
+    """Series to be kept for every simulated roller.
+
+    Parameters
+    ----------
+    step : float
+        Time between samples [s]. The integrator ends a step at each of them.
+    start, end : float, optional
+        First and last time [s] on the loads' time axis; None: first and last sample of the loads.
+    """
+
+    step: float
+    start: float | None = None
+    end: float | None = None
+
+    def __post_init__(self) -> None:
+        _check(
+            _is_number(self.step) and self.step > 0.0,
+            f"the step is {self.step!r} s",
+            "traces.step",
+            "a number above 0 s",
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """One simulation.
+
+    Parameters
+    ----------
+    loads : HubLoads or BearingLoads
+    bearing : Bearing
+    lubricant : Lubricant
+    drivetrain : Drivetrain
+        Turns hub loads into main-bearing load; its tilt also directs the rollers' weight.
+    gravity, drag : bool
+        Whether weight and drag act on the rollers.
+    laws : Laws
+        Mechanisms in the contacts; the paper's by default, `Laws.physical()` for all of them.
+    integrator : Radau, ExplicitEuler or BackwardEuler
+    window : Window
+    rollers : "all" or sequence of int
+        Numbers of the rollers to simulate in each row, from 0.
+    traces : Traces, optional
+
+    Raises
+    ------
+    InputError
+        For a roller number that does not exist or a wrong choice.
+
+    Examples
+    --------
+    >>> from macroslip import Case, HubLoads
+    >>> case = Case(loads=HubLoads.bundled("14B"))
+    >>> case.bearing.rollers_per_row, case.integrator.tolerance
+    (28, 0.0002)
+    """
+
+    loads: HubLoads | BearingLoads
+    bearing: Bearing = field(default_factory=lambda: Bearing.read("skf-240-600-bc"))
+    lubricant: Lubricant = field(default_factory=lambda: Lubricant.read("vg460-pao"))
+    drivetrain: Drivetrain = field(default_factory=Drivetrain)
+    gravity: bool = True
+    drag: bool = True
+    laws: Laws = field(default_factory=Laws.paper)
+    integrator: Radau | ExplicitEuler | BackwardEuler = field(default_factory=Radau)
+    window: Window = field(default_factory=Window)
+    rollers: str | Sequence[int] = "all"
+    traces: Traces | None = None
+
+    def __post_init__(self) -> None:
+        for name, kinds in (
+            ("loads", (HubLoads, BearingLoads)),
+            ("bearing", (Bearing,)),
+            ("lubricant", (Lubricant,)),
+            ("drivetrain", (Drivetrain,)),
+            ("gravity", (bool,)),
+            ("drag", (bool,)),
+            ("laws", (Laws,)),
+            ("integrator", (Radau, ExplicitEuler, BackwardEuler)),
+            ("window", (Window,)),
+        ):
+            value = getattr(self, name)
+            allowed = " or ".join(kind.__name__ for kind in kinds)
+            _check(isinstance(value, kinds), f"it is {type(value).__name__}", name, allowed)
+        count = self.bearing.rollers_per_row
+        if self.rollers != "all":
+            rollers = tuple(self.rollers) if not isinstance(self.rollers, str) else ()
+            good = len(rollers) > 0 and all(
+                isinstance(number, int) and not isinstance(number, bool) and 0 <= number < count for number in rollers
+            )
+            _check(
+                good and len(set(rollers)) == len(rollers),
+                f"rollers is {self.rollers!r}",
+                "rollers",
+                f"all, or a list of different numbers from 0 to {count - 1}",
+            )
+            object.__setattr__(self, "rollers", rollers)
+        first, last = float(self.loads.time[0]), float(self.loads.time[-1])
+        start = first if self.window.start is None else self.window.start
+        end = last if self.window.end is None else self.window.end
+        _check(
+            _is_number(start) and _is_number(end) and first <= start < end <= last,
+            f"the window runs from {start!r} s to {end!r} s",
+            "window",
+            f"start before end, both within the loads' {first:g} s to {last:g} s",
+        )
+        if self.traces is not None:
+            start = first if self.traces.start is None else self.traces.start
+            end = last if self.traces.end is None else self.traces.end
+            _check(
+                _is_number(start) and _is_number(end) and first <= start <= end <= last,
+                f"the traces run from {start!r} s to {end!r} s",
+                "traces",
+                f"times within the loads' {first:g} s to {last:g} s",
+            )
+
+    @property
+    def roller_numbers(self) -> tuple[int, ...]:
+        """Numbers of the rollers to simulate in each row."""
+        return tuple(range(self.bearing.rollers_per_row)) if self.rollers == "all" else tuple(self.rollers)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The full input as plain data; of the load series its source, extent and a hash of all its numbers."""
+        loads = self.loads
+        digest = hashlib.sha256()
+        for name in ("time", "shaft_speed", "force", "moment"):
+            if hasattr(loads, name):
+                digest.update(getattr(loads, name).tobytes())
+        return {
+            "loads": {
+                "kind": type(loads).__name__,
+                "source": loads.source,
+                "samples": int(loads.time.size),
+                "start": float(loads.time[0]),
+                "end": float(loads.time[-1]),
+                "sha256": digest.hexdigest(),
+            },
+            "bearing": self.bearing.as_dict(),
+            "lubricant": self.lubricant.as_dict(),
+            "drivetrain": asdict(self.drivetrain),
+            "forces": {"gravity": self.gravity, "drag": self.drag},
+            "laws": {"model": self.laws.name, **asdict(self.laws)},
+            "integrator": {"method": type(self.integrator).__name__, **asdict(self.integrator)},
+            "window": asdict(self.window),
+            "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
+            "traces": asdict(self.traces) if self.traces else None,
+        }

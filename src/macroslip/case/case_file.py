@@ -1,0 +1,198 @@
+"""From a case file to a `Case`; whatever is wrong with the file is told together, each with its line and remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from macroslip.bearing import Bearing
+from macroslip.case.case import BackwardEuler, Case, ExplicitEuler, Radau, Traces, Window
+from macroslip.case.form import Place
+from macroslip.case.keys import CASE
+from macroslip.catalogue import Record
+from macroslip.catalogue.problems import together
+from macroslip.catalogue.source import Source, parse
+from macroslip.errors import InputError
+from macroslip.loads import BearingLoads, Drivetrain, HubLoads
+from macroslip.loads.statics import allowed_range
+from macroslip.lubricant import Lubricant
+from macroslip.mechanisms import Laws
+
+_INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
+# Advice for programs, in the words of a case file.
+_ADVICE = {
+    "read it with BearingLoads.read": "name it under bearing_file",
+    "read it with HubLoads.read, then main_bearing_load": "name it under file",
+    "become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())": "belong under file",
+    "(start=, end=)": "(loads.start, loads.end)",
+}
+
+
+def read_case(path: str | PathLike[str]) -> Case:
+    """Read a case file.
+
+    Parameters
+    ----------
+    path : path
+        YAML file; `macroslip init` writes one with every key explained. Every quantity carries its unit. Relative paths
+        in it start at its own folder.
+
+    Returns
+    -------
+    Case
+        In SI units.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
+    """
+    path = Path(path)
+    remedy = "Write a case file that runs with: macroslip init"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"the case file cannot be read ({error.strerror})", where=str(path), remedy=remedy) from None
+    except UnicodeDecodeError:
+        raise InputError("the case file is not UTF-8 text", where=str(path), remedy="Save it as UTF-8.") from None
+    data, source = parse(text, str(path), remedy)
+    return _Builder(data, source, path.parent).case()
+
+
+def case_schema() -> dict[str, Any]:
+    """JSON Schema (2020-12) of the case file, for editors and for programs that write such files."""
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "case of macroslip",
+        **CASE.schema(),
+    }
+
+
+class _Builder:
+    """Turns the content of a case file into the parts of a case, and remembers every problem on the way."""
+
+    def __init__(self, data: Mapping[str, Any], source: Source, folder: Path):
+        self.data, self.place, self.folder = data, Place(source), folder
+        self.problems: list[InputError] = []
+        self.values = CASE.read(data, self.place, self.problems)
+
+    def case(self) -> Case:
+        """Build the case, or tell all problems."""
+        values, parts = self.values, {}
+        for key, build in (
+            ("bearing", lambda name: self.record(Bearing, name)),
+            ("lubricant", lambda name: self.record(Lubricant, name)),
+            ("loads", self.loads),
+            ("drivetrain", self.drivetrain),
+            ("laws", self.laws),
+            ("integrator", lambda given: _INTEGRATORS[given.pop("method")](**given)),
+            ("window", lambda given: Window(**given)),
+            ("rollers", lambda given: given),
+            ("traces", lambda given: Traces(**given)),
+        ):
+            if values.get(key) is not None:  # left out, wrong, or switched off by a word
+                try:
+                    parts[key] = build(values[key])
+                except InputError as problem:
+                    self.problems.append(self.located(problem, key))
+        self.check_against_loads(parts)
+        if self.problems:
+            raise together(self.problems)
+        case = Case(**parts, **values.get("forces", {}))
+        self.check_lubricant(case)
+        return case
+
+    @staticmethod
+    def laws(given: Mapping[str, Any]) -> Laws:
+        """The named set with what differs from it."""
+        differs = {key: value for key, value in given.items() if key != "model"}
+        return Laws.named(given.get("model", "paper")).but(**differs)
+
+    def check_lubricant(self, case: Case) -> None:
+        """Find out now, not after the loads are computed, whether the lubricant has what the mechanisms need."""
+        if case.laws == Laws.paper():  # it asks for nothing that a lubricant may lack
+            return
+        from macroslip.roller.contacts import check_lubricant
+
+        check_lubricant(case.laws, case.lubricant)
+
+    def located(self, problem: InputError, key: str) -> InputError:
+        """The problem with file and line in front, unless it has them."""
+        if problem.where.startswith(f"{self.place.where}, "):
+            return problem
+        keys = problem.where.split(".")
+        return self.place.inside(*keys if keys[0] == key else [key]).blamed(problem)
+
+    def check_against_loads(self, parts: Mapping[str, Any]) -> None:
+        """Check one by one what depends on bearing and loads: a case by itself stops at its first problem."""
+        if "loads" not in parts or ("bearing" in self.data and "bearing" not in parts):
+            return
+        common = {key: parts[key] for key in ("loads", "bearing") if key in parts}
+        for key in ("rollers", "window", "traces"):
+            if key in parts:
+                try:
+                    Case(**common, **{key: parts[key]})
+                except InputError as problem:
+                    self.problems.append(self.located(problem, key))
+
+    def record(self, kind: type[Record], name: str) -> Record:
+        """Read a bearing or lubricant by catalogue name or path."""
+        names, path = kind.catalogue(), self.folder / name
+        if name in names:
+            return kind.read(name)
+        if not path.is_file():
+            close = get_close_matches(name, names, n=1)
+            raise InputError(
+                f"'{name}' is neither in the catalogue nor a file",
+                where=kind.noun,
+                allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
+                remedy=f"Did you mean {close[0]}?" if close else self.start_of_paths,
+            )
+        return kind.read(path)
+
+    @property
+    def start_of_paths(self) -> str:
+        return f"Relative paths start at {self.folder.resolve()}."
+
+    def loads(self, given: Mapping[str, Any]) -> HubLoads | BearingLoads:
+        """Read or make the loads."""
+        cut = {key: given[key] for key in ("start", "end") if key in given}
+        (source,) = given.keys() - cut.keys()
+        value, place = given[source], self.place.inside("loads", source)
+        try:
+            if source in ("hub", "main_bearing"):
+                if cut:
+                    raise InputError(
+                        f"{' and '.join(cut)} would cut a series, but these loads are constant",
+                        remedy=f"Remove them; loads.{source}.duration says how long.",
+                    )
+                return (HubLoads if source == "hub" else BearingLoads).constant(**value)
+            if source == "bundled":
+                return HubLoads.bundled(value).window(cut.get("start"), cut.get("end"))
+            path = self.folder / value
+            if not path.exists():
+                raise InputError(f"there is no file '{value}'", remedy=self.start_of_paths)
+            return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
+        except InputError as problem:
+            for programs_words, words in _ADVICE.items():
+                problem.remedy = problem.remedy.replace(programs_words, words)
+            raise place.blamed(problem) from None
+
+    def drivetrain(self, given: Mapping[str, float]) -> Drivetrain:
+        """Check the drivetrain value by value: by itself it stops at its first problem, and knows no units."""
+        place, good = self.place.inside("drivetrain"), dict(given)
+        while True:
+            try:
+                return Drivetrain(**good)
+            except InputError as problem:
+                key = problem.what.partition(" ")[0]
+                written = self.data["drivetrain"][key]
+                names = "hub_to_bearing", "bearing_to_gearbox"
+                lengths = {name: good.get(name, getattr(Drivetrain(), name)) for name in names}
+                allowed = allowed_range(key, **lengths).text(CASE.keys["drivetrain"].keys[key].unit(written))
+                self.problems.append(place.inside(key).problem(f"it is {written}", allowed, "Check value and unit."))
+                # Where the shaft's mass may be depends on the lengths.
+                good = {other: good[other] for other in good if other not in (key, "shaft_mass_station")}

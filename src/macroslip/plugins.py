@@ -1,0 +1,119 @@
+"""Laws of one's own from a Python file that the user names on the command line or in a program, never in a data file."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import sys
+import traceback
+from importlib.machinery import SourceFileLoader
+from os import PathLike
+from pathlib import Path
+from typing import NamedTuple
+
+from macroslip.errors import InputError
+
+_ALLOWED = "a Python file that registers film or traction laws, as docs/laws.md shows"
+
+
+class OwnLaws(NamedTuple):
+    """Names of the laws a file has registered: what may stand under `laws.film` and `laws.traction`."""
+
+    film: tuple[str, ...]
+    traction: tuple[str, ...]
+
+
+_loaded: dict[str, OwnLaws] = {}
+
+
+def load_laws(path: str | PathLike[str]) -> OwnLaws:
+    """Run a Python file that registers film or traction laws, so that their names can be used.
+
+    The file is imported as a module whose name follows from its own name and its content, so that kernels compiled for
+    its laws are found again on the disk, by every process and wherever the file lies. To load the same file again does
+    nothing.
+
+    Parameters
+    ----------
+    path : path
+        The file. It is a program: load only files you would run.
+
+    Returns
+    -------
+    OwnLaws
+        Names of the film laws and of the traction laws it has registered.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, an error occurs in it (with its line), it registers no law, or it registers a name
+        that is taken. Then none of its laws is registered.
+
+    Examples
+    --------
+    >>> load_laws("my_laws.py")
+    Traceback (most recent call last):
+        ...
+    macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). Allowed: a Python \
+file that registers film or traction laws, as docs/laws.md shows. Check its path, which starts at the current folder.
+    """
+    from macroslip.film import film_law as film_law
+    from macroslip.traction import traction_law as traction_law
+
+    path = Path(path)
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        what = f"the file cannot be read ({error.strerror})"
+        remedy = "Check its path, which starts at the current folder."
+        raise InputError(what, where=str(path), allowed=_ALLOWED, remedy=remedy) from None
+    name = f"macroslip_laws_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
+    if name in _loaded:
+        return _loaded[name]
+    kinds = film_law, traction_law
+    before = [set(kind.names()) for kind in kinds]
+
+    def added() -> OwnLaws:
+        return OwnLaws(*(tuple(sorted(set(kind.names()) - old)) for kind, old in zip(kinds, before, strict=True)))
+
+    try:
+        _import(path, name)
+        if not any(added()):
+            remedy = "Call macroslip.film.film_law.register or macroslip.traction.traction_law.register in it."
+            raise InputError("the file registers no law", where=str(path), allowed=_ALLOWED, remedy=remedy)
+    except BaseException:
+        sys.modules.pop(name, None)
+        for kind, names in zip(kinds, added(), strict=True):
+            for one in names:
+                kind.remove(one)
+        raise
+    _loaded[name] = added()
+    return _loaded[name]
+
+
+def _import(path: Path, name: str) -> None:
+    """Run the file as a module; what goes wrong in it is told with its line."""
+    loader = SourceFileLoader(name, str(path.resolve()))
+    spec = importlib.util.spec_from_file_location(name, path.resolve(), loader=loader)
+    module = importlib.util.module_from_spec(spec)
+    # Compiled kernels are stored with the names of the types in them, and look these up here.
+    sys.modules[name] = module
+    try:
+        loader.exec_module(module)
+    except InputError as problem:
+        where = ", ".join(part for part in (_place(path, problem), problem.where) if part)
+        raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+    except (Exception, SystemExit) as error:
+        reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
+        what = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
+        remedy = f"Mend it; python {path} shows where the error comes from."
+        raise InputError(what, where=_place(path, error), remedy=remedy) from None
+
+
+def _place(path: Path, error: BaseException) -> str:
+    """File and the line in it at which the error left it."""
+    own = str(path.resolve())
+    if isinstance(error, SyntaxError) and error.filename == own:
+        return f"{path}, line {error.lineno}"
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == own]
+    return f"{path}, line {lines[-1]}" if lines else str(path)

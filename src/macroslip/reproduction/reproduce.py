@@ -1,0 +1,245 @@
+"""The reproduction of the paper in one call: what is computed, judged, drawn and written."""
+
+from __future__ import annotations
+
+import importlib.util
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import macroslip
+from macroslip.case.case import Case
+from macroslip.errors import MacroslipError
+from macroslip.files import published_together
+from macroslip.reproduction import verdicts
+from macroslip.reproduction.dissipation import dissipation, knows_mechanisms
+from macroslip.reproduction.headline import failure_line, numerical_line, statement_lines
+from macroslip.reproduction.model_run import (
+    MODEL_STAGES,
+    MODELS,
+    PAPER,
+    STATIC_LOADS,
+    TORQUE_WINDOW,
+    ModelRun,
+    Progress,
+    bearing_torques,
+    compute_model,
+    failures,
+    stage_label,
+    statements,
+    varying_load,
+)
+from macroslip.reproduction.reuse import Reuse
+from macroslip.reproduction.single_roller import largest_peak, static_load
+from macroslip.reproduction.solver_experiments import STEPS, TOLERANCES, nonlinear_tolerance, step_size
+from macroslip.reproduction.stability import compare_stability
+from macroslip.reproduction.summary import (
+    CONVENTIONS,
+    as_json,
+    failed_by_case,
+    of_model,
+    plain,
+    plotted,
+    told_statements,
+)
+from macroslip.reproduction.uncertainty_summary import uncertainty_summary
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+SUMMARY, STUDY, REPORT = "summary.json", "study.nc", "report.html"
+
+
+def stages() -> dict[str, float]:
+    """Labels of the stages in their order, and what each takes of the time, in proportion, as measured once."""
+    shares: dict[str, float] = {}
+    for name in MODELS:
+        of_one = {stage_label(stage, name): share[name != PAPER] for stage, share in MODEL_STAGES.items()}
+        shares |= {label: share for label, share in of_one.items() if share}
+    return shares | {"experiments": 7.0, "figures": 8.0, "report": 7.0}
+
+
+def reproduce(directory: Path, *, threads: int | None = None, progress: Progress | None = None) -> dict[str, Any]:
+    """Reproduce the paper's study and figures with converged solutions, and judge its statements.
+
+    What an earlier run into the same folder computed is used again as long as its inputs, this program and the
+    libraries that compute are the same.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder for `report.html`, `summary.json`, `study.nc`, the figures (PNG and SVG) and, under `reuse`, what a later
+        run may use again. Files of an earlier run are overwritten, all at the end; others stay.
+    threads : int, optional
+        Threads over rollers; the number of usable processors by default.
+    progress : callable, optional
+        Called as progress(stage, done, total) with the stages of `compute_model`, "experiments", "figures", "report".
+
+    Returns
+    -------
+    dict
+        What `summary.json` holds: `headline`, `statements`, `failed_rollers`, `conventions`, `figures` with every
+        plotted number and its units, `seconds` by stage, and what was `reused`. NaN is None.
+
+    Raises
+    ------
+    MacroslipError
+        If matplotlib or jinja2 is not installed; nothing is computed then.
+    InputError
+        If `directory` is a file.
+    """
+    for name in ("matplotlib", "jinja2"):
+        if importlib.util.find_spec(name) is None:
+            raise MacroslipError(f"figures need {name}, which is not installed: pip install 'macroslip[figures]'")
+    clock, seconds = time.perf_counter(), {}
+
+    def report(stage: str, done: int, total: int) -> None:
+        nonlocal clock
+        if done == total:
+            seconds[stage] = round(seconds.get(stage, 0.0) + time.perf_counter() - clock, 2)
+            clock = time.perf_counter()
+        if progress:
+            progress(stage, done, total)
+
+    directory = Path(directory)
+    with published_together(directory, SUMMARY) as folder:
+        reuse = Reuse(directory, folder)
+        runs = {name: compute_model(name, reuse, threads, report) for name in MODELS}
+        experiments = _experiments(runs[PAPER], reuse, threads, report)
+        judged = {name: statements(run, experiments if name == PAPER else {}) for name, run in runs.items()}
+        _save(_figures(runs, experiments), folder, report)
+        for name, run in runs.items():
+            # In memory first: the HDF5 library may bring the whole process down when the disk is full.
+            (folder / f"{of_model('study', name)}.nc").write_bytes(run.study.to_netcdf(engine="h5netcdf"))
+        failed = _failed(runs, experiments)
+        total = sum(run.study.status.size for run in runs.values())
+        headline = [
+            failure_line(failed, total),
+            *statement_lines(judged),
+            numerical_line(experiments["nonlinear_tolerance"], experiments["step_size"]),
+        ]
+        by_case = {
+            of_model(case, name): count
+            for name, run in runs.items()
+            for case, count in failed_by_case(run.study).items()
+        }
+        summary = plain(
+            {
+                "program": f"macroslip {macroslip.__version__}",
+                "headline": headline,
+                "statements": told_statements(judged),
+                "failed_rollers": failed | {"study_by_case": by_case, "study_total": total},
+                "conventions": CONVENTIONS,
+                "seconds": seconds,
+                "reused": reuse.reused,
+                "figures": plotted(runs, experiments),
+                "study": {name: run.study.to_dict(data="list") for name, run in runs.items()},
+            }
+        )
+        _write_report(folder / REPORT, runs, experiments, judged, summary, report)
+        (folder / SUMMARY).write_text(as_json(summary), encoding="utf-8")
+    return summary
+
+
+def _experiments(run: ModelRun, reuse: Reuse, threads: int | None, report: Progress) -> dict[str, xr.Dataset]:
+    """What the numerical method does, under the paper's model."""
+    varying, result = varying_load(), run.profile["result"]
+    _, orbit = largest_peak(result, "upwind")
+    # Two orbits before the largest peak and one after it.
+    start = max(float(result.orbit_start[orbit]) - 14.0, float(varying.time[0]))
+    end = min(float(result.orbit_end[orbit]) + 7.0, float(varying.time[-1]))
+    jobs = {
+        "A1": lambda: compare_stability(static_load(varying, thrust=False, duration=4.0)),
+        "nonlinear_tolerance": lambda: nonlinear_tolerance(varying, threads=threads),
+        "step_size": lambda: step_size(varying, start=start, end=end, threads=threads),
+    }
+    inputs = [Case(loads=varying).as_dict(), TOLERANCES, STEPS, start, end]
+
+    def compute() -> dict[str, xr.Dataset]:
+        found = {}
+        for done, (name, job) in enumerate(jobs.items(), start=1):
+            found[name] = job()
+            report("experiments", done, len(jobs))
+        return found
+
+    found = reuse.part("experiments", inputs, compute)
+    report("experiments", 1, 1)
+    return found
+
+
+def _figures(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, Callable[[], Figure]]:
+    """How each figure is drawn, by file name."""
+    from macroslip.reproduction import bearing_sets, mechanism_figures, uncertainty_figures
+    from macroslip.reproduction import paper_figures as draw
+    from macroslip.reproduction.torque_figures import torque_figure
+
+    found: dict[str, Callable[[], Figure]] = {
+        "figure_A1": lambda: draw.stability_figure(experiments["A1"]),
+        "nonlinear_tolerance": lambda: draw.nonlinear_tolerance_figure(experiments["nonlinear_tolerance"]),
+        "step_size": lambda: draw.step_size_figure(experiments["step_size"]),
+    }
+    if len(runs) > 1:
+        found["figures_4_5_models"] = lambda: mechanism_figures.models_figure(
+            {name: run.numbers for name, run in runs.items()}
+        )
+    histories = bearing_torques(runs)
+    found["friction_torque"] = lambda: torque_figure(histories, *TORQUE_WINDOW)
+    for name, run in runs.items():
+        static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
+        of_run = {
+            "figure_3a": lambda static=static: draw.turns_figure(static),
+            "figure_3b": lambda run=run: draw.turns_figure(run.turns["typical"]),
+            "figure_3b_peak": lambda run=run: draw.turns_figure(run.turns["peak"]),
+            "figure_4a": lambda run=run: draw.energy_figure(run.numbers),
+            "figure_4b": lambda run=run: draw.energy_ratio_figure(run.numbers),
+            "figure_5a": lambda run=run: draw.peak_power_figure(run.numbers),
+            "figure_5b": lambda run=run: draw.peak_power_ratio_figure(run.numbers),
+            "energy_over_orbit": lambda run=run: bearing_sets.energy_over_orbit_figure(run.profile),
+            "film_over_orbit": lambda run=run: bearing_sets.film_over_orbit_figure(run.profile),
+            "load_zone": lambda run=run: bearing_sets.load_zone_figure(run.profile),
+            "roller_spread": lambda run=run: bearing_sets.roller_spread_figure(run.profile),
+            "outside_film_range": lambda run=run: bearing_sets.outside_film_range_figure(run.profile),
+            "sensitivity": lambda run=run: bearing_sets.sensitivity_figure(run.sensitivity),
+        }
+        if knows_mechanisms(run.study):
+            of_run["mechanisms"] = lambda run=run: mechanism_figures.mechanisms_figure(dissipation(run.study))
+        if run.uncertainty is not None:
+            of_run["uncertainty"] = lambda run=run: uncertainty_figures.uncertainty_figure(
+                uncertainty_summary(run.uncertainty)
+            )
+        found |= {of_model(title, name): figure for title, figure in of_run.items()}
+    return found
+
+
+def _save(figures: Mapping[str, Callable[[], Figure]], folder: Path, report: Progress) -> None:
+    from macroslip.report.style import save
+
+    for done, (name, draw) in enumerate(figures.items(), start=1):
+        save(draw(), folder, name)
+        report("figures", done, len(figures))
+
+
+def _write_report(
+    path: Path,
+    runs: Mapping[str, ModelRun],
+    experiments: Mapping[str, xr.Dataset],
+    judged: Mapping[str, list[verdicts.Statement]],
+    summary: Mapping[str, Any],
+    report: Progress,
+) -> None:
+    from macroslip.reproduction.reproduction_page import reproduction_page
+
+    path.write_text(reproduction_page(runs, experiments, judged, summary), encoding="utf-8")
+    report("report", 1, 1)
+
+
+def _failed(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, int]:
+    """Failed integrations by place, all models together. Explicit Euler may fail in A1: it is there to show that."""
+    counts = [failures(run) for run in runs.values()]
+    stability = experiments["A1"].attrs
+    beside = [int(stability[f"status_{name}"] != 0) for name in ("backward", "converged")]
+    for name in ("nonlinear_tolerance", "step_size"):
+        beside += [int(experiments[name][one].sum()) for one in experiments[name].data_vars if one.startswith("failed")]
+    return {place: sum(count[place] for count in counts) for place in counts[0]} | {"experiments": sum(beside)}

@@ -1,0 +1,173 @@
+"""The report of the reproduction: the paper's statements and figures beside converged results, and what lies beyond."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from macroslip.report.bearing_section import further_blocks, orbit_blocks, result_blocks, view_section
+from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Statements, Table, render
+from macroslip.report.pictures import picture
+from macroslip.report.provenance import provenance_section
+from macroslip.reproduction import paper_comparison
+from macroslip.reproduction.headline import failure_line
+from macroslip.reproduction.physical_section import physical_sections
+from macroslip.reproduction.sensitivity_figures import plot_tornado
+from macroslip.reproduction.verdicts import AGREES, DIFFERS, PARTLY, Statement
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from macroslip.reproduction.model_run import ModelRun
+
+TITLE = "Slip in a wind turbine's main bearing: what the paper found, and what a converged solution finds"
+_PAPER = "Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing"
+
+
+def reproduction_page(
+    runs: Mapping[str, ModelRun],
+    experiments: Mapping[str, xr.Dataset],
+    judged: Mapping[str, list[Statement]],
+    summary: Mapping[str, Any],
+) -> str:
+    """The page `report.html` of the reproduction.
+
+    Parameters
+    ----------
+    runs : mapping
+        What was computed, by model.
+    experiments : mapping
+        "A1", "nonlinear_tolerance", "step_size".
+    judged : mapping
+        The paper's statements by model.
+    summary : mapping
+        As `summary.json`: `failed_rollers`, `seconds`, `reused`, `conventions`.
+
+    Returns
+    -------
+    str
+        HTML in one piece.
+    """
+    sections = [
+        _answer(judged, summary),
+        *paper_comparison.sections(runs, experiments),
+        *physical_sections(runs),
+        view_section({_titled("case 14B", name, runs): run.profile for name, run in runs.items()}),
+        *(_beyond(name, run, runs) for name, run in runs.items()),
+        _sensitivity(runs),
+        Section("conventions", "How the numbers were taken", (Points(tuple(summary["conventions"])),)),
+        provenance_section(
+            {name: run.study for name, run in runs.items()}, seconds=summary["seconds"], reused=tuple(summary["reused"])
+        ),
+    ]
+    subtitle = (
+        f"{_PAPER}, beside the same equations solved to convergence: 21 load cases of ten minutes, 28 rollers in each "
+        f"of two rows. {'' if len(runs) > 1 else 'Model: ' + next(iter(runs)) + '.'}"
+    )
+    return render(TITLE, subtitle, sections)
+
+
+def _titled(title: str, model: str, runs: Mapping[str, ModelRun]) -> str:
+    return f"{title}, model {model}" if len(runs) > 1 else title
+
+
+def _answer(judged: Mapping[str, list[Statement]], summary: Mapping[str, Any]) -> Section:
+    words = []
+    for name, statements in judged.items():
+        counts = {verdict: sum(one.verdict == verdict for one in statements) for verdict in (AGREES, PARTLY, DIFFERS)}
+        sentence = (
+            f"of the paper's {len(statements)} statements {counts[AGREES]} agree with a converged solution, "
+            f"{counts[PARTLY]} agree in part, {counts[DIFFERS]} differ"
+        )
+        others = len(statements) - sum(counts.values())
+        sentence += f", {others} not computed or not to be judged" if others else ""
+        words.append(
+            f"Under the model {name}, {sentence}." if len(judged) > 1 else f"{sentence[0].upper()}{sentence[1:]}."
+        )
+    rows = tuple(
+        (together[0].paper, tuple((one.verdict, one.found, one.because) for one in together))
+        for together in zip(*judged.values(), strict=True)
+    )
+    failed = summary["failed_rollers"]
+    places = {place: count for place, count in failed.items() if place not in ("study_by_case", "study_total")}
+    return Section(
+        "answer",
+        "The answer",
+        (
+            Paragraph(" ".join(words), strong=True),
+            Statements(tuple(judged), rows),
+            Paragraph(
+                f"{failure_line(places, failed['study_total'])} That the paper's turbine used this bearing is not "
+                "known, nor how its equations were solved."
+            ),
+        ),
+    )
+
+
+def _beyond(name: str, run: ModelRun, runs: Mapping[str, ModelRun]) -> Section:
+    of = f" under {name}" if len(runs) > 1 else ""
+    blocks: tuple[Block, ...] = (
+        Paragraph("Case 14B: all 28 rollers of each row, ten minutes at a mean wind speed of 14 m/s."),
+        *orbit_blocks(run.profile, of),
+        *result_blocks(run.profile["result"], of),
+        *further_blocks(run.profile["result"], of),
+        _film_range_table(run.study),
+    )
+    anchor = "rollers" if name == next(iter(runs)) else f"rollers-{name}"
+    return Section(anchor, _titled("Beyond the one roller", name, runs), blocks)
+
+
+def _film_range_table(study: xr.Dataset) -> Table:
+    share = 100.0 * study.outside_film_range
+    rows = []
+    for row in study.row.values.tolist():
+        for interface in study.interface.values.tolist():
+            one = share.sel(row=row, interface=interface).mean("roller")
+            rows.append((row, interface, f"{float(one.min()):.3g}", f"{float(one.max()):.3g}"))
+    headings = ("row", "interface", "least of the cases [%]", "most of the cases [%]")
+    return Table(headings, tuple(rows), "Share of loaded time outside the film formula's range, all 21 cases")
+
+
+def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
+    blocks: list[Block] = [
+        Paragraph(
+            "Case 14B with one value changed at a time, everything else as it is, from a run of its own for every bar. "
+            "The value that was set stands at its bar; low values are hatched."
+        )
+    ]
+    for name, run in runs.items():
+        table = run.sensitivity
+        words = {"energy": "energy in the window", "peak_power": "mean of the largest power per orbit"}
+        pictures = tuple(
+            picture(
+                lambda axes, quantity=quantity, row=row, table=table: plot_tornado(axes, table, quantity, row),
+                f"Tornado chart: {words[quantity]} of the {row} row",
+                width=4.4,
+                height=2.7,
+            )
+            for quantity in words
+            for row in table.row.values.tolist()
+        )
+        blocks.append(Pictures(pictures, f"Energy above, largest power per orbit below{_titled('', name, runs)}."))
+        blocks.append(_sensitivity_table(table))
+        names = table.variation.values.tolist()
+        notes = [f"{one}: {note}" for one, note in zip(names, table.note.values.tolist(), strict=True) if note]
+        texts = zip(names, table.refused.values.tolist(), strict=True)
+        refused = [f"{one}: {text} Half the way to it was taken" for one, text in texts if text]
+        blocks.append(Points(tuple(f"{note[0].upper()}{note[1:]}." for note in (*notes, *refused))))
+    return Section("sensitivity", "What the result depends on", tuple(blocks))
+
+
+def _sensitivity_table(table: xr.Dataset) -> Table:
+    rows, sides = [], table.row.values.tolist()
+    for k, name in enumerate(table.variation.values.tolist()):
+        one = table.isel(variation=k)
+        unit = str(one.unit.values)
+        for level in ("low", "base", "high"):
+            at = one.sel(level=level)
+            if level != "base" and float(at.value) == float(one.value.sel(level="base")):
+                continue
+            cells = [f"{float(at[what].sel(row=row)):.4g}" for what in ("energy", "peak_power") for row in sides]
+            rows.append((name, f"{float(at.value):g}" + ("" if unit == "1" else f" {unit}"), *cells))
+    of = [f"{what}, {row} [{unit}]" for what, unit in (("energy", "J"), ("mean P_max", "W")) for row in sides]
+    return Table(("value", "set to", *of), tuple(rows))

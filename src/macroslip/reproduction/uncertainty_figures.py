@@ -1,0 +1,87 @@
+"""How far results reach over the ranges of estimated values, and which values move them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.report.style import BLACK, BLUE, ORANGE, finish, log_ticks, new_figure
+from macroslip.report.wording import told
+from macroslip.reproduction.uncertainty_summary import DRIVER_LEVEL
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
+    """Range of 5 to 95 % and median of every quantity over its value with the base values, on a logarithmic axis.
+
+    Takes what `macroslip.reproduction.uncertainty_summary.uncertainty_summary` gives. Beside the names stand the median and
+    the ends of the range in the quantity's own unit.
+    """
+    places = np.arange(summary.sizes["quantity"])[::-1]
+    for place, k in zip(places, range(places.size), strict=True):
+        one = summary.isel(quantity=k)
+        low, middle, high = one.range.values / float(one.base)
+        if np.isfinite([low, middle, high]).all():
+            axes.plot([low, high], [place, place], color=BLUE, linewidth=3.0, solid_capstyle="butt", zorder=1)
+            axes.plot(middle, place, color=BLACK, marker="|", markersize=11, markeredgewidth=2.0, zorder=2)
+    names = []
+    for k in range(places.size):
+        one = summary.isel(quantity=k)
+        low, middle, high = (told(value) for value in one.range.values)
+        unit = "" if str(one.units.values) == "1" else f" {one.units.values}"
+        names.append(f"{one.quantity.values}\n{middle}{unit} ({low} to {high})")
+    axes.set_yticks(places, names, fontsize=8)
+    axes.axvline(1.0, color=BLACK, linewidth=0.8)
+    return finish(log_ticks(axes, "x"), "over the value with the base values [–]", "")
+
+
+def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
+    """Rank correlation of every quantity with every value; a filled square where it is no chance.
+
+    Takes what `macroslip.reproduction.uncertainty_summary.uncertainty_summary` gives. The area of a square is the size of the
+    correlation; orange and marked + where the quantity rises with the value, blue and − where it falls.
+    """
+    rank, chance = summary.rank_correlation.values, summary.probability.values
+    for q in range(rank.shape[0]):
+        for p in range(rank.shape[1]):
+            value, place = rank[q, p], rank.shape[0] - 1 - q
+            if not np.isfinite(value):
+                continue
+            color, sure = (ORANGE if value > 0.0 else BLUE), chance[q, p] < DRIVER_LEVEL
+            axes.scatter(
+                p,
+                place,
+                s=330.0 * abs(value),
+                marker="s",
+                facecolor=color if sure else "none",
+                edgecolor=color,
+                linewidth=0.8,
+            )
+            if sure:
+                sign = "+" if value > 0.0 else "−"
+                axes.annotate(sign, (p, place), ha="center", va="center", color="white", fontsize=9)
+    axes.set_xticks(
+        np.arange(rank.shape[1]),
+        [str(name) for name in summary.parameter.values],
+        rotation=60,
+        ha="right",
+        rotation_mode="anchor",
+    )
+    axes.set_yticks([])
+    axes.set_xlim(-0.6, rank.shape[1] - 0.4)
+    axes.set_ylim(-0.6, rank.shape[0] - 0.4)
+    return finish(axes, "varied value", "", "rank correlation")
+
+
+def uncertainty_figure(summary: xr.Dataset) -> Figure:
+    """Ranges of the results on the left, what drives them on the right."""
+    figure, axes = new_figure(9.6, 6.2, 1, 2)
+    plot_ranges(axes[0], summary)
+    plot_correlations(axes[1], summary)
+    axes[0].set_ylim(axes[1].get_ylim())
+    return figure

@@ -1,0 +1,166 @@
+"""From a case to its results: ring balance once, then every roller on its own, in threads that release the GIL."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.case.case import BackwardEuler, Case, Radau
+from macroslip.film.film_law import film_range_notes
+from macroslip.integrate.fixed_step import integrate_fixed_step
+from macroslip.integrate.radau import integrate_radau
+from macroslip.integrate.record import Record, new_record
+from macroslip.integrate.root import rising_at
+from macroslip.integrate.step_control import Limits, longest_step
+from macroslip.loads import BearingLoads, main_bearing_load
+from macroslip.result.dataset import to_dataset
+from macroslip.ring.load_zone import empty_classes, firm_interference
+from macroslip.ring.motion import ring_motion
+from macroslip.ring.orbit import Motion
+from macroslip.ring.travel import orbit_times
+from macroslip.roller.model import RollerModel, highest_load, interfaces, roller_model, truncated_share, truncation_load
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def simulate(
+    case: Case, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None
+) -> xr.Dataset:
+    """Compute the slip of the rollers of both rows.
+
+    Parameters
+    ----------
+    case : Case
+    threads : int, optional
+        Threads over rollers; the number of usable processors by default. Results do not depend on it.
+    progress : callable, optional
+        Called as progress(done, total) after each roller.
+
+    Returns
+    -------
+    xarray.Dataset
+        See `macroslip.result.dataset`. A roller whose integration failed has a `status` other than 0 and NaN results.
+
+    Raises
+    ------
+    InputError
+        If a roller's load truncates its contact ellipse, or a law does not exist.
+
+    Examples
+    --------
+    >>> from macroslip import BearingLoads, Case, simulate
+    >>> standstill = BearingLoads.constant([0.0, -300e3, 0.0], 0.0, 1.0)
+    >>> float(simulate(Case(loads=standstill, rollers=[0])).energy.sum())
+    0.0
+    """
+    loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
+    models = {
+        row: roller_model(
+            case.bearing,
+            case.lubricant,
+            AXIAL_SIGNS[row],
+            tilt=case.drivetrain.tilt,
+            gravity=case.gravity,
+            drag=case.drag,
+            laws=case.laws,
+        )
+        for row in ROWS
+    }
+    model = models["downwind"]
+    motion, largest = ring_motion(loads, case.bearing, model, highest_load(case.bearing, case.lubricant, case.laws))
+    end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
+    edges = _orbit_edges(case, motion, model.orbit_ratio, end)
+    trace_time = _trace_times(case, motion, end)
+    limits = radau_limits(case, motion, model, largest)
+    largest_slip = _largest_slip(motion, model)
+    stops = np.unique(np.concatenate([edges, trace_time, [end]]))
+
+    def run(row: str, angle: float) -> tuple[int, Record]:
+        record = new_record(edges, trace_time)
+        if limits is not None:
+            classes = empty_classes(motion.time.size)
+            return integrate_radau(models[row], motion, angle, 0.0, stops, limits, classes, record), record
+        implicit = isinstance(case.integrator, BackwardEuler)
+        tolerance = case.integrator.tolerance if implicit else 0.0
+        step = case.integrator.step
+        status = integrate_fixed_step(
+            models[row], motion, angle, 0.0, end, step, implicit, tolerance, largest_slip, record
+        )
+        return status, record
+
+    angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in ROWS}
+    jobs = [(row, number) for row in ROWS for number in case.roller_numbers]
+    results = {}
+    pool = ThreadPoolExecutor(threads or usable_processors())
+    try:
+        futures = {pool.submit(run, row, angles[row][number]): (row, number) for row, number in jobs}
+        for done, future in enumerate(as_completed(futures), start=1):
+            results[futures[future]] = future.result()
+            if progress:
+                progress(done, len(jobs))
+    finally:
+        # An interrupt waits for the rollers under way only.
+        pool.shutdown(cancel_futures=True)
+    notes = film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))
+    cut_off = truncated_share(largest, truncation_load(case.bearing, case.lubricant))
+    return to_dataset(case, model, edges, end, results, notes, cut_off)
+
+
+def usable_processors() -> int:
+    """Processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:
+    """Bounds of the Radau integrator that hold for all rollers of the case; None for the Euler methods."""
+    if not isinstance(case.integrator, Radau):
+        return None
+    speed = float(np.max(np.abs(motion.shaft_speed))) * model.orbit_ratio * model.outer_radius
+    heaviest = largest + abs(model.weight_in_plane) + model.centrifugal * (speed / model.outer_radius) ** 2
+    # Twice the raceways' speed bounds the slip, and with it the thickest film.
+    cold = rising_at(model, heaviest, heaviest, speed, 2.0 * speed) if heaviest else np.inf
+    return Limits(
+        tolerance=float(case.integrator.tolerance),
+        max_steps=case.integrator.max_steps,
+        speed_scale=speed,
+        longest_step=longest_step(motion, model.orbit_ratio),
+        cold_slip=float(cold),
+        firm=firm_interference(model, speed),
+    )
+
+
+def _largest_slip(motion: Motion, model: RollerModel) -> float:
+    """Bound of slip [m/s] for a roller that starts in pure rolling: the span of ring speeds and the cage's zero."""
+    speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
+    return 1.01 * float(max(speeds.max(), 0.0) - min(speeds.min(), 0.0)) + 1e-9
+
+
+def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> np.ndarray:
+    """Start of the window and the ends of the complete orbits in it [s]."""
+    times = orbit_times(motion.time, motion.shaft_speed, orbit_ratio)
+    if case.window.start is None:
+        start = times[0] if times.size and times[0] < end else motion.time[0]
+        return np.concatenate([[start], times[(times > start) & (times <= end)]])
+    start = float(case.window.start)
+    # Orbits are counted from the start of the window, not from that of the history.
+    late = motion.time > start
+    time = np.concatenate([[start], motion.time[late]])
+    speed = np.concatenate([[np.interp(start, motion.time, motion.shaft_speed)], motion.shaft_speed[late]])
+    times = orbit_times(time, speed, orbit_ratio)
+    return np.concatenate([[start], times[times <= end]])
+
+
+def _trace_times(case: Case, motion: Motion, window_end: float) -> np.ndarray:
+    """Times at which traces are kept [s], never past the end of the simulation."""
+    if case.traces is None:
+        return np.empty(0)
+    start = motion.time[0] if case.traces.start is None else case.traces.start
+    end = window_end if case.traces.end is None else min(case.traces.end, window_end)
+    count = int(np.floor((end - start) / case.traces.step * (1.0 + 1e-12))) + 1
+    return np.minimum(start + case.traces.step * np.arange(max(count, 0)), end)

@@ -1,0 +1,99 @@
+"""From the settings of a run to its case, by the reader of case files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from macroslip.case.case import Case
+from macroslip.case.case_file import _Builder
+from macroslip.catalogue import Record
+from macroslip.catalogue.source import Source
+from macroslip.errors import InputError
+from macroslip.loads import BearingLoads, HubLoads
+from macroslip.study.settings import Setting, replaced, with_settings
+
+#: Stands in for the loads until they are read: so long that any window lies within it.
+_ANY_LOADS = BearingLoads(np.array([-1e12, 1e12]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
+
+
+class _TemplateBuilder(_Builder):
+    """Builds a case without reading its loads, and with bearing and lubricant that have been read already."""
+
+    def __init__(self, mapping: Mapping[str, Any], source: Source, folder: Path, records: Mapping[str, Record]):
+        self.records = records
+        names = {noun: record.name for noun, record in records.items()}
+        self.cut: dict[str, float] = {}
+        # The source is named only because a case has to have one; `loads` below does not look at it.
+        loads = (mapping.get("loads") or {}) | {"file": "-"}
+        super().__init__({**mapping, **names, "loads": loads}, source, folder)
+
+    def record(self, kind: type[Record], name: str) -> Record:
+        """Take what is given, or read it."""
+        return self.records.get(kind.noun) or super().record(kind, name)
+
+    def loads(self, given: Mapping[str, Any]) -> BearingLoads:
+        """Keep what to cut out of the loads, and leave the rest open."""
+        self.cut = {key: given[key] for key in ("start", "end") if key in given}
+        return _ANY_LOADS
+
+
+def template(
+    mapping: Mapping[str, Any],
+    settings: list[Setting],
+    records: Mapping[str, Record],
+    *,
+    source: Source | None = None,
+    folder: Path | None = None,
+) -> tuple[Case, dict[str, float]]:
+    """A case with everything but its loads, and what to cut out of them.
+
+    Parameters
+    ----------
+    mapping : mapping
+        Base case: keys of a case file, of `loads` only start and end.
+    settings : list of Setting
+        Values in place of the base case's.
+    records : mapping of str to Record
+        `bearing` and `lubricant` in place of the base case's, if there.
+    source, folder : Source, Path, optional
+        Where the mapping was written, for messages, and where relative paths start.
+
+    Raises
+    ------
+    InputError
+        If anything but the loads is wrong.
+    """
+    builder = _TemplateBuilder(with_settings(mapping, settings), source or Source(), folder or Path(), records)
+    case = builder.case()
+    changed = {noun: replaced(getattr(case, noun), settings) for noun in ("bearing", "lubricant")}
+    return replace(case, **changed), builder.cut
+
+
+def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | BearingLoads:
+    """Read the loads of a run.
+
+    Parameters
+    ----------
+    source : str
+        `file`, `bearing_file` or `bundled`.
+    path : str
+        Path of the file, or name of a bundled case.
+    cut : mapping
+        `start` and `end` [s], if the loads are to be cut.
+
+    Raises
+    ------
+    InputError
+        If they cannot be used, or a file cannot be read.
+    """
+    try:
+        if source == "bundled":
+            return HubLoads.bundled(path).window(cut.get("start"), cut.get("end"))
+        return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
+    except OSError as error:
+        raise InputError(f"the file cannot be read ({error.strerror or error})", where=path) from None

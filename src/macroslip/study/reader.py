@@ -1,0 +1,224 @@
+"""All results of a study as one labelled dataset that reads what is asked for when it is asked for."""
+
+from __future__ import annotations
+
+import functools
+import json
+import uuid
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from xarray.backends import BackendArray
+from xarray.core import indexing
+
+from macroslip.bearing.frames import ROWS
+from macroslip.study.outcome import Outcome
+from macroslip.study.store import RUNS, read_manifest, read_result
+from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
+from macroslip.study.tables import Latest
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so samples are counted.
+_RAGGED = {"orbit": "orbit", "time": "sample"}
+_LABELLED = ("roller",)
+
+
+@dataclass(frozen=True)
+class _Result:
+    """Where one result is, and how it lies in the whole; None for a run without one."""
+
+    key: str
+    checksum: str
+    rollers: tuple[int, ...]
+
+
+def open_study(directory: str | PathLike[str]) -> xr.Dataset:
+    """Open all results of a study, also while it is being computed.
+
+    Labels and summary are read at once. Everything else is read, and its checksum compared, when its values are asked
+    for; select cases first, or `.chunk({"case": 50})` with dask, where all together would not fit into memory.
+
+    Parameters
+    ----------
+    directory : path
+        Folder that `macroslip study` or `run_study` has written.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`. Coordinates
+        over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters that vary
+        under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
+        case and row, and the variables of `simulate`, all of them as floats. What a run does not have is NaN: a run
+        that failed or is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time`
+        over (case, sample).
+
+    Raises
+    ------
+    InputError
+        If the folder holds no study; and when values are asked for, if a stored result is gone or damaged.
+    """
+    import pyarrow.parquet as pq
+    import xarray as xr
+
+    directory = Path(directory).absolute()
+    manifest, _ = read_manifest(directory)
+    runs = pq.read_table(directory / RUNS)
+    found = list(Latest(directory).of(runs["run"].to_pylist()))
+    coordinates: dict[str, Any] = {
+        "run": ("case", np.array(runs["run"].to_pylist(), dtype=object), _about("1", "name of the run"))
+    }
+    for name, (units, meaning) in manifest["labels"].items():
+        coordinates[name] = ("case", _column(runs[name]), _about(units, meaning))
+    for name, empty in (("outcome", str(Outcome.MISSING)), ("reason", ""), ("key", "")):
+        texts = [empty if record is None else record.get(name, "") for record in found]
+        coordinates[name] = ("case", np.array(texts, dtype=object), _about("1", f"{name} of the run"))
+    details, more, attributes = _details(directory, found)
+    return xr.Dataset(
+        _summary(found) | details,
+        {"case": ("case", np.arange(len(found)), _about("1", "number of the run in its study")), "row": list(ROWS)}
+        | coordinates
+        | more,
+        {
+            "title": manifest["title"],
+            "source": manifest["source"],
+            **attributes,
+            "study": json.dumps(manifest["study"], ensure_ascii=False),
+        },
+    )
+
+
+def _about(units: str, long_name: str) -> dict[str, str]:
+    return {"units": units, "long_name": long_name}
+
+
+def _column(column: Any) -> np.ndarray:
+    """A label of all runs: text as objects, numbers as they are, with NaN where there is none."""
+    import pyarrow as pa
+
+    if pa.types.is_string(column.type) or (pa.types.is_boolean(column.type) and column.null_count):
+        return np.array(["" if value is None else str(value) for value in column.to_pylist()], dtype=object)
+    return column.to_numpy()
+
+
+def _summary(found: list[dict[str, Any] | None]) -> dict[str, Any]:
+    values = [(record or {}).get("values", {}) for record in found]
+    nothing = [float("nan")] * len(ROWS)
+    return {
+        name: (
+            ("case", "row"),
+            np.array([one.get(name, nothing) for one in values], dtype=float).reshape(-1, len(ROWS)),
+            _about(*about),
+        )
+        for name, about in ROW_VARIABLES.items()
+    } | {
+        name: ("case", np.array([one.get(name, np.nan) for one in values], dtype=float), _about(*about))
+        for name, about in CASE_VARIABLES.items()
+    }
+
+
+def _details(
+    directory: Path, found: list[dict[str, Any] | None]
+) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+    """Variables, coordinates and attributes of the results, opened as far as is needed to know what there is."""
+    import xarray as xr
+
+    stored = {number: record for number, record in enumerate(found) if record and "detail" in record}
+    if not stored:
+        return {}, {}, {}
+    kinds = {record["layout"]["variables"]: record for record in stored.values()}
+    examples = [read_result(directory, record["key"], record["detail"]) for record in kinds.values()]
+    numbers = {number: _rollers(record["layout"]) for number, record in stored.items()}
+    rollers = tuple(sorted(set().union(*set(numbers.values()))))
+    sizes: dict[str, int] = {}
+    for layout in (record["layout"] for record in stored.values()):
+        for name, size in layout["sizes"].items():
+            sizes[name] = max(size, sizes.get(name, 0))
+    sizes["roller"] = len(rollers)
+    cases = [
+        _Result(stored[n]["key"], stored[n]["detail"], numbers[n]) if n in stored else None for n in range(len(found))
+    ]
+    shared = _Shared(uuid.uuid4().hex, directory, tuple(cases), rollers, sizes)
+    variables, coordinates = {}, {}
+    for name, one in {name: one for example in examples for name, one in example.variables.items()}.items():
+        is_coordinate = any(name in example.coords for example in examples)
+        if (name,) == one.dims and name not in _RAGGED:  # the same in all results
+            if name != "roller":
+                coordinates[name] = (name, one.values, one.attrs)
+            continue
+        if name == "orbit" or one.dtype.kind not in "iufb":
+            continue
+        lazy = indexing.LazilyIndexedArray(_Stacked(shared, str(name), one.dims))
+        dims = ("case", *(_RAGGED.get(dim, dim) for dim in one.dims))
+        (coordinates if is_coordinate else variables)[name] = xr.Variable(dims, lazy, one.attrs)
+    example = examples[0]
+    coordinates["roller"] = ("roller", np.array(rollers), example.roller.attrs)
+    coordinates["orbit"] = ("orbit", np.arange(sizes["orbit"]), example.orbit.attrs)
+    return variables, coordinates, {name: example.attrs[name] for name in ("citations",) if name in example.attrs}
+
+
+def _rollers(layout: Mapping[str, Any]) -> tuple[int, ...]:
+    return tuple(layout["rollers"]) if "rollers" in layout else tuple(range(layout["sizes"]["roller"]))
+
+
+@dataclass(frozen=True)
+class _Shared:
+    """What all variables of a study have in common."""
+
+    opened: str
+    directory: Path
+    cases: tuple[_Result | None, ...]
+    rollers: tuple[int, ...]
+    sizes: Mapping[str, int]
+
+
+class _Stacked(BackendArray):
+    """One variable of all results, with the cases as first dimension; a result is read when a value of it is wanted."""
+
+    def __init__(self, shared: _Shared, name: str, dims: tuple[str, ...]):
+        self._shared, self._name, self._dims = shared, name, dims
+        self.shape = (len(shared.cases), *(shared.sizes[dim] for dim in dims))
+        self.dtype = np.dtype(float)
+
+    def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
+        return indexing.explicit_indexing_adapter(key, self.shape, indexing.IndexingSupport.OUTER, self._values)
+
+    def _values(self, key: tuple[Any, ...]) -> np.ndarray:
+        first, inner = key[0], key[1:]
+        chosen = np.arange(self.shape[0])[first]
+        if np.ndim(chosen) == 0:
+            return self._part(int(chosen), inner)
+        parts = [self._part(int(number), inner) for number in chosen]
+        return np.stack(parts) if parts else np.empty((0, *self._part_shape(inner)))
+
+    def _part(self, number: int, inner: tuple[Any, ...]) -> np.ndarray:
+        whole = np.full(self.shape[1:], np.nan)
+        result = self._shared.cases[number]
+        if result is not None:
+            variables = _read(self._shared.opened, self._shared.directory, result.key, result.checksum).variables
+            if self._name in variables:
+                values = variables[self._name].transpose(*self._dims).values
+                places = [
+                    np.searchsorted(self._shared.rollers, result.rollers) if dim in _LABELLED else np.arange(size)
+                    for dim, size in zip(self._dims, values.shape, strict=True)
+                ]
+                whole[np.ix_(*places)] = values
+        for axis, one in enumerate(reversed(inner), start=1):  # from the last, as a number takes its axis away
+            whole = whole[(slice(None),) * (len(inner) - axis) + (one,)]
+        return whole
+
+    def _part_shape(self, inner: tuple[Any, ...]) -> tuple[int, ...]:
+        sizes = (np.shape(np.arange(size)[one]) for size, one in zip(self.shape[1:], inner, strict=True))
+        return tuple(size for shape in sizes for size in shape)
+
+
+@functools.lru_cache(maxsize=8)
+def _read(opened: str, directory: Path, key: str, checksum: str) -> xr.Dataset:
+    """A result; the last few of an opened study are kept: several variables of a case are often wanted in turn."""
+    return read_result(directory, key, checksum)

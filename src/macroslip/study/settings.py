@@ -1,0 +1,172 @@
+"""Values that runs of a study have in place of those of its base case: `bearing.diametral_clearance` is `0.2 mm`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from macroslip.bearing import Bearing
+from macroslip.case.form import Place, Quantity
+from macroslip.case.keys import CASE
+from macroslip.case.section import Section, Variants
+from macroslip.catalogue import Record
+from macroslip.catalogue.entry import is_finite_number, read_entry
+from macroslip.catalogue.fields import dimensions
+from macroslip.catalogue.problems import shown, unknown_key
+from macroslip.catalogue.source import Source
+from macroslip.errors import InputError
+from macroslip.lubricant import Lubricant
+
+#: What has values of its own, each of which can be replaced.
+RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
+#: Keys of a case that have a place of their own in a study.
+_ELSEWHERE = {"loads": "loads", "bearing": "bearings", "lubricant": "lubricants"}
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s.,].*?)\s*")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One value in place of the base case's.
+
+    Parameters
+    ----------
+    key : str
+        Key of the case file, as `drivetrain.tilt`, or `bearing.` or `lubricant.` and the key of one of its values.
+    value : Any
+        Number, text, truth value or list.
+    unit : str
+        Unit of a quantity, or empty.
+    """
+
+    key: str
+    value: Any
+    unit: str = ""
+
+    @classmethod
+    def written(cls, key: str, value: Any) -> Setting:
+        """From a value as a case file has it: `0.2 mm` becomes number and unit."""
+        match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+        return cls(key, value) if match is None else cls(key, float(match[1]), match[2])
+
+    @property
+    def text(self) -> Any:
+        """The value as a case file has it."""
+        return f"{self.value!r} {self.unit}" if self.unit else self.value
+
+    @property
+    def entry(self) -> dict[str, Any]:
+        """The value as a catalogue file has it, with the tag of a user's value."""
+        return {"value": self.value, "unit": self.unit or "1", "tag": "U", "note": "varied in a study"}
+
+    def check(self, place: Place) -> None:
+        """Check key, form and unit; whether the value is in range depends on the others, and is checked with the case.
+
+        Raises
+        ------
+        InputError
+        """
+        head, *rest = self.key.split(".")
+        if head in RECORDS and rest:
+            self._check_entry(RECORDS[head], ".".join(rest), place)
+            return
+        if head in _ELSEWHERE:
+            remedy = f"It has its own key in a study: {_ELSEWHERE[head]}."
+            raise place.problem(f"the key '{self.key}' cannot be varied here", remedy=remedy)
+        kinds = _kinds(CASE, [head, *rest])
+        if not kinds:
+            others = (key for key in _leaves(CASE) if key.partition(".")[0] not in _ELSEWHERE)
+            records = (f"{noun}.{key}" for noun, record in RECORDS.items() for key in dimensions(record))
+            raise unknown_key(self.key, [*others, *records], where=place.where)
+        problems = []
+        for kind in kinds:
+            if self.unit and not isinstance(kind, Quantity):
+                problems.append(
+                    place.problem(f"it has the unit '{self.unit}'", "a value without unit", "Remove the unit.")
+                )
+                continue
+            try:
+                kind.read(self.text, place)
+            except InputError as problem:
+                problems.append(problem)
+            else:
+                return
+        raise problems[0]
+
+    def _check_entry(self, record: type[Record], key: str, place: Place) -> None:
+        if key not in dimensions(record):
+            raise unknown_key(self.key, (f"{record.noun}.{one}" for one in dimensions(record)), where=place.where)
+        if not is_finite_number(self.value):
+            units = dimensions(record)[key].choices
+            raise place.problem(f"it is {shown(self.value)}", f"a number with its unit, {units}")
+        try:
+            read_entry(key, self.entry, dimensions(record)[key], Source())
+        except InputError as problem:
+            raise place.blamed(problem) from None
+
+
+def with_settings(mapping: Mapping[str, Any], settings: list[Setting]) -> dict[str, Any]:
+    """The mapping of a case file with other values; those of bearing and lubricant are left to `replaced`."""
+    result = dict(mapping)
+    for setting in settings:
+        *sections, last = setting.key.split(".")
+        if sections and sections[0] in RECORDS:
+            continue
+        inner = result
+        for name in sections:
+            # A section that is absent or switched off by a word begins anew.
+            inner[name] = dict(inner[name]) if isinstance(inner.get(name), Mapping) else {}
+            inner = inner[name]
+        inner[last] = setting.text
+    return result
+
+
+def replaced(record: Record, settings: list[Setting]) -> Record:
+    """A bearing or lubricant with the values meant for it, checked as any other input.
+
+    Raises
+    ------
+    InputError
+        If a value is out of its range, or does not go with the others.
+
+    Examples
+    --------
+    >>> bearing = replaced(Bearing.read("skf-240-600-bc"), [Setting("bearing.diametral_clearance", 0.2, "mm")])
+    >>> bearing.diametral_clearance, bearing.provenance["diametral_clearance"].tag
+    (0.0002, 'U')
+    """
+    head = f"{record.noun}."
+    entries = {one.key.removeprefix(head): one.entry for one in settings if one.key.startswith(head)}
+    return type(record).from_dict(record.as_dict() | entries) if entries else record
+
+
+def _kinds(kind: Any, keys: list[str]) -> list[Any]:
+    """What may stand under the keys; several where it depends on a name that stands beside."""
+    if isinstance(kind, Variants):
+        return [found for section in kind.sections.values() for found in _kinds(section, keys)]
+    if not keys:
+        return (
+            [] if isinstance(kind, Section) and not kind.word else [_Word(kind) if isinstance(kind, Section) else kind]
+        )
+    return _kinds(kind.keys[keys[0]], keys[1:]) if isinstance(kind, Section) and keys[0] in kind.keys else []
+
+
+@dataclass(frozen=True)
+class _Word:
+    """The word that switches a section off."""
+
+    section: Section
+
+    def read(self, value: Any, place: Place) -> None:
+        """Accept the word only."""
+        if value != self.section.word:
+            raise place.problem(f"it is {shown(value)}", self.section.word)
+
+
+def _leaves(kind: Any, prefix: str = "") -> list[str]:
+    if isinstance(kind, Variants):
+        return [key for section in kind.sections.values() for key in _leaves(section, prefix)]
+    if isinstance(kind, Section):
+        return [leaf for key, inner in kind.keys.items() for leaf in _leaves(inner, f"{prefix}{key}.")]
+    return [prefix.rstrip(".")]

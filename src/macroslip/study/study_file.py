@@ -1,0 +1,157 @@
+"""From a study file to a `Study`; whatever is wrong with the file is told together, each with its line and remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from macroslip.case.form import Place
+from macroslip.catalogue import Record
+from macroslip.catalogue.problems import together
+from macroslip.catalogue.source import Source, parse
+from macroslip.errors import InputError
+from macroslip.study.build import template
+from macroslip.study.loads_list import load_list
+from macroslip.study.settings import RECORDS, Setting
+from macroslip.study.study import Study
+from macroslip.study.study_keys import STUDY, sample_of
+from macroslip.study.variation import grid
+
+_REMEDY = "docs/campaigns.md has a study file that runs."
+
+
+def read_study(path: str | PathLike[str]) -> Study:
+    """Read a study file.
+
+    Bearings and lubricants are read here and now; load files are looked for, but not opened.
+
+    Parameters
+    ----------
+    path : path
+        YAML file; docs/campaigns.md explains every key. Relative paths in it start at its own folder.
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"the study file cannot be read ({error.strerror})", where=str(path), remedy=_REMEDY) from None
+    except UnicodeDecodeError:
+        raise InputError("the study file is not UTF-8 text", where=str(path), remedy="Save it as UTF-8.") from None
+    data, source = parse(text, str(path), _REMEDY)
+    return _study(data, source, path.parent)
+
+
+def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> Study:
+    """A study from the content of a study file as plain data.
+
+    Parameters
+    ----------
+    content : mapping
+        As `yaml` would read it.
+    folder : path
+        Where relative paths start.
+
+    Raises
+    ------
+    InputError
+        As `read_study`, without file and line.
+
+    Examples
+    --------
+    >>> study = study_of({"loads": {"bundled": ["14A", "14B"]},
+    ...                   "variations": {"grid": {"bearing.diametral_clearance": {"values": [0, 0.2], "unit": "mm"}}}})
+    >>> len(study), next(study.runs()).labels["bearing.diametral_clearance"]
+    (4, 0)
+    """
+    return _study(content, Source(), Path(folder))
+
+
+def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
+    place, problems = Place(source), []
+    values = STUDY.read(data, place, problems) or {}
+
+    def attempt(key: str, build: Any) -> Any:
+        try:
+            return build()
+        except InputError as problem:
+            located = problem.where.startswith(f"{source.file}, ") if source.file else False
+            problems.append(problem if located else place.inside(key).blamed(problem))
+            return None
+
+    base, cut = attempt("case", lambda: _base(values.get("case", {}), source, folder)) or (None, {})
+    loads = attempt("loads", lambda: load_list(values["loads"], folder)) if "loads" in values else None
+    records = {
+        noun: attempt(f"{noun}s", lambda noun=noun: _records(RECORDS[noun], values[f"{noun}s"], folder))
+        for noun in RECORDS
+        if f"{noun}s" in values
+    }
+    variations = values.get("variations", {})
+    sample = attempt("variations", lambda: sample_of(variations.get("sample"), place.inside("variations", "sample")))
+    parameters = attempt("variations", lambda: _parameters(variations, values.get("models", {})))
+    if problems:
+        raise together(problems)
+    combinations = [
+        [*first, *second, *third]
+        for first in grid(variations.get("grid", {}))
+        for second in variations.get("list", [[]])
+        for third in (sample.points() if sample else [[]])
+    ]
+    own = {noun: {_name(values.get("case", {}), noun, getattr(base, noun)): getattr(base, noun)} for noun in RECORDS}
+    return Study(
+        title=values.get("title", ""),
+        folder=folder.absolute(),
+        case={key: value for key, value in values.get("case", {}).items() if key not in RECORDS},
+        cut=cut,
+        loads=loads,
+        bearings=records.get("bearing", own["bearing"]),
+        lubricants=records.get("lubricant", own["lubricant"]),
+        models=values.get("models") or {"base": []},
+        variations=combinations,
+        parameters=parameters,
+        cycles=values.get("cycles", False),
+        content=dict(data),
+    )
+
+
+def _name(case: Mapping[str, Any], noun: str, record: Record) -> str:
+    """What the study calls the base case's bearing or lubricant."""
+    return case.get(noun) or record.name
+
+
+def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Any:
+    """The base case, so that a mistake in it is found at once, in its own words and lines."""
+    inner = {keys[1:]: line for keys, line in source.lines.items() if keys[:1] == ("case",) and len(keys) > 1}
+    return template(mapping, [], {}, source=Source(source.file, inner), folder=folder)
+
+
+def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Record]:
+    catalogue = kind.catalogue()
+    return {name: kind.read(name if name in catalogue else folder / name) for name in names}
+
+
+def _parameters(variations: Mapping[str, Any], models: Mapping[str, list[Setting]]) -> dict[str, str]:
+    """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
+    places: dict[str, dict[str, str]] = {
+        "grid": {key: settings[0].unit for key, settings in variations.get("grid", {}).items()},
+        "list": {one.key: one.unit for item in variations.get("list", []) for one in item},
+        "sample": {key: one.unit for key, one in (variations.get("sample") or {}).get("ranges", {}).items()},
+        "models": {one.key: one.unit for settings in models.values() for one in settings},
+    }
+    found: dict[str, str] = {}
+    for name, units in places.items():
+        for key, unit in units.items():
+            if key in found:
+                raise InputError(f"{key} is varied in {name} and in another place", allowed="one place for each key")
+            found[key] = unit
+    return found

@@ -1,0 +1,71 @@
+"""What the rivals integrate: the package's own forces, and a Jacobian that is their derivative."""
+
+import numpy as np
+import pytest
+
+from benchmarks.right_hand_side import EVALUATIONS, jacobian, pack, rates, unpack
+from macroslip.ring.orbit import instant
+from macroslip.roller.forces import slip_forces, station
+
+
+def states(history, count=40):
+    """Random times, and slips of every size and sign."""
+    random = np.random.default_rng(5)
+    times = random.uniform(history.start, history.end, count)
+    slips = random.choice([-1.0, 1.0], count) * 10.0 ** random.uniform(-9.0, -0.5, count)
+    return zip(times, slips, strict=True)
+
+
+def rate_at(time, slip, data):
+    found = np.empty(4)
+    rates(time, np.array([slip, 0.0, 0.0, 0.0]), found, data)
+    return found
+
+
+def test_packing_loses_nothing(histories):
+    for history in histories:
+        model, motion = unpack(pack(history))
+        assert model == history.model
+        for found, given in zip(motion, history.motion, strict=True):
+            np.testing.assert_array_equal(found, given)
+
+
+def test_rates_are_those_of_the_package(histories):
+    for history in histories:
+        data = pack(history, energy_unit=0.5)
+        model, motion = history.model, history.motion
+        for time, slip in states(history):
+            k = int(np.searchsorted(motion.time, time, side="right")) - 1
+            at = station(model, history.start_angle, instant(motion, k, time))
+            forces = slip_forces(model, at, slip)
+            eps = 1e-3 * (motion.time[k + 1] - motion.time[k])
+            inside = min(max(time, motion.time[k] + eps), motion.time[k + 1] - eps)
+            sides = (instant(motion, k, inside + side) for side in (-eps, eps))
+            before, after = (station(model, history.start_angle, now).ring_speed for now in sides)
+            acceleration = (after - before) / (2.0 * eps)
+            total = forces.inner + forces.outer + forces.cage
+            found = rate_at(time, slip, data)
+            assert found[0] == pytest.approx(acceleration - model.mobility * total, rel=1e-9, abs=1e-8)
+            powers = np.array([forces.inner * slip, forces.outer * slip, forces.cage * (at.ring_speed - slip)])
+            np.testing.assert_allclose(found[1:], np.abs(powers) / 0.5, rtol=1e-13)
+
+
+def test_jacobian_is_the_difference_quotient(histories):
+    for history in histories:
+        data = pack(history, energy_unit=2.0)
+        for time, slip in states(history):
+            found = np.zeros((4, 4))
+            jacobian(time, np.array([slip, 0.0, 0.0, 0.0]), found, data)
+            change = 1e-5 * abs(slip)
+            quotient = (rate_at(time, slip + change, data) - rate_at(time, slip - change, data)) / (2.0 * change)
+            # Round-off of the rates themselves limits the quotient.
+            noise = 1e-13 * np.abs(rate_at(time, slip, data)) / change
+            assert np.all(np.abs(found[:, 0] - quotient) <= 1e-5 * np.abs(quotient) + 10.0 * noise + 1e-9)
+            assert not found[:, 1:].any()
+
+
+def test_evaluations_are_counted(histories):
+    data = pack(histories[0])
+    for _ in range(3):
+        rate_at(histories[0].start, 0.01, data)
+    assert data[EVALUATIONS] == 3.0

@@ -1,0 +1,51 @@
+"""Every rival that is installed, pushed hard, converges to the production integrator's answer."""
+
+import importlib
+
+import pytest
+
+from benchmarks import own
+from benchmarks.histories import load_edges
+from benchmarks.outcome import errors
+from benchmarks.quiet import silence
+from macroslip.ring.orbit import instant
+from macroslip.roller.forces import station
+
+TIGHT = {
+    "lsoda": {"stops": True, "rtol": 1e-10, "atol": 1e-12},
+    "cvode": {"stops": "restart", "rtol": 1e-9, "atol": 1e-11, "longest_step": 0.02},
+    "cvode_compiled": {"stops": "restart", "rtol": 1e-9, "atol": 1e-11, "longest_step": 0.02},
+    "euler": {"step": 2e-4, "tolerance": 1e-13},
+    "scipy_solvers": {"method": "BDF", "stops": True, "rtol": 1e-8, "atol": 1e-9, "longest_step": 0.05},
+}
+NEEDS = {"lsoda": "numbalsoda", "cvode": "sksundae", "cvode_compiled": "sksundae"}
+
+
+@pytest.mark.parametrize("name", TIGHT)
+def test_a_rival_converges_to_the_same_answer(name, histories):
+    if name in NEEDS:
+        pytest.importorskip(NEEDS[name], reason=f"the rival {NEEDS[name]} is not installed")
+    room = importlib.import_module(f"benchmarks.{name}")
+    if name == "cvode_compiled" and not room.available():
+        pytest.skip("this scikit-sundae brings no shared libraries that can be called")
+    allowed = 1e-2 if name == "euler" else 1e-4
+    for history in histories:
+        reference = own.reference(history)
+        with silence():
+            found = room.solve(history, reference, **TIGHT[name])
+        assert max(errors(found, reference)) < allowed
+        assert found.evaluations > 0
+
+
+def test_load_edges_are_where_load_begins_and_ends(histories):
+    history = histories[0]
+    edges = load_edges(history.model, history.motion, history.start_angle)
+    assert edges.size > 0
+
+    def load(time):
+        interval = int((history.motion.time <= time).sum()) - 1
+        return station(history.model, history.start_angle, instant(history.motion, interval, time)).elastic_load
+
+    for edge in edges:
+        assert (load(edge - 1e-7) > 0.0) != (load(edge + 1e-7) > 0.0)
+    assert all(load(mark) == 0.0 for mark in history.marks) and history.marks.size > 0

@@ -1,0 +1,282 @@
+"""What a user is told about a case file that is wrong."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from macroslip import InputError
+from macroslip.case.case_file import read_case
+
+DATA = Path(__file__).parents[1] / "data"
+LOADS = "loads: {bundled: 14B, start: 0 s, end: 10 s}\n"
+
+
+@pytest.fixture
+def told(tmp_path):
+    """What the user is told about a case file that is wrong."""
+
+    def told(text):
+        path = tmp_path / "case.yaml"
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(InputError) as caught:
+            read_case(path)
+        message = str(caught.value)
+        assert str(path) in message and "\n" not in message
+        return message.replace(str(path), "case.yaml").replace(str(path.parent), "FOLDER")
+
+    return told
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("laods: {bundled: 14B}\n", "case.yaml, line 1: the key 'laods' is unknown. Did you mean 'loads'?"),
+        (
+            LOADS + "window:\n  strat: 5 s\n",
+            "case.yaml, line 3: the key 'strat' inside window is unknown. Did you mean 'start'?",
+        ),
+        (
+            LOADS + "weather: fair\n",
+            "case.yaml, line 2: the key 'weather' is unknown. Allowed: bearing, lubricant, loads, drivetrain, "
+            "forces, laws, integrator, window, rollers, traces. Remove it.",
+        ),
+        (
+            "rollers: all\n",
+            "case.yaml: 'loads' is missing (loads, from exactly one source). Allowed: a section with the keys bundled, "
+            "file, bearing_file, hub, main_bearing, start, end. Add it.",
+        ),
+        (
+            "loads: {bundled: 14B, file: x.outb}\n",
+            "case.yaml, line 1, loads: bundled and file stand together. Allowed: exactly one of bundled, file, "
+            "bearing_file, hub, main_bearing. Remove or comment out the others.",
+        ),
+        (
+            "loads:\n  start: 5 s\n",
+            "case.yaml, line 1, loads: none of the keys it needs is there. Allowed: exactly one of bundled, file, "
+            "bearing_file, hub, main_bearing. Add one of them.",
+        ),
+        (
+            "loads: {bundled: 14D}\n",
+            "case.yaml, line 1, loads.bundled: '14D' does not exist. Allowed: 12A, 12B, 12C, 14A, 14B, 14C, 16A, "
+            "16B, 16C, 18A, 18B, 18C, 20A, 20B, 20C, 22A, 22B, 22C, 24A, 24B, 24C. Did you mean 14C?",
+        ),
+        (
+            "loads: {file: nothing.outb}\n",
+            "case.yaml, line 1, loads.file: there is no file 'nothing.outb'. Relative paths start at FOLDER.",
+        ),
+        (
+            "loads: {bundled: 14B, end: 700 s}\n",
+            "case.yaml, line 1, loads.bundled: bundled case 14B: the window from 0 s to 700 s cannot be cut out. "
+            "Allowed: start before end, both within 0 s to 599.95 s. Choose a window on the record's own time "
+            "axis, which need not begin at zero.",
+        ),
+        (
+            "loads:\n  main_bearing:\n    force: [0 N, -3e5 N]\n    shaft_speed: 2 rad/s\n",
+            "2 problems: (1) case.yaml, line 3, loads.main_bearing.force: it is ['0 N', '-3e5 N']. Allowed: a "
+            "list of three quantities, such as [0 N, 0 N, 0 N]. It is the three components of the force. (2) "
+            "case.yaml, line 2, loads.main_bearing: 'duration' is missing (time for which the loads act). "
+            "Allowed: a number with its unit, s or ms. Add it.",
+        ),
+        (
+            "loads:\n  main_bearing: {force: [0 N, -3e5 N, 0 N], shaft_speed: 2 rad/s, duration: 5 s}\n  end: 3 s\n",
+            "case.yaml, line 2, loads.main_bearing: end would cut a series, but these loads are constant. Remove them; "
+            "loads.main_bearing.duration says how long.",
+        ),
+        (
+            "loads:\n  main_bearing: {force: [0 N, -3e5 N, 0 N], shaft_speed: 1800 rpm, duration: 5 s}\n",
+            "case.yaml, line 2, loads.main_bearing: constant load, t = 0 s: shaft_speed is 188.496 rad/s, beyond "
+            "any wind turbine. Allowed: magnitudes up to 100 rad/s. Check the unit. Is it in rpm, or the speed of "
+            "the generator?",
+        ),
+        (
+            LOADS + "drivetrain:\n  hub_to_bearing: 1.26\n",
+            "case.yaml, line 3, drivetrain.hub_to_bearing: 1.26 has no unit. Allowed: a number with its unit, m "
+            "or mm or um. Write 1.26 m, for example.",
+        ),
+        (
+            LOADS + "drivetrain:\n  hub_to_bearing: 4 ft\n",
+            "case.yaml, line 3, drivetrain.hub_to_bearing: '4 ft' has the unit 'ft'. Allowed: a number with its "
+            "unit, m or mm or um. Convert it to one of these units.",
+        ),
+        (
+            LOADS + "drivetrain:\n  hub_to_bearing: 1,26 m\n",
+            "case.yaml, line 3, drivetrain.hub_to_bearing: '1,26 m' is not a quantity. Allowed: a number with its "
+            "unit, m or mm or um. Use a decimal point, not a comma.",
+        ),
+        (
+            LOADS + "drivetrain:\n  hub_to_bearing: about one metre\n",
+            "case.yaml, line 3, drivetrain.hub_to_bearing: 'about one metre' is not a quantity. Allowed: a number "
+            "with its unit, m or mm or um. Write 1 m, for example.",
+        ),
+        (
+            LOADS + "drivetrain:\n  hub_to_bearing: 1e999 m\n",
+            "case.yaml, line 3, drivetrain.hub_to_bearing: '1e999 m' is too large for a number. Allowed: a number "
+            "with its unit, m or mm or um.",
+        ),
+        (
+            LOADS + "drivetrain:\n  hub_to_bearing: 1260 m\n  tilt: 50 deg\n  shaft_mass_station: 4 m\n",
+            "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m. "
+            "Check value and unit. (2) case.yaml, line 4, drivetrain.tilt: it is 50 deg. Allowed: -17.1887 to 17.1887 "
+            "deg. Check value and unit.",
+        ),
+        (
+            LOADS + "drivetrain: {tilt: 5 rad, bearing_to_gearbox: 0mm, shaft_mass: -1 kg}\n",
+            "3 problems: (1) case.yaml, line 2, drivetrain.bearing_to_gearbox: it is 0mm. Allowed: above 0, up to 20000 "
+            "mm. Check value and unit. (2) case.yaml, line 2, drivetrain.tilt: it is 5 rad. Allowed: -0.3 to 0.3 rad. "
+            "Check value and unit. (3) case.yaml, line 2, drivetrain.shaft_mass: it is -1 kg. Allowed: 0 to 1e6 kg. "
+            "Check value and unit.",
+        ),
+        (
+            LOADS + "drivetrain:\n  shaft_mass_station: 4 m\n",
+            "case.yaml, line 3, drivetrain.shaft_mass_station: it is 4 m. Allowed: 0 to 3.46 m, from the hub to the "
+            "gearbox's support. Check value and unit.",
+        ),
+        (LOADS + "forces: {gravity: yes}\n", "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false."),
+        (
+            LOADS + "laws: {film: dowson, traction: barus-crook}\n",
+            "2 problems: (1) case.yaml, line 2, laws.film: 'dowson' does not exist. Allowed: masjedi-khonsari, "
+            "masjedi-khonsari-moes, moes. Choose one of these. A law of your own needs its file: macroslip run CASE "
+            "--laws FILE. (2) case.yaml, line 2, laws.traction: 'barus-crook' does not exist. Allowed: mechanisms. "
+            "Choose one of these. A law of your own needs its file: macroslip run CASE --laws FILE.",
+        ),
+        (
+            LOADS + "laws: {model: real, rheology: limiting_shear, microslip: on}\n",
+            "3 problems: (1) case.yaml, line 2, laws.model: 'real' does not exist. Allowed: paper, physical. Choose one "
+            "of these. (2) case.yaml, line 2, laws.rheology: 'limiting_shear' does not exist. Allowed: newtonian, "
+            "limiting-shear, eyring. Did you mean limiting-shear? (3) case.yaml, line 2, laws.microslip: it is 'on'. "
+            "Allowed: true or false.",
+        ),
+        (
+            LOADS + "integrator: {method: euler}\n",
+            "case.yaml, line 2, integrator.method: 'euler' does not exist. Allowed: radau, backward-euler, "
+            "explicit-euler. Choose one of these.",
+        ),
+        (
+            LOADS + "integrator: {method: explicit-euler}\n",
+            "case.yaml, line 2, integrator: 'step' is missing (fixed time step). Allowed: a number with its unit, "
+            "s or ms. Add it.",
+        ),
+        (
+            LOADS + "integrator: {method: explicit-euler, step: 1 ms, tolerance: 1e-4}\n",
+            "case.yaml, line 2: the key 'tolerance' inside integrator is unknown. Allowed: method, step. Remove it.",
+        ),
+        (
+            LOADS + "integrator:\n  tolerance: 0.5\n",
+            "case.yaml, line 3, integrator.tolerance: the tolerance is 0.5. Allowed: 1e-10 to 1e-2. 2e-4 gives "
+            "energies and spin to 1e-4 and peak power to 1 %.",
+        ),
+        (
+            LOADS + "integrator:\n  tolerance: '1e-4'\n  max_steps: 1.5\n",
+            "2 problems: (1) case.yaml, line 3, integrator.tolerance: it is '1e-4'. Allowed: a number without "
+            "unit. Write it without quotes and units. (2) case.yaml, line 4, integrator.max_steps: it is 1.5. "
+            "Allowed: a whole number.",
+        ),
+        (
+            LOADS + "integrator: {method: backward-euler, step: 3 s}\n",
+            "case.yaml, line 2, integrator.step: the step is 3.0 s. Allowed: 1e-7 to 1 s.",
+        ),
+        (
+            LOADS + "window: {start: 5 s, end: 11 s}\n",
+            "case.yaml, line 2, window: the window runs from 5.0 s to 11.0 s. Allowed: start before end, both "
+            "within the loads' 0 s to 10 s.",
+        ),
+        (
+            LOADS + "window: 5 s\n",
+            "case.yaml, line 2, window: it is '5 s'. Allowed: a section with the keys start, end.",
+        ),
+        (
+            LOADS + "window: {end: auto}\n",
+            "case.yaml, line 2, window.end: 'auto' is not a quantity. Allowed: a number with its unit, s or ms. "
+            "Write 1 s, for example.",
+        ),
+        (
+            LOADS + "rollers: [0, 28]\n",
+            "case.yaml, line 2, rollers: rollers is [0, 28]. Allowed: all, or a list of different numbers from 0 "
+            "to 27.",
+        ),
+        (
+            LOADS + "rollers: 7\n",
+            "case.yaml, line 2, rollers: it is 7. Allowed: all, or a list of whole numbers such as [0, 7].",
+        ),
+        (
+            LOADS + "traces: {step: 0 s}\n",
+            "case.yaml, line 2, traces.step: the step is 0.0 s. Allowed: a number above 0 s.",
+        ),
+        (
+            LOADS + "traces: {step: 1 s, end: 99 s}\n",
+            "case.yaml, line 2, traces: the traces run from 0.0 s to 99.0 s. Allowed: times within the loads' 0 s "
+            "to 10 s.",
+        ),
+        (
+            LOADS + "traces: some\n",
+            "case.yaml, line 2, traces: it is 'some'. Allowed: none or a section with the keys step, start, end.",
+        ),
+        (
+            LOADS + "bearing: skf-240-600\nlubricant: oil.yaml\n",
+            "2 problems: (1) case.yaml, line 2, bearing: 'skf-240-600' is neither in the catalogue nor a file. "
+            "Allowed: skf-240-600-bc, or the path of a bearing file. Did you mean skf-240-600-bc? (2) case.yaml, "
+            "line 3, lubricant: 'oil.yaml' is neither in the catalogue nor a file. Allowed: vg460-pao, or the "
+            "path of a lubricant file. Relative paths start at FOLDER.",
+        ),
+        (LOADS + "bearing: 3\n", "case.yaml, line 2, bearing: it is 3. Allowed: text."),
+        (
+            LOADS + LOADS,
+            'case.yaml, line 2: found duplicate key "loads". Allowed: every key once. Delete one of the two.',
+        ),
+        (
+            "just text\n",
+            "case.yaml: the file holds 'just text'. Allowed: a mapping of keys to entries. Write a case file that runs "
+            "with: macroslip init.",
+        ),
+    ],
+)
+def test_what_a_user_is_told(told, text, message):
+    assert told(text) == message
+
+
+def test_all_problems_are_told_together(told):
+    message = told("""
+loads: {bundled: 14B, end: 60 s}
+bering: skf-240-600-bc
+drivetrain: {tilt: 5}
+window: {start: 50 s, end: 90 s}
+rollers: [99]
+""")
+    assert message.startswith("4 problems: (1) ")
+    assert [int(line) for line in re.findall(r"line (\d+)", message)] == [3, 4, 6, 5]
+
+
+@pytest.mark.parametrize(
+    ("key", "file", "advice"),
+    [
+        ("bearing_file", "hub14B_50Hz.parquet", "This table holds hub loads: name it under file."),
+        ("bearing_file", "sample14B.outb", "Hub loads from OpenFAST belong under file."),
+        ("file", "bearing.csv", "This table holds main-bearing loads: name it under bearing_file."),
+        ("file", "gap.csv", "Read the part before or after the gap (loads.start, loads.end), or resample the record."),
+    ],
+)
+def test_a_load_file_under_the_wrong_key(told, tmp_path, key, file, advice):
+    (tmp_path / "bearing.csv").write_text("time_s,rotor_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n0,1,1,1,1\n1,1,1,1,1\n")
+    header = "time_s,rotor_speed_rpm,fx_kN,fy_kN,fz_kN,mx_kNm,my_kNm,mz_kNm\n"
+    (tmp_path / "gap.csv").write_text(header + "".join(f"{t},1,1,1,1,1,1,1\n" for t in (0, 1, 2, 9)))
+    path = tmp_path / file if (tmp_path / file).exists() else DATA / file
+    message = told(f"loads:\n  {key}: {path}\n")
+    assert message.startswith(f"case.yaml, line 2, loads.{key}: ") and message.endswith(advice)
+    assert file in message
+
+
+def test_a_wrong_bearing_file_is_named_with_its_own_line(told, tmp_path):
+    (tmp_path / "mine.yaml").write_text("name: mine\nwitdh: {value: 3, unit: mm}\n")
+    message = told(LOADS + "bearing: mine.yaml\n")
+    assert message == (
+        "case.yaml, line 2, bearing: FOLDER/mine.yaml, line 2: the key 'witdh' is unknown. Did you mean 'width'?"
+    )
+
+
+def test_a_file_that_cannot_be_read(tmp_path):
+    with pytest.raises(InputError, match=r"nowhere\.yaml: the case file cannot be read \(No such file or directory\)"):
+        read_case(tmp_path / "nowhere.yaml")
+    (tmp_path / "latin.yaml").write_bytes("# Lagergröße\n".encode("latin-1"))
+    with pytest.raises(InputError, match=r"the case file is not UTF-8 text. Save it as UTF-8"):
+        read_case(tmp_path / "latin.yaml")

@@ -1,0 +1,142 @@
+"""The sample over uncertain values: seeded, from real runs, with every sample accounted for."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from macroslip import Case, HubLoads, InputError, Laws, simulate
+from macroslip.reproduction import uncertainty as module
+from macroslip.reproduction.uncertain_values import OSCULATION, VALUES, with_values
+from macroslip.reproduction.uncertainty import draw, uncertainty
+from macroslip.reproduction.uncertainty_summary import (
+    drivers,
+    quantities,
+    sample_size,
+    uncertainty_summary,
+    with_uncertainty,
+)
+from macroslip.reproduction.verdicts import DIFFERS, Statement
+
+SMALL = {"cases": ("12B", "24B"), "rollers": (0,), "end": 14.0}
+
+
+@pytest.fixture(scope="module")
+def sample():
+    return uncertainty(Laws.physical(), samples=4, **SMALL)
+
+
+def test_the_sample_is_the_same_every_time_and_fills_the_ranges():
+    drawn = draw(64)
+    np.testing.assert_array_equal(drawn, draw(64))
+    low, high = (np.array([getattr(one, name) for one in VALUES]) for name in ("low", "high"))
+    unit = (drawn - low) / (high - low)
+    # Of a Sobol sequence of 64, every value has one point in each 64th of its range.
+    assert all(sorted((64 * column).astype(int)) == list(range(64)) for column in unit.T)
+
+
+def test_every_sample_is_a_run_of_its_own(sample):
+    assert (sample.outcome == 0).all()
+    assert sample.sizes["sample"] == 5
+    case = Case(loads=HubLoads.bundled("24B").window(None, 14.0), laws=Laws.physical(), rollers=(0,))
+    for k in (0, 3):
+        values = dict(zip(sample.parameter.values.tolist(), sample.value.values[k].tolist(), strict=True))
+        result = simulate(with_values(case, values) if k else case)
+        found = sample.sel(case="24B").isel(sample=k)
+        np.testing.assert_allclose(found.orbit_energy, result.orbit_energy.mean(("roller", "orbit")), rtol=1e-12)
+        peak = result.peak_power.max("interface").mean(("roller", "orbit"))
+        np.testing.assert_allclose(found.peak_power, peak, rtol=1e-12)
+        assert float(found.window_energy) == pytest.approx(float(result.energy.sum()), rel=1e-12)
+
+
+def test_the_torque_is_work_over_angle(sample):
+    # An orbit takes 2.2 turns of the shaft in this bearing: (r~_in + r~_out)/r~_in.
+    turns = (0.338367 + 0.407033) / 0.338367
+    work = 28 * sample.orbit_energy.sel(sample=0).sum(("row", "interface"))
+    np.testing.assert_allclose(sample.torque.sel(sample=0), work / (2.0 * np.pi * turns), rtol=1e-5)
+
+
+def test_results_do_not_depend_on_threads(sample):
+    one = uncertainty(Laws.physical(), samples=4, threads=1, **SMALL)
+    xr.testing.assert_identical(one, sample)
+
+
+def test_a_refused_sample_is_counted_with_its_reason(monkeypatch):
+    drawn = draw(2)
+    drawn[1, [one.name for one in VALUES].index(OSCULATION)] = 0.999
+    monkeypatch.setattr(module, "draw", lambda samples: drawn)
+    found = uncertainty(Laws.physical(), samples=2, cases=("12B",), rollers=(0,), end=14.0)
+    assert found.outcome.values.tolist() == [0, 0, 2]
+    assert "beyond the roller's ends" in str(found.reason.values[2])
+    assert np.isnan(found.orbit_energy[2]).all()
+    summary = uncertainty_summary(found)
+    assert summary.attrs == {"completed": 1, "failed": 0, "refused": 1}
+    assert sample_size(summary) == "1 of 2 samples completed, 0 failed, 1 were refused"
+
+
+def test_a_failed_roller_takes_its_sample_out_and_is_counted(monkeypatch):
+    def failing(case, threads):
+        result = simulate(case, threads=threads)
+        if case.lubricant.limiting_shear != 0.042:
+            result.status[0, 0] = 3
+        return result
+
+    monkeypatch.setattr(module, "simulate", failing)
+    found = uncertainty(Laws.physical(), samples=1, cases=("12B",), rollers=(0,), end=14.0)
+    assert found.outcome.values.tolist() == [0, 1]
+    assert uncertainty_summary(found).attrs["failed"] == 1
+    assert np.isnan(uncertainty_summary(found).range).all()
+
+
+def test_a_window_must_lie_in_the_loads():
+    with pytest.raises(InputError, match="the window ends at 700 s"):
+        uncertainty(Laws.physical(), samples=1, end=700.0)
+
+
+def synthetic(sample, count=32):
+    """A sample in which energy downwind follows the first value, and both ratios fall over wind speed."""
+    values = np.linspace(0.0, 1.0, count + 1)[:, None] * np.ones(sample.sizes["parameter"])
+    values[:, 1:] = np.random.default_rng(1).permuted(values[:, 1:], axis=0)
+    energy = np.ones((count + 1, 2, 2, 3))
+    energy[:, 0, 0] *= 9.0 + values[:, :1]
+    peak = np.broadcast_to(np.array([[4.0, 1.0], [3.0, 1.0]]), (count + 1, 2, 2))
+    window = np.broadcast_to(np.array([2.0, 1.0]), (count + 1, 2))
+    dims = {"orbit_energy": ("sample", "case", "row", "interface"), "peak_power": ("sample", "case", "row")}
+    new = {
+        "orbit_energy": (dims["orbit_energy"], energy),
+        "peak_power": (dims["peak_power"], peak),
+        "window_energy": (("sample", "case"), window),
+        "torque": (("sample", "case"), window),
+        "value": (("sample", "parameter"), values),
+        "outcome": ("sample", np.zeros(count + 1, dtype=np.int8)),
+        "reason": ("sample", [""] * (count + 1)),
+    }
+    kept = sample.drop_dims("sample").drop_vars("sample", errors="ignore")
+    return kept.assign(new).assign_coords(sample=np.arange(count + 1))
+
+
+def test_ranges_drivers_and_trends_follow_the_numbers(sample):
+    made = synthetic(sample)
+    found = quantities(made)
+    name = "energy, downwind / upwind, 12B"
+    np.testing.assert_allclose(found.result.sel(quantity=name), 9.0 + made.value[:, 0])
+    # A quantity that does not change has no rank; that is no driver, and said by no number.
+    summary = uncertainty_summary(made.assign(torque=made.torque + made.value[:, 0]))
+    assert drivers(summary, name)[0] == (str(VALUES[0].name), pytest.approx(1.0))
+    low, middle, high = summary.range.sel(quantity=name).values
+    assert low < middle < high
+    assert middle == pytest.approx(9.5, abs=0.05)
+    shares = dict(zip(summary.trend.values.tolist(), summary.trend_share.values.tolist(), strict=True))
+    assert shares["energy ratio within a factor of 2 of 10, any case"] == 1.0
+    assert shares["ratio of peak powers falls from case to case of 12B, 24B"] == 1.0
+    assert shares["cage takes at least half of the energy of both rows, any case"] == 0.0
+    swapped = made.peak_power.isel(case=[1, 0]).assign_coords(case=made.case)
+    contrary = uncertainty_summary(made.assign(peak_power=swapped))
+    assert float(contrary.trend_share.sel(trend="ratio of peak powers highest in 12B")) == 0.0
+
+
+def test_statements_tell_what_the_sample_says(sample):
+    statements = [Statement(paper=f"{k}", verdict=DIFFERS, found=f"found {k}") for k in range(8)]
+    told = with_uncertainty(statements, uncertainty_summary(synthetic(sample)))
+    assert "100 % of the samples" in told[0].found
+    assert told[1].found.startswith("found 1; 1 to ")
+    assert [one.found for k, one in enumerate(told) if k not in (0, 1, 3)] == [f"found {k}" for k in (2, 4, 5, 6, 7)]

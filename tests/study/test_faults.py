@@ -1,0 +1,209 @@
+"""Faults on purpose: what was reported done is done and readable, and only the rest is computed again."""
+
+import errno
+import os
+import shutil
+import signal
+import subprocess
+
+import numpy as np
+import pytest
+
+from macroslip import InputError, MacroslipError, open_study, run_study
+from macroslip.study import durable
+from macroslip.study import journal as journal_module
+from macroslip.study import tables as tables_module
+from macroslip.study.study_file import study_of
+
+
+def complete(out, count):
+    """All results are there, sound and finite."""
+    study = open_study(out)
+    assert study.sizes["case"] == count and (study.outcome == "completed").all()
+    assert study.energy.notnull().all()
+    assert not list(out.rglob("*.part"))
+
+
+def test_killed_again_and_again(tmp_path, begin, long_content, counted, done, identities, resumed):
+    out, reported = tmp_path / "out", 0
+    for kill_after in (3, 9, 1, 14):
+        process = begin(long_content, out, resume=True)
+        for line in process.stdout:
+            if int(line.split()[0]) >= reported + kill_after:
+                break
+        process.send_signal(signal.SIGKILL)
+        rest = process.communicate()[0].splitlines()
+        reported = max(int(text.split()[0]) for text in [line, *rest])
+        keys = done(out)  # checks every one of them
+        assert len(keys) >= reported
+    before = identities(out)
+    study = study_of(long_content, tmp_path)
+    ended, simulated = resumed(study, out, counted)
+    assert simulated == 40 - len(keys) == ended.progress.computed
+    assert ended.progress.unchanged == len(keys)
+    after = identities(out)
+    assert all(after[f"{key}.nc"] == before[f"{key}.nc"] for key in keys)
+    complete(out, 40)
+
+
+@pytest.mark.parametrize("failing", range(1, 12))
+def test_a_disk_that_is_full_at_any_moment(
+    tmp_path, load_files, content, counted, monkeypatch, failing, done, identities, resumed
+):
+    """Every flush to the disk fails once (two before, two a run, one at the end); a run then goes on."""
+    study, out, calls = study_of(content, load_files), tmp_path / "out", []
+    real = durable.flush
+
+    def flush(descriptor):
+        calls.append(descriptor)
+        if len(calls) == failing:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        real(descriptor)
+
+    for module in (durable, journal_module, tables_module):
+        monkeypatch.setattr(module, "flush", flush)
+    reported = []
+    with pytest.raises(MacroslipError, match="No space left on device.*--resume"):
+        run_study(study, out, progress=lambda progress: reported.append(progress.done))
+    assert not list(out.rglob("*.part"))
+    keys = done(out) if (out / "journal.jsonl").exists() else set()
+    assert len(keys) >= max(reported, default=0)
+    before = identities(out)
+    ended, simulated = resumed(study, out, counted)
+    assert simulated == 4 - len(keys)
+    after = identities(out)
+    assert all(after[f"{key}.nc"] == before[f"{key}.nc"] for key in keys)
+    complete(out, 4)
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of 400 kB."""
+    place = tmp_path / "disk"
+    place.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", "size=400k", "tmpfs", str(place)]
+    if shutil.which("mount") is None or subprocess.run(command, capture_output=True).returncode != 0:
+        pytest.skip("a file system may not be mounted here; test_a_disk_that_is_full_at_any_moment stands in for it")
+    yield place
+    subprocess.run(["umount", "-l", str(place)], check=True)
+
+
+def test_a_disk_that_is_really_full(small_disk, tmp_path, long_content, counted, done, resumed):
+    study, out = study_of(long_content, tmp_path), small_disk / "out"
+    reported = []
+    with pytest.raises(MacroslipError, match="No space left on device.*--resume"):
+        run_study(study, out, progress=lambda progress: reported.append(progress.done))
+    keys = done(out)
+    assert 0 < max(reported) <= len(keys) < 40
+    with pytest.raises(MacroslipError, match="No space left on device"):
+        run_study(study, out, resume=True)
+    assert done(out) >= keys
+    keys = done(out)
+    subprocess.run(["mount", "-o", "remount,size=20m", str(small_disk)], check=True)
+    ended, simulated = resumed(study, out, counted)
+    assert (simulated, ended.progress.unchanged) == (40 - len(keys), len(keys))
+    complete(out, 40)
+
+
+@pytest.mark.parametrize("damage", ["flip a bit", "cut", "empty", "remove", "replace"])
+def test_a_damaged_result_is_found_and_computed_again(
+    tmp_path, load_files, content, counted, damage, identities, resumed
+):
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    before = identities(out)
+    expected = open_study(out).energy.values
+    path = sorted(out.glob("cases/*/*.nc"))[1]
+    whole = path.read_bytes()
+    if damage == "remove":
+        path.unlink()
+    else:
+        flipped = bytes([whole[-40] ^ 1])
+        other = sorted(out.glob("cases/*/*.nc"))[0].read_bytes()
+        path.write_bytes(
+            {"flip a bit": whole[:-40] + flipped + whole[-39:], "cut": whole[:-1], "empty": b"", "replace": other}[
+                damage
+            ]
+        )
+    with pytest.raises(InputError, match="damaged|cannot be read"):
+        open_study(out).energy.load()
+    ended, simulated = resumed(study, out, counted)
+    assert (simulated, ended.progress.computed, ended.progress.unchanged) == (1, 1, 3)
+    after = identities(out)
+    assert all(after[name] == before[name] for name in before if name != path.name)
+    np.testing.assert_array_equal(open_study(out).energy.values, expected)
+    log = (out / "log.txt").read_text()
+    assert "damaged" in log
+
+
+def test_a_damaged_journal_loses_no_more_than_its_damaged_lines(tmp_path, load_files, content, counted, resumed):
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    path = out / "journal.jsonl"
+    lines = path.read_bytes().splitlines(keepends=True)
+    lines[1] = lines[1].replace(b'"energy_mean"', b'"energy_main"')
+    path.write_bytes(b"".join(lines[:3]) + lines[3][:-20])  # one line changed, the last one torn
+    ended, simulated = resumed(study, out, counted)
+    assert (simulated, ended.progress.unchanged) == (2, 2)
+    assert "1 lines of the journal are damaged" in (out / "log.txt").read_text()
+    complete(out, 4)
+
+
+def test_what_only_the_power_cut_knows(tmp_path, load_files, content, counted, journal, resumed):
+    """A result with half of its content and no line in the journal was never reported, and is computed again."""
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    last = journal(out)[-1]["key"]
+    path = out / "journal.jsonl"
+    path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[:-1]))
+    result = out / "cases" / last[:2] / f"{last}.nc"
+    result.write_bytes(result.read_bytes()[:1000])
+    (result.parent / f".{last}.nc.0123.part").write_bytes(b"half")
+    ended, simulated = resumed(study, out, counted)
+    assert (simulated, ended.progress.unchanged) == (1, 3)
+    complete(out, 4)
+
+
+@pytest.mark.parametrize("missing", ["summary.parquet", "runs.parquet", "manifest.json", "log.txt", "lock"])
+def test_what_can_be_made_again_is(tmp_path, load_files, content, counted, missing, resumed):
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    (out / missing).unlink()
+    _, simulated = resumed(study, out, counted)
+    assert simulated == 0 and (out / missing).exists()
+    complete(out, 4)
+
+
+def test_the_clock_does_not_matter(tmp_path, load_files, content, counted, monkeypatch, resumed, write_loads):
+    import time
+
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    for number, path in enumerate([*out.rglob("*"), *load_files.rglob("*.csv")]):
+        os.utime(path, (0, 0) if number % 2 else (4e9, 4e9))
+    monkeypatch.setattr(time, "time", lambda: -1e9)
+    monkeypatch.setattr(time, "gmtime", lambda *_: time.struct_time((1970, 1, 1, 0, 0, 0, 3, 1, 0)))
+    ended, simulated = resumed(study, out, counted)
+    assert (simulated, ended.progress.unchanged) == (0, 4)
+    # A file that has changed is noticed, though its size and its time have not.
+    path = load_files / "runs" / "12mps_seed1.csv"
+    stat, text = path.stat(), path.read_text()
+    write_loads(path, force=-263.0)
+    assert path.read_text() != text and path.stat().st_size == stat.st_size
+    os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+    ended, simulated = resumed(study, out, counted)
+    assert (simulated, ended.progress.unchanged) == (1, 3)
+
+
+def test_interrupted_by_hand(tmp_path, load_files, content, counted, resumed):
+    study, out = study_of(content, load_files), tmp_path / "out"
+
+    def interrupt(progress):
+        if progress.done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_study(study, out, progress=interrupt)
+    assert "broken off after 2 of 4" in (out / "log.txt").read_text()
+    assert resumed(study, out, counted)[1] == 2
+    complete(out, 4)

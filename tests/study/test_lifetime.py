@@ -1,0 +1,114 @@
+"""Aggregation against sums by hand."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given
+from hypothesis import strategies as st
+
+from macroslip import InputError
+from macroslip.study.lifetime import lifetime_energy, percentiles, worst
+from macroslip.study.summary import ROW_VARIABLES
+from macroslip.study.weights import YEAR, Given, Weibull, binned
+
+SPEEDS = [12.0, 12.4, 11.6, 14.0, 14.0, 12.0, 14.0]
+CLEARANCES = [0.0] * 5 + [0.2] * 2
+
+
+def study(energy=(600.0, 1200.0, 1800.0, 60.0, 60.0, 6.0, 6.0)):
+    """Seven runs: three at 12 m/s and two at 14 m/s with one clearance, one each with another; 600 s each."""
+    both = np.column_stack([energy, np.multiply(2.0, energy)])
+    labels = {name: ("case", ["x"] * 7, {"units": "1"}) for name in ("bearing", "lubricant", "model")}
+    labels["wind_speed"] = ("case", SPEEDS, {"units": "m/s"})
+    labels["bearing.diametral_clearance"] = ("case", CLEARANCES, {"units": "mm"})
+    labels["seed"] = ("case", [1, 2, 3, 1, 2, 1, 1], {"units": "1"})
+    data = {name: (("case", "row"), both.copy(), {"units": units}) for name, (units, _) in ROW_VARIABLES.items()}
+    return xr.Dataset(data | {"window_length": ("case", [600.0] * 7)}, labels | {"row": ["downwind", "upwind"]})
+
+
+def test_lifetime_energy_is_the_weighted_sum():
+    found = lifetime_energy(study(), Given({12.0: 0.5, 14.0: 0.25}), years=2.0)
+    first, second = found.isel(group=0), found.isel(group=1)
+    assert float(first["bearing.diametral_clearance"]) == 0.0
+    seconds = 2.0 * YEAR
+    expected = seconds * (0.5 * 2.0 + 0.25 * 0.1)  # means of 1, 2, 3 W and of 0.1, 0.1 W
+    np.testing.assert_allclose(first.lifetime_energy, [expected, 2.0 * expected], rtol=1e-14)
+    np.testing.assert_allclose(second.lifetime_energy, seconds * 0.75 * np.array([0.01, 0.02]), rtol=1e-14)
+    assert float(found.covered) == 0.75 and found.runs.values.tolist() == [[3, 2], [1, 1]]
+
+
+def test_constant_power_gives_power_times_time_whatever_the_weights():
+    same = study([600.0] * 7)
+    weights = Weibull(9.0, 2.2)
+    found = lifetime_energy(same, weights, years=20.0)
+    np.testing.assert_allclose(
+        found.lifetime_energy.sel(row="downwind"), 20.0 * YEAR * float(found.covered), rtol=1e-12
+    )
+
+
+@given(st.floats(3.0, 15.0), st.floats(1.0, 4.0), st.floats(0.25, 4.0))
+def test_weibull_bins_cover_all_speeds(scale, shape, width):
+    centres = np.arange(0, int(600 / width)) * width
+    assert sum(Weibull(scale, shape).probability(c, width) for c in centres) == pytest.approx(1.0, abs=1e-9)
+
+
+def test_weibull_is_that_of_scipy():
+    from scipy.stats import weibull_min
+
+    expected = weibull_min(2.2, scale=9.0)
+    assert Weibull(9.0, 2.2).probability(12.0, 2.0) == pytest.approx(expected.cdf(13.0) - expected.cdf(11.0), rel=1e-12)
+
+
+def test_a_run_without_a_result_is_left_out_and_told():
+    broken = study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, np.nan))
+    found = lifetime_energy(broken, Given({12.0: 0.5, 14.0: 0.25}))
+    assert found.left_out.values.tolist() == [[1, 0], [0, 1]]
+    assert float(found.power.isel(group=0).sel(bin=12.0, row="downwind")) == 2.0
+    # A bin without any run gives no number, unless it has no weight.
+    assert np.isnan(found.lifetime_energy.isel(group=1)).all()
+    without = lifetime_energy(broken, Given({12.0: 0.5, 14.0: 0.0}))
+    assert np.isfinite(without.lifetime_energy).all()
+
+
+def test_percentiles_over_seeds():
+    found = percentiles(study(), quantiles=(0.0, 0.5, 1.0)).isel(group=0).sel(bin=12.0, row="downwind")
+    assert found.power.values.tolist() == [1.0, 2.0, 3.0]
+    assert found.peak_power_max.values.tolist() == [600.0, 1200.0, 1800.0] and float(found.runs) == 3
+
+
+def test_the_worst_come_first():
+    found = worst(study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, 6.0)), "peak_power_max", count=3)
+    assert found.peak_power_max.values.tolist() == [3600.0, 1800.0, 1200.0]
+    assert found.row.values.tolist() == ["upwind", "downwind", "upwind"] and found.seed.values.tolist() == [3, 3, 1]
+    assert worst(study(), "energy_mean", count=1, smallest=True).energy_mean.values.tolist() == [6.0]
+
+
+def test_bins_and_groups():
+    found = binned(study(), "wind_speed", 2.0, by=["seed"])
+    assert found.centres.tolist() == [12.0, 14.0] and found.bin.tolist() == [0, 0, 0, 1, 1, 0, 1]
+    assert len(found.groups) == 4
+    # A parameter that some runs leave to the base case is one value of it.
+    some = study().assign_coords({"bearing.diametral_clearance": ("case", [math.nan] * 5 + [0.2] * 2)})
+    assert len(binned(some, "wind_speed", 2.0).groups) == 2
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: binned(study(), "wind", 2.0), "no label 'wind'"),
+        (lambda: binned(study(), "bearing", 2.0), "not a number"),
+        (lambda: binned(study(), "wind_speed", 0.0), "width of the bins"),
+        (lambda: lifetime_energy(study(), Given({12.0: 1.0})), "no probability is given for the bin at 14"),
+        (lambda: lifetime_energy(study(), Given({12.0: 1.0, 14.0: 0.5})), "together at most 1"),
+        (lambda: lifetime_energy(study(), Weibull(0.0, 2.0)), "scale"),
+        (lambda: lifetime_energy(study(), Weibull(9.0, 2.0), years=-1.0), "lifetime is -1"),
+        (lambda: percentiles(study(), quantiles=[2.0]), "quantiles"),
+        (lambda: worst(study(), "nothing"), "no variable 'nothing'"),
+        (lambda: worst(study(), count=0), "count is 0"),
+    ],
+)
+def test_what_is_refused(call, message):
+    with pytest.raises(InputError, match=message):
+        call()

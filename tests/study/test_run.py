@@ -1,0 +1,277 @@
+"""A whole campaign in this process: what it stores, what it computes again, and what it does about bad cases."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from macroslip import BearingLoads, Case, InputError, MacroslipError, open_study, run_study, simulate
+from macroslip.study.study_file import study_of
+
+
+def test_results_are_those_of_simulate(tmp_path, load_files, content):
+    ended = run_study(study_of(content, load_files), tmp_path / "out")
+    assert (ended.progress.computed, ended.progress.failed, ended.failures) == (4, 0, [])
+    study = open_study(tmp_path / "out")
+    for case in range(4):
+        loads = BearingLoads.read(load_files / str(study.loads.values[case]))
+        expected = simulate(Case(loads=loads, rollers=[0]))
+        one = study.isel(case=case)
+        for name in ("energy", "min_spin_ratio", "status", "end_slip", "steps"):
+            np.testing.assert_array_equal(one[name].values, expected[name].values.astype(float))
+        np.testing.assert_allclose(one.energy_mean, expected.energy.sum("interface").mean("roller"), rtol=1e-14)
+
+
+def test_unchanged_runs_are_never_computed_again(tmp_path, load_files, content, counted, identities, journal, resumed):
+    study, out = study_of(content, load_files), tmp_path / "out"
+    run_study(study, out)
+    before = identities(out)
+    ended, simulated = resumed(study, out, counted)
+    assert (ended.progress.unchanged, ended.progress.computed, simulated) == (4, 0, 0)
+    assert identities(out) == before and len(journal(out)) == 4
+
+
+def test_a_moved_or_renamed_load_file_is_not_computed_again(tmp_path, load_files, content, counted, resumed):
+    out = tmp_path / "out"
+    run_study(study_of(content, load_files), out)
+    (load_files / "runs").rename(load_files / "moved")
+    (load_files / "moved" / "12mps_seed1.csv").rename(load_files / "moved" / "12mps_seed7.csv")
+    moved = content | {"loads": content["loads"] | {"files": "moved/{wind_speed:g}mps_seed{seed:d}.csv"}}
+    ended, simulated = resumed(study_of(moved, load_files), out, counted)
+    assert (ended.progress.unchanged, simulated) == (4, 0)
+    study = open_study(out)
+    assert list(study.seed.values) == [2, 7, 1, 2] and (study.outcome == "completed").all()
+    assert study.energy.notnull().all()
+
+
+def test_changed_inputs_are_computed_again_and_only_they(
+    tmp_path, load_files, content, counted, identities, resumed, write_loads
+):
+    out = tmp_path / "out"
+    run_study(study_of(content, load_files), out)
+    before = identities(out)
+    old = open_study(out).energy_mean.values
+    write_loads(load_files / "runs" / "14mps_seed1.csv", force=-350.0)
+    ended, simulated = resumed(study_of(content, load_files), out, counted)
+    assert (ended.progress.unchanged, ended.progress.computed, simulated) == (3, 1, 1)
+    assert before.items() <= identities(out).items()
+    new = open_study(out).energy_mean.values
+    assert (new[2] != old[2]).any() and (np.delete(new, 2, 0) == np.delete(old, 2, 0)).all()
+    assert "14mps_seed1.csv" in (out / "log.txt").read_text() and "has changed since" in (out / "log.txt").read_text()
+
+
+def test_a_study_may_grow_and_shrink(tmp_path, load_files, content, counted, resumed):
+    out = tmp_path / "out"
+    run_study(study_of(content, load_files), out)
+    grown = content | {"variations": {"grid": {"drivetrain.tilt": {"values": [5, 6], "unit": "deg"}}}}
+    # 5 deg is what the base case has: the same input, so the same results.
+    ended, simulated = resumed(study_of(grown, load_files), out, counted)
+    assert (ended.progress.unchanged, ended.progress.computed, simulated) == (4, 4, 4)
+    assert open_study(out).sizes["case"] == 8
+    ended, simulated = resumed(study_of(content, load_files), out, counted)
+    assert (simulated, open_study(out).sizes["case"]) == (0, 4)
+
+
+def test_a_changed_program_computes_all_again(tmp_path, load_files, content, counted, monkeypatch, resumed):
+    out = tmp_path / "out"
+    run_study(study_of(content, load_files), out)
+    monkeypatch.setattr("macroslip.study.key._sources", lambda: "another program")
+    assert resumed(study_of(content, load_files), out, counted)[1] == 4
+
+
+def bad_files(folder, write_loads):
+    """One file of each kind that cannot be used, beside the good ones."""
+    write_loads(folder / "runs" / "16mps_seed1.csv", force=-40e3)  # more than the bearing carries
+    good = (folder / "runs" / "12mps_seed1.csv").read_text()
+    (folder / "runs" / "16mps_seed2.csv").write_text(good[: good.rindex(",", 0, len(good) // 2)])  # cut off
+    (folder / "runs" / "16mps_seed3.csv").write_text(good.replace(",80\n", ",nan\n", 1))
+    (folder / "runs" / "16mps_seed4.csv").write_text("")
+    (folder / "runs" / "16mps_seed5.csv").write_bytes(b"\x00\xff" * 300)
+
+
+def test_bad_cases_are_recorded_and_the_others_computed(tmp_path, load_files, content, counted, resumed, write_loads):
+    bad_files(load_files, write_loads)
+    out = tmp_path / "out"
+    ended = run_study(study_of(content, load_files), out)
+    assert (ended.progress.computed, ended.progress.failed) == (4, 5)
+    study = open_study(out)
+    assert list(study.outcome.values) == ["completed"] * 4 + ["failed"] * 5
+    for reason, words in zip(
+        study.reason.values[4:], ("a roller carries", "not readable|column", "nan", "empty", "read"), strict=True
+    ):
+        assert any(word in reason.lower() for word in words.split("|")), reason
+    assert study.energy.isel(case=slice(4, None)).isnull().all() and study.energy_mean[4:].isnull().all()
+    assert [labels["seed"] for labels, _, _ in ended.failures] == [1, 2, 3, 4, 5]
+    # They are tried again, and one that is mended is computed.
+    write_loads(load_files / "runs" / "16mps_seed4.csv")
+    ended, _ = resumed(study_of(content, load_files), out, counted)
+    assert (ended.progress.unchanged, ended.progress.computed, ended.progress.failed) == (4, 1, 4)
+    assert open_study(out).outcome.values[7] == "completed"
+
+
+def test_strict_stops_at_the_first(tmp_path, load_files, content):
+    # Of four loads the third is taken second: they are mixed.
+    (load_files / "runs" / "14mps_seed1.csv").write_text("")
+    ended = run_study(study_of(content, load_files), tmp_path / "out", strict=True)
+    assert (ended.stopped, ended.progress.done, ended.progress.failed) == (True, 2, 1)
+    assert list(open_study(tmp_path / "out").outcome.values) == ["completed", "missing", "failed", "missing"]
+
+
+def test_failed_rollers_are_a_result_and_a_failure(tmp_path, load_files, content, counted, resumed):
+    few = content | {"case": {"rollers": [0], "integrator": {"max_steps": 3}}}
+    ended = run_study(study_of(few, load_files), tmp_path / "out")
+    assert (ended.progress.computed, ended.progress.failed) == (0, 4)
+    study = open_study(tmp_path / "out")
+    assert (study.outcome == "rollers failed").all() and (study.failed_rollers == 1).all() and (study.status == 3).all()
+    assert study.energy_mean.isnull().all() and "2 of 2 rollers failed" in study.reason.values[0]
+    # The same input fails in the same way: it is not tried again.
+    ended, simulated = resumed(study_of(few, load_files), tmp_path / "out", counted)
+    assert simulated == 0
+
+
+def test_a_setting_out_of_range_fails_its_runs_only(tmp_path, load_files, content):
+    wide = content | {"variations": {"grid": {"drivetrain.tilt": {"values": [5, 50], "unit": "deg"}}}}
+    ended = run_study(study_of(wide, load_files), tmp_path / "out")
+    assert (ended.progress.computed, ended.progress.failed) == (4, 4)
+    assert all(labels["drivetrain.tilt"] == 50 and "tilt" in reason for labels, _, reason in ended.failures)
+
+
+def test_an_internal_error_is_recorded_with_its_traceback(tmp_path, load_files, content, monkeypatch):
+    def broken(case, **options):
+        raise ZeroDivisionError("a fault of the program")
+
+    monkeypatch.setattr("macroslip.result.simulate.simulate", broken)
+    ended = run_study(study_of(content, load_files), tmp_path / "out")
+    assert ended.progress.failed == 4 and "internal error" in ended.failures[0][2]
+    log = (tmp_path / "out" / "log.txt").read_text()
+    assert "Traceback" in log and "raise ZeroDivisionError" in log
+
+
+def test_folders_that_are_refused(tmp_path, load_files, content):
+    study = study_of(content, load_files)
+    run_study(study, tmp_path / "out")
+    with pytest.raises(InputError, match="holds a study already.*--resume"):
+        run_study(study, tmp_path / "out")
+    with pytest.raises(InputError, match="holds other things"):
+        run_study(study, load_files)
+    with pytest.raises(InputError, match="not a folder"):
+        run_study(study, load_files / "runs" / "12mps_seed1.csv")
+    manifest = tmp_path / "out" / "manifest.json"
+    manifest.write_text(manifest.read_text().replace('"format": 1', '"format": 99'))
+    with pytest.raises(InputError, match="format 99"):
+        open_study(tmp_path / "out")
+    with pytest.raises(InputError, match="no study in this folder"):
+        open_study(load_files)
+
+
+def test_a_second_process_is_refused(tmp_path, begin, long_content, load_files, content):
+    process = begin(long_content, tmp_path / "out")
+    process.stdout.readline()
+    with pytest.raises(InputError, match=f"another process is at work in this folder .process {process.pid} on"):
+        run_study(study_of(content, load_files), tmp_path / "out", resume=True)
+    # Looking at it is allowed meanwhile.
+    assert set(open_study(tmp_path / "out").outcome.values) >= {"completed"}
+
+
+def test_traces_and_cycles_come_on_request(tmp_path, load_files, content):
+    wanted = content | {"cycles": True, "case": {"rollers": [0], "traces": {"step": "0.1 s"}}}
+    run_study(study_of(wanted, load_files), tmp_path / "out")
+    study = open_study(tmp_path / "out")
+    assert study.spin.dims == ("case", "row", "roller", "sample") and study.time.dims == ("case", "sample")
+    np.testing.assert_allclose(study.time.isel(case=3), np.arange(11) / 10, atol=1e-12)
+    assert study.load_cycles.sum() > 0
+    plain = run_study(study_of(content, load_files), tmp_path / "plain")
+    assert plain.progress.computed == 4 and not {"spin", "load_cycles"} & set(open_study(tmp_path / "plain").variables)
+
+
+def test_the_summary_is_a_parquet_table_with_units(tmp_path, load_files, content):
+    import pyarrow.parquet as pq
+
+    (load_files / "runs" / "12mps_seed2.csv").write_text("")
+    run_study(study_of(content, load_files), tmp_path / "out")
+    table = pq.read_table(tmp_path / "out" / "summary.parquet")
+    study = open_study(tmp_path / "out")
+    assert table["outcome"].to_pylist() == list(study.outcome.values)
+    np.testing.assert_array_equal(table["energy_mean_upwind"].to_numpy(), study.energy_mean.sel(row="upwind"))
+    assert table.schema.field("energy_mean_upwind").metadata == {b"units": b"J"}
+    assert table["wind_speed"].to_pylist() == [12.0, 12.0, 14.0, 14.0]
+
+
+def test_every_name_of_a_file_is_data(tmp_path, content, write_loads):
+    """Names with escapes, markup and ways out of the folder are labels, and nothing else."""
+    names = ["runs/12mps_seed1.csv", "runs/[red]x\x1b[2J_12mps_seed2.csv", "runs/$(touch made) 12mps_seed3.csv"]
+    for name in names:
+        write_loads(tmp_path / name)
+    (tmp_path / name).write_text("")
+    study = study_of(
+        content
+        | {
+            "loads": {
+                "files": "runs/*seed{seed:d}.csv",
+                "kind": "main-bearing",
+            }
+        },
+        tmp_path,
+    )
+    up = study_of(
+        content | {"loads": {"files": "../" + tmp_path.name + "/runs/{a}_seed{seed:d}.csv", "kind": "main-bearing"}},
+        tmp_path,
+    )
+    for number, one in enumerate((study, up)):
+        out = tmp_path / f"out{number}"
+        run_study(one, out)
+        log = (out / "log.txt").read_bytes()
+        assert b"\x1b" not in log
+        outside = [path for path in out.rglob("*") if not path.resolve().is_relative_to(out)]
+        assert outside == [] and {path.name for path in out.iterdir()} <= {
+            "manifest.json",
+            "runs.parquet",
+            "journal.jsonl",
+            "summary.parquet",
+            "log.txt",
+            "cases",
+            "lock",
+        }
+        assert all(set(path.stem) <= set("0123456789abcdef") for path in out.glob("cases/*/*"))
+    assert not (tmp_path / "made").exists()
+
+
+def test_no_pickle_is_read_from_a_study(tmp_path, load_files, content, monkeypatch):
+    import pickle
+
+    out = tmp_path / "out"
+    run_study(study_of(content, load_files), out)
+
+    def refuse(*args, **options):
+        raise AssertionError("a pickle was read")
+
+    for name in ("load", "loads", "Unpickler"):
+        monkeypatch.setattr(pickle, name, refuse)
+    study = open_study(out)
+    assert study.load().energy.notnull().all()
+    run_study(study_of(content, load_files), out, resume=True)
+
+
+def test_a_manifest_of_another_campaign_stops_the_workers(tmp_path, load_files, content):
+    from macroslip.study.work import StoreError, work
+
+    out = tmp_path / "out"
+    run_study(study_of(content, load_files), out)
+    with pytest.raises(StoreError, match="another one was begun there"):
+        work({"directory": str(out), "setup": "0" * 64, "run": "0" * 32})
+
+
+def test_a_worker_of_another_version_stops_the_campaign(tmp_path, load_files, content, monkeypatch):
+    monkeypatch.setattr("macroslip.study.work.program", lambda: "older")
+    with pytest.raises(MacroslipError, match="another version of macroslip"):
+        run_study(study_of(content, load_files), tmp_path / "out")
+
+
+def test_the_manifest_holds_the_study(tmp_path, load_files, content, done):
+    run_study(study_of(content, load_files), tmp_path / "out")
+    manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
+    assert manifest["study"] == content
+    study = open_study(tmp_path / "out")
+    assert json.loads(study.attrs["study"]) == content
+    assert isinstance(study, xr.Dataset) and len(done(tmp_path / "out")) == 4

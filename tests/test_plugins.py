@@ -1,0 +1,134 @@
+"""Laws of one's own from a file: what a user is told when it is wrong, and that nothing is left behind then."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from macroslip import InputError, load_laws
+from macroslip.film import film_law as film_law
+from macroslip.traction import traction_law as traction_law
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+FILM = (EXAMPLES / "own_film.py").read_text(encoding="utf-8")
+TRACTION = (EXAMPLES / "own_law.py").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def told(tmp_path, monkeypatch):
+    """What the user is told about a file that is wrong; no law and no module of it may stay behind."""
+    monkeypatch.chdir(tmp_path)
+
+    def told(text, name="my_laws.py"):
+        if text is not None:
+            Path(name).write_text(text, encoding="utf-8")
+        before = film_law.names(), traction_law.names(), set(sys.modules)
+        with pytest.raises(InputError) as caught:
+            load_laws(name)
+        assert film_law.names() == before[0] and traction_law.names() == before[1]
+        assert not [module for module in set(sys.modules) - before[2] if "my_laws" in module]
+        assert "\n" not in str(caught.value)
+        return str(caught.value)
+
+    return told
+
+
+ALLOWED = "Allowed: a Python file that registers film or traction laws, as docs/laws.md shows."
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            None,
+            f"my_laws.py: the file cannot be read (No such file or directory). {ALLOWED} Check its path, which starts at "
+            "the current folder.",
+        ),
+        (
+            "import math\n",
+            f"my_laws.py: the file registers no law. {ALLOWED} Call macroslip.film.film_law.register or "
+            "macroslip.traction.traction_law.register in it.",
+        ),
+        (
+            "x = 1\n\ndef law(:\n",
+            "my_laws.py, line 3: SyntaxError while its laws were read (invalid syntax). Mend it; python my_laws.py "
+            "shows where the error comes from.",
+        ),
+        (
+            FILM + "\n1 / 0\n",
+            f"my_laws.py, line {FILM.count(chr(10)) + 2}: ZeroDivisionError while its laws were read (division by zero). "
+            "Mend it; python my_laws.py shows where the error comes from.",
+        ),
+        (
+            "import json\n\n\ndef read():\n    return json.loads('{')\n\n\nread()\n",
+            "my_laws.py, line 5: JSONDecodeError while its laws were read (Expecting property name enclosed in double "
+            "quotes: line 1 column 2 (char 1)). Mend it; python my_laws.py shows where the error comes from.",
+        ),
+        (
+            "raise SystemExit\n",
+            "my_laws.py, line 1: SystemExit while its laws were read. Mend it; python my_laws.py shows where the error "
+            "comes from.",
+        ),
+        (
+            FILM.replace('"dowson-higginson"', '"moes"'),
+            f"my_laws.py, line {FILM[: FILM.index('film_law.register(')].count(chr(10)) + 1}: the film law 'moes' cannot be "
+            "registered: the name is taken. Allowed: a name other than masjedi-khonsari, masjedi-khonsari-moes, moes. "
+            "Choose another name; a law that was changed in its file needs a new Python process.",
+        ),
+        (
+            TRACTION.replace('"isothermal-barus"', '"mechanisms"'),
+            f"my_laws.py, line {TRACTION[: TRACTION.index('traction_law.register(')].count(chr(10)) + 1}: the traction law "
+            "'mechanisms' cannot be registered: the name is taken. Allowed: a name other than mechanisms. Choose another "
+            "name; a law that was changed in its file needs a new Python process.",
+        ),
+    ],
+    ids=["missing", "nothing", "syntax", "raises", "deeper", "exits", "taken", "reserved"],
+)
+def test_what_a_user_is_told(told, text, message):
+    assert told(text) == message
+
+
+def test_a_file_that_was_wrong_can_be_mended_and_read_again(told, tmp_path):
+    told(FILM + "\n1 / 0\n")
+    (tmp_path / "my_laws.py").write_text(FILM, encoding="utf-8")
+    found = load_laws("my_laws.py")
+    try:
+        assert found == (("dowson-higginson",), ())
+        # Read again, under another name of the same path, it is the same law.
+        assert load_laws(tmp_path / "my_laws.py") is found
+        # Its name is taken now, by whatever else the file may become.
+        (tmp_path / "my_laws.py").write_text(FILM + "\n# changed\n", encoding="utf-8")
+        with pytest.raises(InputError, match="'dowson-higginson' cannot be registered: the name is taken"):
+            load_laws("my_laws.py")
+        assert "dowson-higginson" in film_law.names()
+    finally:
+        film_law.remove("dowson-higginson")
+
+
+COMMON = """
+import sys
+from pathlib import Path
+from macroslip import BearingLoads, Case, Laws, Window, load_laws, simulate
+from macroslip.film import film_law as film_law
+load_laws(sys.argv[1])
+kernels = sorted(Path(film_law.__file__).parents[1].rglob("__pycache__/*.nbc"))
+before = {path: path.stat().st_mtime_ns for path in kernels}
+loads = BearingLoads.constant([0.0, 0.0, -1e3], 2.0, 1.0)
+found = simulate(Case(loads=loads, rollers=[0], laws=Laws(film="dowson-higginson"), window=Window(start=0.0)))
+kernels = sorted(Path(film_law.__file__).parents[1].rglob("__pycache__/*.nbc"))
+print(sum(before.get(path) != path.stat().st_mtime_ns for path in kernels), repr(float(found.energy.sum())))
+"""
+
+
+def test_kernels_of_a_law_are_found_again_by_another_process_and_from_another_folder(tmp_path):
+    (tmp_path / "other").mkdir()
+    found = []
+    for folder in (tmp_path, tmp_path, tmp_path / "other"):
+        (folder / "my_laws.py").write_text(FILM + "\n# kept apart from other runs of the tests\n", encoding="utf-8")
+        done = subprocess.run([sys.executable, "-W", "error", "-c", COMMON, str(folder / "my_laws.py")], capture_output=True,
+                              text=True, check=False, timeout=300)  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        compiled, energy = done.stdout.split()
+        found.append((int(compiled), energy))
+    assert found[1] == found[2] == (0, found[0][1])
