@@ -9,9 +9,11 @@ import numpy as np
 
 from macroslip.bearing import geometry
 from macroslip.bearing.frames import ROWS
+from macroslip.compiled import jit
+from macroslip.contact.hertz import effective_modulus, elliptical_contact
 from macroslip.errors import InputError
-from macroslip.film import law as film_law
 from macroslip.film.correction import prepare_film
+from macroslip.film.film_law import film_thickness
 from macroslip.rating import iso76, iso281, iso16281
 from macroslip.rating.minimum_load import minimum_load
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
@@ -236,8 +238,6 @@ def _ring_damages(bearing: Bearing, history: _History) -> NDArray[np.float64]:
 
 def _raceway_semi_axes(bearing: Bearing) -> tuple[float, float]:
     """Semi-axes along the roller per Q^(1/3) [m/N^(1/3)] at inner and outer raceway."""
-    from macroslip.contact.hertz import effective_modulus, elliptical_contact
-
     own = bearing.youngs_modulus, bearing.poisson_ratio
     curvatures = geometry.inner_curvatures(bearing), geometry.outer_curvatures(bearing)
     modulus = effective_modulus(*own, *own)
@@ -288,8 +288,8 @@ def _contacts(bearing: Bearing, lubricant: Lubricant, history: _History) -> dict
             carried = (load[row] > 0.0) & (entrainment > 0.0)
             if carried.any():
                 speed = np.broadcast_to(entrainment, carried.shape)[carried]
-                film = np.array([film_law.film_thickness(law, *pair)[0] for pair in zip(load[row][carried], speed)])
-                quantiles = _quantiles(film / bearing.composite_roughness, weights[carried], (0.05, 0.5))
+                ratio = _films(law, load[row][carried], speed) / bearing.composite_roughness
+                quantiles = _quantiles(ratio, weights[carried], (0.05, 0.5))
                 low[row, k], middle[row, k] = quantiles
     return {
         "largest_roller_load": _variable(largest, "N", "largest roller load", "row"),
@@ -297,6 +297,15 @@ def _contacts(bearing: Bearing, lubricant: Lubricant, history: _History) -> dict
         "film_ratio": _variable(middle, "1", "film ratio Lambda, median over loaded rollers", "row", "raceway"),
         "film_ratio_low": _variable(low, "1", "film ratio Lambda, 5 % of loaded rollers below", "row", "raceway"),
     }
+
+
+@jit
+def _films(law, load, speed):
+    """Film thickness [m] at every pair of load [N] and entrainment speed [m/s]."""
+    found = np.empty(load.size)
+    for k in range(load.size):
+        found[k] = film_thickness(law, load[k], speed[k])[0]
+    return found
 
 
 def _quantiles(values: NDArray, weights: NDArray, shares: tuple[float, ...]) -> NDArray[np.float64]:

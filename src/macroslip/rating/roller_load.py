@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
-from macroslip.contact.ring_balance import roller_loads
-from macroslip.contact.ring_motion import ring_geometry, ring_motion
-from macroslip.laws import Laws
 from macroslip.loads import BearingLoads
+from macroslip.mechanisms import Laws
+from macroslip.ring.balance import roller_loads
+from macroslip.ring.motion import ring_geometry, ring_motion
 from macroslip.roller.model import highest_load, roller_model
 
 if TYPE_CHECKING:

@@ -48,6 +48,38 @@ def load_duration(load: NDArray[np.float64], weight: NDArray[np.float64], edges:
         return found / weight.sum()
 
 
+def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Ranges of the cycles of a load history, which is taken as repeating, so that every cycle closes.
+
+    Parameters
+    ----------
+    load : ndarray, shape (n,)
+        Load [N], at least two samples.
+
+    Returns
+    -------
+    ndarray
+        One range [N] a cycle; empty for a constant load. Ripples of less than 1/256 of the largest range do not count.
+
+    References
+    ----------
+    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17.
+
+    Examples
+    --------
+    >>> rainflow_ranges(np.array([0.0, 1.0, 0.0, 1.0, 0.0])).tolist()
+    [1.0, 1.0]
+    """
+    import fatpack
+
+    if np.ptp(load) == 0.0:
+        return np.zeros(0)
+    try:
+        return fatpack.find_rainflow_ranges(load, k=LEVELS)
+    except (ValueError, IndexError):  # fewer reversals than it can count: repeated, the history is one cycle
+        return np.array([np.ptp(load)])
+
+
 def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0) -> float:
     """Range of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
 
@@ -80,13 +112,5 @@ def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *,
     >>> round(damage_equivalent_load(45e3 * np.sin(2 * np.pi * time), 100.0, 4.0) / 1e3, 1)
     90.0
     """
-    import fatpack
-
-    load = np.asarray(load, float)
-    if np.ptp(load) == 0.0:
-        return 0.0
-    try:
-        ranges = fatpack.find_rainflow_ranges(load, k=LEVELS)
-    except (ValueError, IndexError):  # fewer reversals than it can count: repeated, the history is one cycle
-        ranges = np.array([np.ptp(load)])
+    ranges = rainflow_ranges(np.asarray(load, float))
     return float((np.sum(ranges**exponent) / (frequency * duration)) ** (1.0 / exponent))
