@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from macroslip.cli.bearing import add_commands
 from macroslip.cli.failure import command
 
 if TYPE_CHECKING:
@@ -94,4 +95,5 @@ def _of_bearing(bearing: Bearing) -> list[list[str]]:
 
 
 bearing = _catalogue("bearing", _bearing_class, _of_bearing)
+add_commands(bearing)
 lubricant = _catalogue("lubricant", _lubricant_class, lambda lubricant: [])

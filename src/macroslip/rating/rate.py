@@ -9,6 +9,7 @@ import numpy as np
 
 from macroslip.bearing import geometry
 from macroslip.bearing.frames import ROWS
+from macroslip.bearing.load_ratings import fatigue_load_limit
 from macroslip.compiled import jit
 from macroslip.contact.hertz import effective_modulus, elliptical_contact
 from macroslip.errors import InputError
@@ -172,7 +173,7 @@ def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
 def _fatigue_load_limit(bearing: Bearing) -> float:
     if bearing.fatigue_load_limit is not None:
         return bearing.fatigue_load_limit
-    return iso281.fatigue_load_limit(bearing.static_load_rating, 2.0 * bearing.pitch_radius)
+    return fatigue_load_limit(bearing.static_load_rating, 2.0 * bearing.pitch_radius)
 
 
 def _viscosity_ratio(bearing: Bearing, lubricant: Lubricant, history: _History) -> float:

@@ -43,8 +43,7 @@ def roller_load_history(
     Raises
     ------
     InputError
-        If a roller load is so high that more than a tenth of it would lie beyond the roller's ends, or a bearing without
-        contact angle gets an axial load.
+        If a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
 
     Examples
     --------

@@ -1,0 +1,407 @@
+"""The inside of a spherical roller bearing from what its maker publishes.
+
+A catalogue page gives the boundary dimensions, the load ratings and the axial factors, and not one dimension of the
+rollers. What the page leaves open is sampled here within accepted ranges; every sample is a bearing that can exist and
+that has the static load rating of the page. The result is an estimate with its scatter, **not the maker's drawing**.
+
+* Contact angle: e = 1.5 tan(alpha) (ISO 281), e as printed, with two decimals.
+* Outer raceway: a sphere that meets the face of the outer ring at the shoulder diameter, R^2 = (D1/2)^2 + (B/2)^2.
+* Roller length: from the static load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha) (ISO 76), on which makers
+  agree within 15 % for one size; not from the dynamic rating, in which they differ by up to 37 %.
+* Roller diameter: what sphere and inner ring leave between them.
+* Number of rollers: from their spacing; or from the overrolling frequencies, BPFO + BPFI = Z per turn of the shaft,
+  which give the roller diameter too: (BPFI - BPFO)/Z = Dw cos(alpha)/Dpw.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from macroslip.bearing.bearing import Bearing
+from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit
+from macroslip.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+ROWS = 2
+SAMPLES = 20_000
+PERCENTILES = (10.0, 90.0)
+"""Ends of the ranges that are given: four out of five samples lie between them."""
+
+
+class Accepted(NamedTuple):
+    """Lowest and highest value of a proportion in bearings of this kind."""
+
+    low: float
+    high: float
+
+
+STATIC_RATING = Accepted(0.93, 1.07)
+"""Static load rating of the formula over that of the page: makers differ by up to 15 % for one size."""
+SPACING = Accepted(1.06, 1.22)
+"""Distance of neighbouring roller centres over roller diameter: the cage needs the rest."""
+INNER_WALL = Accepted(0.18, 0.27)
+"""Thinnest place of the inner ring under the rollers over (outside - bore)/2."""
+OUTER_WALL = Accepted(0.14, 0.20)
+"""Thinnest place of the outer ring over (outside - bore)/2, where the shoulder is not published: 90 % of a maker's
+bearings of 500 mm bore and more."""
+CHAMFER = Accepted(0.0, 0.03)
+"""Axial distance from the ring's face to the edge of the outer raceway over width."""
+END_CLEARANCE = Accepted(0.0, 0.08)
+"""Axial distance from the roller's end to the ring's face over width."""
+SLENDERNESS = Accepted(0.9, 2.2)
+"""Roller length over diameter."""
+OSCULATION = Accepted(0.97, 0.99)
+CLEARANCE = Accepted(0.5 / 3000, 1.5 / 3000)
+"""Diametral operating clearance over bore: 0.2 mm at 600 mm, of 0.31 to 0.48 mm before mounting."""
+E_ROUNDING = 0.005
+"""Half of the last printed digit of e."""
+FREQUENCY_ROUNDING = 0.005
+"""Half of the last digit of overrolling frequencies per turn."""
+
+
+@dataclass(frozen=True)
+class MakersPage:
+    """What a maker publishes of a bearing, SI units.
+
+    Parameters
+    ----------
+    bore, outside, width : float
+        Boundary dimensions d, D, B [m].
+    static_load_rating : float
+        C0 [N].
+    axial_factor_e : float
+        e [-].
+    shoulder : float | None
+        Diameter of the outer ring's shoulder D1 [m].
+    groove : float | None
+        Width of the lubrication groove in the outer ring [m]; the raceways begin beside it.
+    dynamic_load_rating, fatigue_load_limit : float | None
+        C and C_u or P_u [N]; without them those of ISO 281 are used.
+    axial_factor_y1, axial_factor_y2, axial_factor_y0 : float | None
+        [-]; without them 0.45, 0.67 and 0.44 cot(alpha).
+    mass : float | None
+        Of the bearing [kg].
+    bpfo, bpfi : float | None
+        Overrolling frequencies of outer and inner ring per turn of the shaft [-]; both or none.
+
+    Raises
+    ------
+    InputError
+        If the values contradict each other. Their ranges are those of `Bearing`.
+    """
+
+    bore: float
+    outside: float
+    width: float
+    static_load_rating: float
+    axial_factor_e: float
+    shoulder: float | None = None
+    groove: float | None = None
+    dynamic_load_rating: float | None = None
+    fatigue_load_limit: float | None = None
+    axial_factor_y1: float | None = None
+    axial_factor_y2: float | None = None
+    axial_factor_y0: float | None = None
+    mass: float | None = None
+    bpfo: float | None = None
+    bpfi: float | None = None
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise InputError(f"{field.name} is {value!r}", allowed="a finite number above 0")
+        if not self.bore < self.outside:
+            raise InputError(
+                f"bore is {1e3 * self.bore:g} mm", allowed=f"below the outside diameter, {1e3 * self.outside:g} mm"
+            )
+        if self.shoulder is not None and not self.bore < self.shoulder < self.outside:
+            raise InputError(
+                f"shoulder is {1e3 * self.shoulder:g} mm",
+                allowed=f"between bore and outside diameter, {1e3 * self.bore:g} mm and {1e3 * self.outside:g} mm",
+                remedy="It is the diameter at the outer ring's faces, D1 in catalogues.",
+            )
+        if self.groove is not None and not self.groove < self.width:
+            raise InputError(f"groove is {1e3 * self.groove:g} mm", allowed=f"below the width, {1e3 * self.width:g} mm")
+        if (self.bpfo is None) != (self.bpfi is None):
+            raise InputError(
+                "only one overrolling frequency is given",
+                allowed="both bpfo and bpfi, or none",
+                remedy="Add the other.",
+            )
+        if self.bpfo is not None and self.bpfi is not None:
+            self._check_frequencies(self.bpfo, self.bpfi)
+
+    @staticmethod
+    def _check_frequencies(bpfo: float, bpfi: float) -> None:
+        count = bpfo + bpfi
+        if abs(count - round(count)) > 0.05 or round(count) < 3 or not bpfo < bpfi:
+            raise InputError(
+                f"bpfo is {bpfo:g} and bpfi {bpfi:g} per turn of the shaft, together {count:g}",
+                allowed="a sum that is the whole number of rollers in a row, within 0.05, and bpfo below bpfi",
+                remedy="Divide frequencies in hertz by the shaft's speed in turns per second.",
+            )
+
+
+class Estimate(NamedTuple):
+    """A bearing from its maker's page.
+
+    Attributes
+    ----------
+    bearing : Bearing
+        The medians, with ranges in their provenance.
+    samples : mapping of str to ndarray
+        Every inner dimension [SI], n samples, by key of the bearing.
+    """
+
+    bearing: Bearing
+    samples: Mapping[str, NDArray[np.float64]]
+
+
+def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> Estimate:
+    """Estimate the inside of a bearing from its maker's page.
+
+    Parameters
+    ----------
+    page : MakersPage
+        What the maker publishes.
+    name, title : str
+        Of the bearing.
+    seed : int
+        Of the random numbers; the same page and seed give the same bearing.
+
+    Returns
+    -------
+    Estimate
+
+    Raises
+    ------
+    InputError
+        If no bearing within the accepted proportions fits the page.
+
+    Notes
+    -----
+    The samples are independent and uniform within the accepted ranges of this module, rejected where the parts do not
+    fit. Length, spacing, sphere and angle of the median bearing agree as those of every sample do.
+
+    References
+    ----------
+    ISO 76:2006; ISO 281:2007; Harris and Kotzalas, Essential Concepts of Bearing Technology (2006), for the overrolling
+    frequencies.
+
+    Examples
+    --------
+    >>> page = MakersPage(0.63, 0.92, 0.29, 17600e3, 0.30, shoulder=0.828, groove=0.0565)
+    >>> bearing, samples = estimate_bearing(page, "my-240-630")
+    >>> bearing.rollers_per_row, round(1e3 * bearing.roller_diameter, 1), round(1e3 * bearing.roller_length, 1)
+    (29, 74.1, 107.5)
+    """
+    drawn = _fitting(page, _draw(page, np.random.default_rng(seed)))
+    return Estimate(_median_bearing(page, drawn, name, title), drawn)
+
+
+def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:
+    """Sample what the page leaves open, and solve for roller diameter, number and length."""
+
+    def between(accepted: Accepted) -> NDArray[np.float64]:
+        return rng.uniform(*accepted, SAMPLES)
+
+    height = 0.5 * (page.outside - page.bore)
+    e = page.axial_factor_e + E_ROUNDING * rng.uniform(-1.0, 1.0, SAMPLES)
+    alpha = np.arctan(e / 1.5)
+    edge, wall = page.width * (0.5 - between(CHAMFER)), between(OUTER_WALL)
+    sphere = 0.5 * page.outside - wall * height if page.shoulder is None else np.hypot(0.5 * page.shoulder, edge)
+    drawn = {
+        "contact_angle": alpha,
+        "outer_raceway_radius": sphere,
+        "osculation": between(OSCULATION),
+        "diametral_clearance": page.bore * between(CLEARANCE),
+    }
+    inside = 0.5 * page.bore + height * between(INNER_WALL)
+    rating, spacing = page.static_load_rating * between(STATIC_RATING), between(SPACING)
+    cosine = np.cos(alpha)
+    diameter = np.full(SAMPLES, 0.5 * height)
+    gamma = None
+    if page.bpfo is not None and page.bpfi is not None:
+        count = np.full(SAMPLES, float(round(page.bpfo + page.bpfi)))
+        gamma = (page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)) / count
+        diameter = 2.0 * gamma * sphere / (1.0 + gamma)
+    # What the diameter leaves for the inner ring depends little on the length, and the length little on the diameter.
+    for _ in range(30):
+        centre = sphere - 0.5 * diameter
+        if gamma is None:
+            count = np.pi / np.arcsin(np.minimum(spacing * diameter / (2.0 * centre * cosine), 1.0))
+        length = _length(rating, count, diameter, alpha, centre * cosine)
+        if gamma is None:
+            drop = _drop(drawn["osculation"] * sphere, length)
+            diameter = sphere + drop - (inside + 0.5 * length * np.sin(alpha)) / cosine
+            diameter = np.clip(diameter, 0.05 * height, height)
+    count = np.round(count)
+    centre = sphere - 0.5 * diameter
+    length = _length(rating, count, diameter, alpha, centre * cosine)
+    return drawn | {
+        "rollers_per_row": count,
+        "roller_diameter": diameter,
+        "roller_length": length,
+        "pitch_radius": centre * cosine,
+        "row_offset": centre * np.sin(alpha),
+    }
+
+
+def _length(rating, count, diameter, alpha, pitch_radius):
+    """Roller length [m] of a static load rating [N], ISO 76 solved for L."""
+    projected = diameter * np.cos(alpha)
+    return rating / (44e6 * (1.0 - projected / (2.0 * pitch_radius)) * ROWS * count * projected)
+
+
+def _drop(contour, length):
+    """How much smaller than in its middle a barrel's radius is at its ends [m]."""
+    return contour - np.sqrt(np.maximum(contour**2 - 0.25 * length**2, 0.0))
+
+
+def _fitting(page: MakersPage, drawn: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    """Keep the samples whose parts fit."""
+    sine, cosine = np.sin(drawn["contact_angle"]), np.cos(drawn["contact_angle"])
+    diameter, length = drawn["roller_diameter"], drawn["roller_length"]
+    end = 0.5 * diameter - _drop(drawn["osculation"] * drawn["outer_raceway_radius"], length)
+    along, across = 0.5 * length * cosine, end * sine
+    spacing = 2.0 * drawn["pitch_radius"] * np.sin(np.pi / drawn["rollers_per_row"]) / diameter
+    clearance = 0.5 - (drawn["row_offset"] + along + across) / page.width
+    wall = (drawn["pitch_radius"] - 0.5 * length * sine - end * cosine - 0.5 * page.bore) / (page.outside - page.bore)
+    passed = {
+        "a sphere inside the outer ring": drawn["outer_raceway_radius"] < 0.49 * page.outside,
+        "roller length over diameter": _within(length / diameter, SLENDERNESS),
+        # Rounding the number of rollers shifts their spacing by up to half a roller.
+        "spacing of the rollers": _within(spacing, SPACING, 0.5 / drawn["rollers_per_row"].clip(3.0)),
+        "inner ring under the rollers": _within(2.0 * wall, INNER_WALL, 0.005),
+        "clearance between roller ends and faces": _within(clearance, END_CLEARANCE),
+        "rows apart": drawn["row_offset"] - along - across > 0.0,
+        "raceways beside the groove": drawn["row_offset"] - along + across > 0.5 * (page.groove or 0.0),
+    }
+    if page.bpfo is not None:
+        # Number and diameter are known; then they decide on spacing and ring.
+        passed["spacing of the rollers"] = spacing > 1.0
+        passed["inner ring under the rollers"] = wall > 0.0
+    kept = np.logical_and.reduce(list(passed.values()))
+    if np.count_nonzero(kept) < 100:
+        given = "the overrolling frequencies" if page.bpfo is not None else "shoulder and groove"
+        worst = min(passed, key=lambda what: np.count_nonzero(passed[what]))
+        raise InputError(
+            f"no bearing of usual proportions fits these values: of {SAMPLES} tried, {np.count_nonzero(kept)} did, and "
+            f"{np.count_nonzero(passed[worst])} passed the check of the {worst}",
+            allowed="the published values of one double-row spherical roller bearing",
+            remedy=f"Check the values and their units, static load rating and e above all; try without {given}.",
+        )
+    return {key: values[kept] for key, values in drawn.items()}
+
+
+def _within(values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0) -> NDArray[np.bool_]:
+    return (values >= accepted.low - margin) & (values <= accepted.high + margin)
+
+
+def _median_bearing(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: str) -> Bearing:
+    """The bearing of the medians; centres of the rollers lie on the sphere of the medians, as in every sample."""
+    entries = {key: _entry(np.median(drawn[key]), drawn[key], *how) for key, how in _WRITTEN.items() if key in drawn}
+    for side in ("inner", "outer"):
+        entries[f"osculation_{side}"] = _entry(np.median(drawn["osculation"]), drawn["osculation"], *_OSCULATION)
+    alpha = math.radians(entries["contact_angle"]["value"])
+    centre = 1e-3 * (entries["outer_raceway_radius"]["value"] - 0.5 * entries["roller_diameter"]["value"])
+    entries["pitch_radius"] = _entry(centre * math.cos(alpha), drawn["pitch_radius"], "mm", 1, "E", _ON_SPHERE)
+    entries["row_offset"] = _entry(centre * math.sin(alpha), drawn["row_offset"], "mm", 1, "E", _ON_SPHERE)
+    entries |= _published(page) | _ratings(page, entries)
+    known = Bearing.read(_STEEL_OF).as_dict()
+    same = {key: known[key] for key in _STEEL}
+    return Bearing.from_dict({"name": name, "title": title} | entries | same)
+
+
+_NOTE = "estimate: median of what fits the maker's page, not the maker's drawing"
+_ON_SPHERE = "from sphere, roller diameter and contact angle"
+_OSCULATION = ("1", 3, "E", "usual for spherical roller bearings")
+#: Unit, decimals, tag and note of what is sampled.
+_WRITTEN = {
+    "rollers_per_row": ("1", 0, "E", _NOTE),
+    "roller_diameter": ("mm", 1, "E", _NOTE),
+    "roller_length": ("mm", 1, "E", f"from the static load rating, ISO 76; {_NOTE}"),
+    "contact_angle": ("deg", 2, "D", "from e = 1.5 tan(contact angle), ISO 281"),
+    "outer_raceway_radius": ("mm", 1, "E", _NOTE),
+    "diametral_clearance": ("mm", 3, "E", "operating; in proportion to the bore"),
+}
+_SCALES = {"mm": 1e3, "deg": 180.0 / math.pi, "1": 1.0}
+#: Steel, cage and surfaces are taken from this bearing.
+_STEEL_OF = "skf-240-600-bc"
+_STEEL = (
+    "youngs_modulus", "poisson_ratio", "density", "cage_youngs_modulus", "cage_poisson_ratio", "composite_roughness",
+    "hardness", "thermal_conductivity", "specific_heat",
+)  # fmt: skip
+
+
+def _entry(value: float, samples: NDArray, unit: str, digits: int, tag: str, note: str) -> dict:
+    """An entry of a bearing file: the value as it would be written, with the range of the samples."""
+
+    def written(number: float) -> float:
+        rounded = round(float(number) * _SCALES[unit], digits)
+        return int(rounded) if digits == 0 else rounded
+
+    low, high = (written(limit) for limit in np.percentile(samples, PERCENTILES))
+    middle = written(value)
+    return {"value": middle, "unit": unit, "tag": tag, "note": note,
+            "range": [min(low, middle), max(high, middle)]}  # fmt: skip
+
+
+def _short(number: float) -> float:
+    """The number without the rounding errors of its conversion, whole where it is whole."""
+    rounded = float(f"{number:.9g}")
+    return int(rounded) if rounded.is_integer() else rounded
+
+
+def _published(page: MakersPage) -> dict[str, dict]:
+    """Entries of what stands on the page itself."""
+    found = {
+        "bore_diameter": (page.bore, "mm", "d"),
+        "outside_diameter": (page.outside, "mm", "D"),
+        "width": (page.width, "mm", "B"),
+        "dynamic_load_rating": (page.dynamic_load_rating, "kN", "C"),
+        "static_load_rating": (page.static_load_rating, "kN", "C0"),
+        "fatigue_load_limit": (page.fatigue_load_limit, "kN", "C_u or P_u"),
+        "axial_factor_e": (page.axial_factor_e, "1", "e"),
+        "axial_factor_y1": (page.axial_factor_y1, "1", "Y1"),
+        "axial_factor_y2": (page.axial_factor_y2, "1", "Y2"),
+        "axial_factor_y0": (page.axial_factor_y0, "1", "Y0"),
+        "mass": (page.mass, "kg", "mass"),
+    }
+    scales = {"mm": 1e3, "kN": 1e-3}
+    return {
+        key: {"value": _short(value * scales.get(unit, 1.0)), "unit": unit, "tag": "V",
+              "note": f"maker's page, {symbol}"}
+        for key, (value, unit, symbol) in found.items()
+        if value is not None
+    }  # fmt: skip
+
+
+def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
+    """Entries of ratings and factors that the page leaves out, by the standards from the median geometry."""
+    alpha = math.radians(entries["contact_angle"]["value"])
+    diameter, length = 1e-3 * entries["roller_diameter"]["value"], 1e-3 * entries["roller_length"]["value"]
+    pitch, count = 2e-3 * entries["pitch_radius"]["value"], entries["rollers_per_row"]["value"]
+    found = {}
+    if page.dynamic_load_rating is None:
+        rating = dynamic_load_rating(ROWS, count, diameter, length, alpha, pitch)
+        note = "ISO 281 from the estimated inside; makers publish up to a third more"
+        found["dynamic_load_rating"] = {"value": round(rating / 1e3), "unit": "kN", "tag": "D", "note": note}
+    if page.fatigue_load_limit is None:
+        limit = fatigue_load_limit(page.static_load_rating, pitch)
+        found["fatigue_load_limit"] = {"value": round(limit / 1e3), "unit": "kN", "tag": "D", "note": "ISO 281"}
+    for name, factor in (("y1", 0.45), ("y2", 0.67), ("y0", 0.44)):
+        if getattr(page, f"axial_factor_{name}") is None:
+            value = round(factor / math.tan(alpha), 2)
+            note = f"{factor} cot(contact angle)"
+            found[f"axial_factor_{name}"] = {"value": value, "unit": "1", "tag": "D", "note": note}
+    return found
