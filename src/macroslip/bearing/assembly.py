@@ -27,11 +27,11 @@ def misfits(bearing: Bearing, source: Source) -> Iterator[InputError]:
     source : Source
         Where the values were written.
     """
-    # Positions that contradict each other make all that is computed from them meaningless.
-    centres = list(_centres(bearing, source))
-    yield from centres
-    yield from _rollers(bearing, source)
-    if not centres:
+    # Positions or shapes that contradict each other make all that is computed from them meaningless.
+    contradictions = [*_centres(bearing, source), *_shape(bearing, source)]
+    yield from contradictions
+    yield from _spacing(bearing, source)
+    if not contradictions:
         yield from _rows(bearing, source)
         yield from _rings(bearing, source)
 
@@ -52,7 +52,7 @@ def _centres(bearing: Bearing, source: Source) -> Iterator[InputError]:
             )
 
 
-def _rollers(bearing: Bearing, source: Source) -> Iterator[InputError]:
+def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
     # Centres of neighbouring rollers are a chord of the pitch circle apart.
     spacing = 2 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
     if spacing <= bearing.roller_diameter:
@@ -64,6 +64,9 @@ def _rollers(bearing: Bearing, source: Source) -> Iterator[InputError]:
             allowed=f"2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter, here at most {most} rollers",
             remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row counts one row only.",
         )
+
+
+def _shape(bearing: Bearing, source: Source) -> Iterator[InputError]:
     slenderness = bearing.roller_length / bearing.roller_diameter
     if not 0.5 <= slenderness <= 4:
         yield InputError(

@@ -202,7 +202,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     >>> page = MakersPage(0.63, 0.92, 0.29, 17600e3, 0.30, shoulder=0.828, groove=0.0565)
     >>> bearing, samples = estimate_bearing(page, "my-240-630")
     >>> bearing.rollers_per_row, round(1e3 * bearing.roller_diameter, 1), round(1e3 * bearing.roller_length, 1)
-    (29, 74.1, 107.5)
+    (29, 75.4, 104.0)
     """
     drawn = _fitting(page, _draw(page, np.random.default_rng(seed)))
     return Estimate(_median_bearing(page, drawn, name, title), drawn)

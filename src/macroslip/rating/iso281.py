@@ -182,8 +182,9 @@ def life_modification(viscosity_ratio: float, contamination: float, load_ratio: 
         film = 1.5859 - 1.2348 / kappa**0.19087
     else:
         film = 1.5859 - 1.2348 / kappa**0.071739
-    # Where the bracket is not positive the endurance limit is reached.
-    bracket = 1.0 - film * (contamination * ratio) ** 0.4
+    # At kappa 0.1 the film's part is zero but for the rounding of its coefficients. Where the bracket is not positive the
+    # endurance limit is reached.
+    bracket = 1.0 - max(film, 0.0) * (contamination * ratio) ** 0.4
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         factor = np.where(bracket > 0.0, 0.1 * np.abs(bracket) ** -9.185, np.inf)
     return np.minimum(factor, LARGEST_MODIFICATION)
