@@ -226,7 +226,7 @@ def told(tmp_path):
         ),
         (
             "just text\n",
-            "case.yaml: the file holds 'just text'. Allowed: a mapping of keys to entries. Write a case file that runs "
+            "case.yaml: the file holds text or a number. Allowed: a mapping of keys to entries. Write a case file that runs "
             "with: macroslip init.",
         ),
     ],
@@ -278,5 +278,5 @@ def test_a_file_that_cannot_be_read(tmp_path):
     with pytest.raises(InputError, match=r"nowhere\.yaml: the case file cannot be read \(No such file or directory\)"):
         read_case(tmp_path / "nowhere.yaml")
     (tmp_path / "latin.yaml").write_bytes("# Lagergröße\n".encode("latin-1"))
-    with pytest.raises(InputError, match=r"the case file is not UTF-8 text. Save it as UTF-8"):
+    with pytest.raises(InputError, match=r"the file is not UTF-8 text. Save it as UTF-8"):
         read_case(tmp_path / "latin.yaml")

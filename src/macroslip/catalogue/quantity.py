@@ -45,7 +45,8 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "it", where: str
     """
     pure = dimension is NUMBER
     allowed = "a number" if pure else f"a number with its unit, {dimension.choices}"
-    match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})\s*(?P<unit>[^\d\s.,].*?)?\s*", text)
+    # What follows the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
+    match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,]|$)\s*(?P<unit>.*?)\s*", text)
     if match is None:
         decimal = re.match(r"\s*[+-]?\d+,\d", text)
         example = "1" if pure else f"1 {dimension.si_unit}"
