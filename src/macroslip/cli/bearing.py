@@ -55,10 +55,10 @@ def estimate(
 
     check_new_file(output, force=force)
     page = MakersPage(
-        bore=_si("--bore", bore, LENGTH),
-        outside=_si("--outside", outside, LENGTH),
-        width=_si("--width", width, LENGTH),
-        static_load_rating=_si("--c0", c0, FORCE),
+        bore=_required("--bore", bore, LENGTH),
+        outside=_required("--outside", outside, LENGTH),
+        width=_required("--width", width, LENGTH),
+        static_load_rating=_required("--c0", c0, FORCE),
         axial_factor_e=e,
         shoulder=_si("--shoulder", shoulder, LENGTH),
         groove=_si("--groove", groove, LENGTH),
@@ -97,10 +97,14 @@ def add_commands(app: typer.Typer) -> None:
     command(app, init)
 
 
-def _si(option: str, text: str | None, dimension: Dimension) -> float | None:
+def _required(option: str, text: str, dimension: Dimension) -> float:
     from macroslip.catalogue.quantity import parse_quantity
 
-    return None if text is None else dimension.to_si(*parse_quantity(text, dimension, option))
+    return dimension.to_si(*parse_quantity(text, dimension, option))
+
+
+def _si(option: str, text: str | None, dimension: Dimension) -> float | None:
+    return None if text is None else _required(option, text, dimension)
 
 
 def _write(path: Path, bearing: Bearing) -> None:
@@ -126,13 +130,14 @@ def _report(found: Estimate, output: Path) -> None:
         rows,
     )
     typer.echo()
-    if bearing.provenance["dynamic_load_rating"].tag == "V":
+    published = bearing.dynamic_load_rating
+    if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
         rating = dynamic_load_rating(
             2, bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length, bearing.contact_angle,
             2 * bearing.pitch_radius,
         )  # fmt: skip
         typer.echo(
-            f"C by ISO 281 from these dimensions is {rating / bearing.dynamic_load_rating:.3f} of the published one; "
+            f"C by ISO 281 from these dimensions is {rating / published:.3f} of the published one; "
             "within one family of bearings that scatters by 1 to 2 %."
         )
     typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")

@@ -75,7 +75,7 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
     if np.ptp(load) == 0.0:
         return np.zeros(0)
     try:
-        return fatpack.find_rainflow_ranges(load, k=LEVELS)
+        return np.asarray(fatpack.find_rainflow_ranges(load, k=LEVELS), float)
     except (ValueError, IndexError):  # fewer reversals than it can count: repeated, the history is one cycle
         return np.array([np.ptp(load)])
 
