@@ -139,3 +139,12 @@ def test_estimate_refuses_what_is_no_lubricant(folder, macroslip, v40, v100, bas
     done = macroslip("lubricant", "estimate", "--v40", v40, "--v100", v100, "--base", base, "-o", "mine.yaml")
     assert done.code == 2 and done.err.startswith(message) and done.err.count("\n") == 1
     assert not (folder / "mine.yaml").exists()
+
+
+def test_a_drawing(folder, macroslip):
+    done = macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.svg")
+    assert (done.code, done.out, done.err) == (0, "written: drawing.svg\n", "")
+    assert "<svg" in (folder / "drawing.svg").read_text(encoding="utf-8")
+    done = macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.txt")
+    assert done.code == 2 and "ends with .svg, .pdf or .png" in done.err
+    assert macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.svg").code == 2

@@ -1,4 +1,4 @@
-"""`macroslip bearing estimate` and `macroslip bearing init`: bearing files of the user's own."""
+"""`macroslip bearing estimate`, `init` and `draw`: bearing files of the user's own, and pictures of them."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import typer
 
 from macroslip.cli.failure import command
 from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.errors import InputError, MacroslipError
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -91,10 +92,38 @@ def init(
     )
 
 
+def draw(
+    name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="The drawing to write: .svg, .pdf or .png.")],
+    force: Force = False,
+) -> None:
+    """Draw the section of a bearing, with the name and value of every dimension."""
+    from macroslip.bearing import Bearing
+
+    if output.suffix not in (".svg", ".pdf", ".png"):
+        raise InputError(
+            "this is no kind of drawing", where=str(output), allowed="a name that ends with .svg, .pdf or .png"
+        )
+    check_new_file(output, force=force)
+    bearing = Bearing.read(name_or_file)
+    try:
+        from macroslip.report.bearing_drawing import draw_bearing
+
+        figure = draw_bearing(bearing)
+    except ModuleNotFoundError as missing:
+        raise MacroslipError(
+            f"drawings need {missing.name}, which is not installed: pip install 'macroslip[figures]'."
+        ) from None
+    with new_file(output) as temporary:
+        figure.savefig(temporary, format=output.suffix[1:])
+    typer.echo(f"written: {output}")
+
+
 def add_commands(app: typer.Typer) -> None:
     """Add the commands that make bearing files."""
     command(app, estimate)
     command(app, init)
+    command(app, draw)
 
 
 def _required(option: str, text: str, dimension: Dimension) -> float:
