@@ -35,7 +35,7 @@ def draw_bearing(bearing: Bearing) -> Figure:
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.0, 6.4))
+    figure = Figure(figsize=(9.6, 6.2))
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_aspect("equal")
     axes.axis("off")
@@ -46,7 +46,7 @@ def draw_bearing(bearing: Bearing) -> Figure:
     _dimensions(axes, bearing, half)
     axes.plot([-1.15 * half, 1.15 * half], [0, 0], color="black", lw=0.8, ls="-.")
     _words(axes, -1.17 * half, 0, "bearing axis", ha="right")
-    axes.set(xlim=(-2.6 * half, 2.9 * half), ylim=(-0.08 * _outside(bearing), 1.2 * _outside(bearing)))
+    axes.set(xlim=(-3.0 * half, 3.0 * half), ylim=(-0.08 * _outside(bearing), 1.2 * _outside(bearing)))
     _words(axes, 0, 1.14 * _outside(bearing), bearing.name, ha="center", size=12)
     return figure
 
