@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from macroslip.catalogue import TAGS
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
-from macroslip.lubricant.viscosity import barus, roelands, roelands_index
+from macroslip.lubricant.roelands_index import roelands_index
+from macroslip.lubricant.viscosity import barus, roelands
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from macroslip.errors import InputError
 from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity, pressure_viscosity_at
-from macroslip.lubricant.viscosity import ROELANDS_PRESSURE, roelands, roelands_index
+from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
+from macroslip.lubricant.viscosity import roelands
 
 
 @given(st.floats(1e-3, 100.0), st.floats(5e-9, 4e-8))

@@ -13,7 +13,7 @@ from macroslip.case.case import BackwardEuler, Case, ExplicitEuler, Radau, Trace
 from macroslip.case.form import Place
 from macroslip.case.keys import CASE
 from macroslip.catalogue import Record
-from macroslip.catalogue.problems import together
+from macroslip.catalogue.problems import shown, together
 from macroslip.catalogue.source import Source, parse, read_text
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
@@ -141,7 +141,7 @@ class _Builder:
         if not path.is_file():
             close = get_close_matches(name, names, n=1)
             raise InputError(
-                f"'{name}' is neither in the catalogue nor a file",
+                f"{shown(name)} is neither in the catalogue nor a file",
                 where=kind.noun,
                 allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
                 remedy=f"Did you mean {close[0]}?" if close else self.start_of_paths,

@@ -7,13 +7,13 @@ from typing import Any
 from macroslip.catalogue.problems import shown
 from macroslip.errors import InputError
 from macroslip.lubricant.base_oil import BASE_OILS
-from macroslip.lubricant.density import density_at
 from macroslip.lubricant.eyring import eyring_stress
 from macroslip.lubricant.gold import gold
 from macroslip.lubricant.inlet import T15, T40, T100, viscosities
 from macroslip.lubricant.lubricant import Lubricant
 from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity, pressure_viscosity_at
-from macroslip.lubricant.viscosity import roelands_index
+from macroslip.lubricant.roelands_index import roelands_index
+from macroslip.lubricant.thermal_density import density_at
 from macroslip.lubricant.walther import walther_line_through
 
 PRESSURE_VISCOSITY_SCATTER = 0.2

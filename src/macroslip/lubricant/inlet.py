@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from macroslip.catalogue import Provenance
-from macroslip.lubricant.density import THERMAL_EXPANSION, density_at
 from macroslip.lubricant.pressure_viscosity import pressure_viscosity_at
-from macroslip.lubricant.viscosity import roelands_index
+from macroslip.lubricant.roelands_index import roelands_index
+from macroslip.lubricant.thermal_density import THERMAL_EXPANSION, density_at
 from macroslip.lubricant.walther import (
     WaltherLine,
     walther_coefficient,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from macroslip.lubricant.viscosity import ROELANDS_PRESSURE, roelands_index
+from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
 
 
 def pressure_viscosity_at(index: float, viscosity: float) -> float:

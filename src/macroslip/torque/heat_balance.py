@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from macroslip.errors import InputError
 
@@ -51,7 +51,7 @@ def balance_temperature(
 
     References
     ----------
-    First law of thermodynamics; root by Brent's method, SciPy `brentq`.
+    First law of thermodynamics; root by Brent's method, SciPy `root_scalar`.
 
     Examples
     --------
@@ -90,7 +90,7 @@ def balance_temperature(
             allowed="a friction power that the surroundings can carry off",
             remedy="Check the conductance, the ambient temperature and the loads.",
         )
-    return brentq(surplus, ambient, hottest, xtol=1e-9)
+    return root_scalar(surplus, bracket=(ambient, hottest), method="brentq", xtol=1e-9).root
 
 
 def tabulated_power(temperatures: Sequence[float], powers: Sequence[float]) -> Callable[[float], float]:
