@@ -62,14 +62,14 @@ def test_dynamic_ratings_scatter_little_within_a_family(estimates):
 
 
 def test_flanges_of_the_inner_ring_lie_above_its_raceway(estimates):
-    # The shoulder diameter of the inner ring is published and not used: the raceway's edge must lie below it, by less
-    # than a quarter of the roller.
-    checked = 0
-    for _, bearing, row in (one for name in ("230CA", "231CA", "240BC", "241EC") for one in estimates[name]):
+    # The shoulder diameter of the inner ring is published and not used: the raceway's edge must lie below it, by a
+    # twentieth to a quarter of the roller. Bearings with sheet-metal cages (J) have no flanges.
+    families = [estimates[name] for name in ("230CA", "231CA", "240BC", "241EC")]
+    flanged = [one for family in families for one in family if "J" not in one[2]["variant"]]
+    assert len(flanged) == 45
+    for _, bearing, row in flanged:
         flange = 5e-4 * float(row["d2_mm"]) - geometry.envelope(bearing).inside
-        assert 0.0 <= flange <= 0.25 * bearing.roller_diameter
-        checked += 1
-    assert checked >= 40
+        assert 0.05 * bearing.roller_diameter <= flange <= 0.25 * bearing.roller_diameter
 
 
 def test_the_base_bearing_lies_within_the_ranges():
