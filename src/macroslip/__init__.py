@@ -25,6 +25,7 @@ _HOMES = {
     "Window": "macroslip.case.case",
     "Traces": "macroslip.case.case",
     "simulate": "macroslip.result.simulate",
+    "rate_case": "macroslip.result.rating",
     "read_study": "macroslip.study.study_file",
     "run_study": "macroslip.study.run",
     "open_study": "macroslip.study.reader",
