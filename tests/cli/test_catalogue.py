@@ -57,3 +57,12 @@ def test_a_name_that_does_not_exist(folder, macroslip):
         "error: no bearing can be read from 'skf' (No such file or directory). Allowed: the path of a YAML file, or a "
         f"catalogue name: skf-240-600-bc. Relative paths start at {folder}.\n"
     )
+
+
+@pytest.mark.parametrize(("noun", "kind"), KINDS)
+def test_show_as_a_file_that_can_be_read_again(folder, macroslip, noun, kind):
+    for name in kind.catalogue():
+        done = macroslip(noun, "show", name, "--yaml")
+        assert (done.code, done.err) == (0, "")
+        (folder / "mine.yaml").write_text(done.out, encoding="utf-8")
+        assert kind.read(folder / "mine.yaml") == kind.read(name)

@@ -6,7 +6,8 @@ from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from macroslip.catalogue.units import Dimension
+from macroslip.catalogue.quantity import quantity_pattern
+from macroslip.catalogue.units import NUMBER, Dimension
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -79,9 +80,8 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
             if field.is_required():
                 properties[key]["minLength"] = 1
             continue
-        properties[key] = {
+        entry = {
             "type": "object",
-            "description": f"{field.description}: {allowed_text(field, dimension)}",
             "properties": {
                 "value": {"type": "integer" if field.annotation is int else "number"},
                 "unit": {"enum": list(dimension.units)},
@@ -91,9 +91,22 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
                     "description": ", ".join(f"{tag}: {meaning}" for tag, meaning in tags.items()),
                 },
                 "note": {"type": "string"},
+                "range": {
+                    "type": "array",
+                    "items": {"type": "number"},
+                    "minItems": 2,
+                    "maxItems": 2,
+                    "description": "lowest and highest value; four out of five lie between them",
+                },
             },
             "required": ["value", "unit"],
             "additionalProperties": False,
+        }
+        short = {"type": "string", "pattern": quantity_pattern(dimension)}
+        number = [{"type": "integer" if field.annotation is int else "number"}] if dimension is NUMBER else []
+        properties[key] = {
+            "description": f"{field.description}: {allowed_text(field, dimension)}",
+            "anyOf": [entry, short, *number],
         }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -16,6 +16,7 @@ from macroslip.catalogue.entry import TAGS, Provenance, is_finite_number, read_e
 from macroslip.catalogue.fields import allowed_text, dimensions, schema
 from macroslip.catalogue.problems import shown, together, unknown_key
 from macroslip.catalogue.source import Source, parse
+from macroslip.catalogue.yaml_text import yaml_text
 from macroslip.errors import InputError
 
 
@@ -246,17 +247,23 @@ class Record(BaseModel):
         Returns
         -------
         dict
-            Text fields as text, quantities as value and unit as written, tag and note. Quantities without a value are
-            left out. `from_dict` turns it back into an equal record.
+            Text fields as text, quantities as value and unit as written, tag, note and, where it is known, range.
+            Quantities without a value are left out. `from_dict` turns it back into an equal record.
         """
         entries: dict[str, Any] = {}
         for key in type(self).model_fields:
             if key in self.provenance:
                 origin = self.provenance[key]
                 entries[key] = {"value": origin.value, "unit": origin.unit, "tag": origin.tag, "note": origin.note}
+                if origin.range is not None:
+                    entries[key]["range"] = list(origin.range)
             elif key not in dimensions(type(self)):
                 entries[key] = getattr(self, key)
         return entries
+
+    def as_yaml(self) -> str:
+        """Give the record as the text of a catalogue file, every key explained; `read` gives it back as it is."""
+        return yaml_text(self.as_dict(), self.noun, type(self).model_fields)
 
     def replace(self, **values: Any) -> Self:
         """Copy the record with other values, checked as any other input.

@@ -29,11 +29,17 @@ def _catalogue(
         records = [load().read(name) for name in load().catalogue()]
         table(f"{noun}s", [("name", False), ("title", False)], [[record.name, record.title] for record in records])
 
-    def show(name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")]) -> None:
+    def show(
+        name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")],
+        yaml: Annotated[bool, typer.Option("--yaml", help="Print it as a file, to save and to change.")] = False,
+    ) -> None:
         from macroslip.catalogue import TAGS
         from macroslip.cli.printing import table
 
         record = load().read(name_or_file)
+        if yaml:
+            typer.echo(record.as_yaml(), nl=False)
+            return
         rows = [
             [key, _written(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]
             for key, origin in record.provenance.items()
