@@ -45,13 +45,13 @@ def test_text_and_mapping_give_the_same(value):
 @pytest.mark.parametrize(
     ("entry", "dimension", "message"),
     [
-        ("75", LENGTH, "bore is '75', which does not give its unit. Allowed: a number with its unit, m or mm or um. "
-                       "Write '75 m', for example."),
+        ("75", LENGTH, "bore is '75', which has no unit. Allowed: a number with its unit, m or mm or um. "
+                       "Write 75 m, for example."),
         ("75 inch", LENGTH, "bore has the unit 'inch'. Allowed: a number with its unit, m or mm or um. Convert"),
         ("7,5 mm", LENGTH, "bore is '7,5 mm', which is not a quantity. Allowed: .* Use a decimal point"),
         ("wide", LENGTH, "bore is 'wide', which is not a quantity. .* Write 1 m, for example."),
         ("nan mm", LENGTH, "bore is 'nan mm', which is not a quantity."),
-        ("1e400 kg", MASS, "bore is '1e400 kg', too large for a number"),
+        ("1e400 kg", MASS, "bore is '1e400 kg', which is too large for a number"),
         ("0.98 mm", NUMBER, "bore has the unit 'mm'. Allowed: a number. Write the number alone."),
         (75, LENGTH, "bore is 75, which does not give its unit. Allowed: bore: {value: a number, unit: m or mm or um, .*"
                      "Short form: bore: 1 m. Give the value with its unit."),

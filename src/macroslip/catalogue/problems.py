@@ -8,6 +8,9 @@ from collections.abc import Iterable, Sequence
 
 from macroslip.errors import InputError
 
+#: Problems that a message spells out.
+_LISTED = 20
+
 
 def shown(value: object) -> str:
     """Write a value for a message, cut to one short line.
@@ -57,6 +60,26 @@ def together(problems: Sequence[InputError]) -> InputError:
     >>> print(together([InputError("a is 1", allowed="0"), InputError("b is 2", allowed="0")]))
     2 problems: (1) a is 1. Allowed: 0. (2) b is 2. Allowed: 0.
     """
+    problems = [part for problem in problems for part in getattr(problem, "parts", [problem])]
     if len(problems) == 1:
         return problems[0]
-    return InputError(f"{len(problems)} problems: " + " ".join(f"({n}) {p}" for n, p in enumerate(problems, 1)))
+    return Problems(problems)
+
+
+class Problems(InputError):
+    """Several problems as one error.
+
+    Attributes
+    ----------
+    parts : list of InputError
+        The problems one by one.
+    """
+
+    def __init__(self, parts: Sequence[InputError]):
+        self.parts = list(parts)
+        listed = " ".join(f"({number}) {part}" for number, part in enumerate(parts[:_LISTED], 1))
+        more = f" ... and {len(parts) - _LISTED} more" if len(parts) > _LISTED else ""
+        super().__init__(f"{len(parts)} problems: {listed}{more}")
+
+    def __reduce__(self) -> tuple[type[Problems], tuple[list[InputError]]]:
+        return Problems, (self.parts,)

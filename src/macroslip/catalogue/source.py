@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from ruamel.yaml import YAML
@@ -27,6 +28,72 @@ class Source:
         depths = range(len(keys), 0, -1)
         line = next((self.lines[keys[:depth]] for depth in depths if keys[:depth] in self.lines), None)
         return ", ".join([part for part in (self.file, f"line {line}" if line else "") if part])
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a value stands in a file.
+
+    Parameters
+    ----------
+    source : Source
+        File and line numbers.
+    keys : tuple of str
+        Keys from the outermost inwards.
+    """
+
+    source: Source
+    keys: tuple[str, ...] = ()
+
+    def inside(self, *keys: str) -> Place:
+        """The place of a value further in."""
+        return Place(self.source, self.keys + keys)
+
+    @property
+    def key(self) -> str:
+        """The keys as messages write them: `loads.hub.force`."""
+        return ".".join(self.keys)
+
+    @property
+    def where(self) -> str:
+        """File, line and key: `case.yaml, line 7, loads.hub.force`."""
+        return ", ".join(part for part in (self.source.where(*self.keys), self.key) if part)
+
+    def problem(self, what: str, allowed: str = "", remedy: str = "") -> InputError:
+        """An error that stands here."""
+        return InputError(what, where=self.where, allowed=allowed, remedy=remedy)
+
+    def blamed(self, problem: InputError) -> InputError:
+        """The same error, raised by what read the value, with this place in front."""
+        # What was given the value without its file can name the key only.
+        inner = "" if problem.where == self.key else problem.where
+        what = f"{inner}: {problem.what}" if inner else problem.what
+        return self.problem(what, problem.allowed, problem.remedy)
+
+
+def read_text(path: Path, noun: str, remedy: str) -> str:
+    """Text of a file of the user's.
+
+    Parameters
+    ----------
+    path : Path
+    noun : str
+        What it is, for messages: "case file".
+    remedy : str
+        What to do about one that cannot be read.
+
+    Raises
+    ------
+    InputError
+        If it is no file, cannot be read, or is not UTF-8.
+    """
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise InputError(f"the {noun} is not UTF-8 text", where=str(path), remedy="Save it as UTF-8.") from None
+    except (OSError, ValueError) as error:  # a zero byte in a path is a ValueError
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"the {noun} cannot be read ({reason})", where=str(path), remedy=remedy) from None
 
 
 def parse(
