@@ -24,6 +24,7 @@ _HOMES = {
     "BackwardEuler": "macroslip.case.case",
     "Window": "macroslip.case.case",
     "Traces": "macroslip.case.case",
+    "read_case": "macroslip.case.case_file",
     "simulate": "macroslip.result.simulate",
     "read_study": "macroslip.study.study_file",
     "run_study": "macroslip.study.run",

@@ -18,6 +18,7 @@ from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 
+
 def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") -> None:
     if not good:
         raise InputError(what, where=where, allowed=allowed, remedy=remedy)
@@ -110,10 +111,6 @@ class Traces:
     end: Annotated[float | None, Quantity("last time", TIME)] = None
 
 
-#: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
-MOST_SAMPLES = 10_000_000
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
     """One simulation.
@@ -193,13 +190,6 @@ class Case:
                 f"the traces run from {start!r} s to {end!r} s",
                 "traces",
                 f"times within the loads' {first:g} s to {last:g} s",
-            )
-            _check(
-                (end - start) / self.traces.step <= MOST_SAMPLES,
-                f"a step of {self.traces.step!r} s makes {(end - start) / self.traces.step:.3g} samples",
-                "traces",
-                f"at most {MOST_SAMPLES:.0e} samples for each roller".replace("e+0", "e"),
-                "Take a longer step, or a shorter part of the time.",
             )
 
     @property

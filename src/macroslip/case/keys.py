@@ -65,9 +65,7 @@ class LoadsKeys:
     """Where the loads come from, and what to read of them."""
 
     bundled: Annotated[str | None, Choice("load case that comes with the package", bundled_cases)] = None
-    file: Annotated[
-        str | None, Text("hub loads: OpenFAST output (.outb, .out) or a table (.parquet, .csv)")
-    ] = None
+    file: Annotated[str | None, Text("hub loads: OpenFAST output (.outb, .out) or a table (.parquet, .csv)")] = None
     bearing_file: Annotated[str | None, Text("main-bearing loads: a table (.parquet, .csv)")] = None
     hub: ConstantHubLoads | None = None
     main_bearing: ConstantBearingLoads | None = None
@@ -92,9 +90,7 @@ class LawsKeys:
     starvation: Annotated[bool | None, Flag("film thinned by the lubricant's starvation factor")] = None
     inlet_heating: Annotated[bool | None, Flag("film thinned by shear heating in the inlet")] = None
     viscosity: Annotated[str | None, Choice("how viscosity rises with pressure", viscosities)] = None
-    rheology: Annotated[
-        str | None, Choice("how the film's stress falls behind the Newtonian one", rheologies)
-    ] = None
+    rheology: Annotated[str | None, Choice("how the film's stress falls behind the Newtonian one", rheologies)] = None
     heating: Annotated[bool | None, Flag("shear heating of the film")] = None
     microslip: Annotated[bool | None, Flag("slip that varies along the roller")] = None
     asperities: Annotated[str | None, Choice("share of the load that asperities carry", asperity_laws)] = None
@@ -126,12 +122,8 @@ class RollerNumbers(Form):
 class CaseFile:
     """The keys at the top of a case file."""
 
-    bearing: Annotated[
-        str | None, Text("bearing: a name of the catalogue, or the path of a bearing file")
-    ] = None
-    lubricant: Annotated[
-        str | None, Text("lubricant: a name of the catalogue, or the path of a lubricant file")
-    ] = None
+    bearing: Annotated[str | None, Text("bearing: a name of the catalogue, or the path of a bearing file")] = None
+    lubricant: Annotated[str | None, Text("lubricant: a name of the catalogue, or the path of a lubricant file")] = None
     loads: LoadsKeys
     drivetrain: Drivetrain = Drivetrain()
     forces: Forces = Forces()

@@ -24,12 +24,19 @@ from macroslip.errors import InputError
 
 #: Context of a validation whose values come from a file.
 IN_FILE = "file"
+#: Context of a validation of a value that others decide on: its form is checked, its range is not.
+FORM_ONLY = "form"
 _REMINDERS = {
     LENGTH: "Lengths are in metres.",
     ANGLE: "Angles are in radians: math.radians(5.0) for 5 degrees.",
     MASS: "The mass is in kilograms.",
     TIME: "Times are in seconds.",
 }
+
+
+def in_file(info: ValidationInfo) -> bool:
+    """Whether a value comes from a file."""
+    return info.context in (IN_FILE, FORM_ONLY)
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,7 @@ class Form:
         optional = type(None) in get_args(source)
 
         def validate(value: Any, info: ValidationInfo) -> Any:
-            return None if value is None and optional and info.context != IN_FILE else self.read(value, info)
+            return None if value is None and optional and not in_file(info) else self.read(value, info)
 
         return core_schema.with_info_plain_validator_function(validate)
 
@@ -107,7 +114,7 @@ class Quantity(Form):
 
     def read(self, value: Any, info: ValidationInfo) -> float | None:
         """Read text with a unit, or a number, to SI, and check its range."""
-        if info.context != IN_FILE or self.dimension is NUMBER:
+        if not in_file(info) or self.dimension is NUMBER:
             return self._number(value, info)
         if isinstance(value, str) and value in self.words:
             return None
@@ -125,14 +132,14 @@ class Quantity(Form):
         return si_value
 
     def _number(self, value: Any, info: ValidationInfo) -> float:
-        name = "it" if info.context == IN_FILE else info.field_name or "it"
+        name = "it" if in_file(info) else info.field_name or "it"
         if not is_finite_number(value):
-            if info.context != IN_FILE:
+            if not in_file(info):
                 raise InputError(f"{name} is {shown(value)}", allowed="a finite number")
             remedy = "Write it without quotes and units." if isinstance(value, str) else ""
             raise InputError(f"it is {shown(value)}", allowed=self.form, remedy=remedy)
         number = float(value)
-        reminder = "" if info.context == IN_FILE else _REMINDERS.get(self.dimension, "")
+        reminder = "" if in_file(info) else _REMINDERS.get(self.dimension, "")
         what = f"the {self.name} is" if self.name else f"{name} is"
         unit = "" if self.dimension is NUMBER else f" {self._si}"
         remedy = " ".join(part for part in (self.remedy, reminder) if part)
@@ -144,6 +151,8 @@ class Quantity(Form):
         return self.dimension.si_unit
 
     def _check_range(self, value: float, info: ValidationInfo, what: str, unit: str, remedy: str) -> None:
+        if info.context == FORM_ONLY:
+            return
         try:
             highest = self.highest(info.data) if callable(self.highest) else self.highest
         except KeyError:  # a value that it depends on is wrong itself
@@ -159,9 +168,7 @@ class Quantity(Form):
         >>> Quantity("tilt", ANGLE, -0.3, 0.3).range_text("deg"), Quantity("step", TIME, 0.0, above=True).range_text("s")
         ('-17.1887 to 17.1887 deg', 'a number above 0 s')
         """
-        ends = [
-            self.dimension.text(end, unit) if math.isfinite(end) else "" for end in (self.lowest, self.highest)
-        ]
+        ends = [self.dimension.text(end, unit) if math.isfinite(end) else "" for end in (self.lowest, self.highest)]
         low, high = (re.sub(r"e([+-])0*", lambda found: f"e{found[1].strip('+')}", end) for end in ends)
         low, high = (re.sub(r"^0\.(0+)1(?=$| )", lambda found: f"1e-{len(found[1]) + 1}", end) for end in (low, high))
         if not high:
@@ -225,12 +232,12 @@ class Whole(Form):
     def read(self, value: Any, info: ValidationInfo) -> int:
         """Check type and range; NumPy's integers are welcome."""
         if not is_finite_number(value) or not hasattr(value, "__index__"):
-            quotes = info.context == IN_FILE and isinstance(value, str)
+            quotes = in_file(info) and isinstance(value, str)
             remedy = "Write it without quotes and units." if quotes else ""
-            subject = "it" if info.context == IN_FILE else info.field_name or "it"
+            subject = "it" if in_file(info) else info.field_name or "it"
             raise InputError(f"{subject} is {shown(value)}", allowed=self.form, remedy=remedy)
         number = int(value)
-        if not self.lowest <= number <= self.highest:
+        if info.context != FORM_ONLY and not self.lowest <= number <= self.highest:
             low = f"a whole number above {self.lowest - 1}" if self.lowest else "a whole number, 0 or above"
             allowed = low if number < self.lowest else f"a whole number up to {self.highest}"
             raise InputError(f"{self.name or info.field_name or 'it'} is {shown(number)}", allowed=allowed)
@@ -250,7 +257,7 @@ class Flag(Form):
     def read(self, value: Any, info: ValidationInfo) -> bool:
         """Check the type; what is merely true in some sense is not."""
         if not isinstance(value, bool) and type(value).__name__ not in ("bool", "bool_"):
-            subject = "it" if info.context == IN_FILE else info.field_name or "it"
+            subject = "it" if in_file(info) else info.field_name or "it"
             raise InputError(f"{subject} is {shown(value)}", allowed=self.form)
         return bool(value)
 
@@ -261,13 +268,14 @@ class Flag(Form):
 
 @dataclass(frozen=True)
 class Text(Form):
-    """Text that is not empty."""
+    """Text, which is not empty unless it may be."""
 
+    may_be_empty: bool = False
     form: ClassVar[str] = "text"
 
     def read(self, value: Any, info: ValidationInfo) -> str:
         """Check the type."""
-        if not isinstance(value, str) or not value:
+        if not isinstance(value, str) or not (value or self.may_be_empty):
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         check_no_zero_byte(value)
         return value

@@ -10,14 +10,14 @@ import dataclasses
 import functools
 from collections.abc import Callable, Iterator, Mapping
 from difflib import get_close_matches
-from typing import Annotated, Any, TypeVar, dataclass_transform, get_args
+from typing import Annotated, Any, TypeVar, dataclass_transform, get_args, get_origin
 
 import pydantic
 from pydantic import ConfigDict, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, core_schema
 
-from macroslip.catalogue.forms import IN_FILE, Choice, Form
+from macroslip.catalogue.forms import IN_FILE, Choice, Form, check_no_zero_byte
 from macroslip.catalogue.problems import shown, together, unknown_key
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
@@ -26,7 +26,9 @@ Kind = TypeVar("Kind")
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
-def input_section(noun: str, about: str, *, one_of: tuple[str, ...] = ()) -> Callable[[type[Kind]], type[Kind]]:
+def input_section(
+    noun: str, about: str, *, one_of: tuple[str, ...] = (), positional: bool = False
+) -> Callable[[type[Kind]], type[Kind]]:
     """Make a class a section of an input file: a frozen dataclass with checked fields.
 
     Parameters
@@ -37,6 +39,8 @@ def input_section(noun: str, about: str, *, one_of: tuple[str, ...] = ()) -> Cal
         What the section is, for messages and for the JSON Schema.
     one_of : tuple of str
         Keys of which exactly one has to be given.
+    positional : bool
+        Whether a call in Python may leave out the names of the first arguments.
     """
     schema = {"description": about} | ({"oneOf": [{"required": [key]} for key in one_of]} if one_of else {})
     config = ConfigDict(extra="forbid", json_schema_extra=schema)
@@ -44,13 +48,13 @@ def input_section(noun: str, about: str, *, one_of: tuple[str, ...] = ()) -> Cal
     def decorate(kind: type[Kind]) -> type[Kind]:
         if one_of:
             kind.__post_init__ = lambda self: _check_one_of(self, one_of)
-        made = pydantic.dataclasses.dataclass(frozen=True, slots=True, kw_only=True, config=config)(kind)
+        made = pydantic.dataclasses.dataclass(frozen=True, slots=True, kw_only=not positional, config=config)(kind)
         check = made.__init__
 
         @functools.wraps(check)
-        def initialise(self: Any, **values: Any) -> None:
+        def initialise(self: Any, *first: Any, **values: Any) -> None:
             try:
-                check(self, **values)
+                check(self, *first, **values)
             except ValidationError as failure:
                 raise together(_problems(failure, made, Place(Source()), noun)) from None
 
@@ -94,6 +98,70 @@ class OrWord:
         inner = handler(schema)
         about = handler.resolve_ref_schema(inner).get("description", "")
         return {"anyOf": [{"const": self.word}, inner], "description": about}
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class MappingOf(Form):
+    """A mapping of names of the user's own to values of one kind, each of which is checked with its name.
+
+    Parameters
+    ----------
+    about : str
+        What it is.
+    form : str
+        What is accepted, in words.
+    item : type
+        Section or type of a value; Any leaves it to `each`.
+    each : callable, optional
+        Makes what the program uses of a name and its value, or raises `InputError`.
+    """
+
+    form: str = "a section whose keys are names of your own"
+    item: Any = Any
+    each: Callable[[str, Any], Any] | None = None
+    may_be_empty: bool = False
+
+    def read(self, value: Any, info: pydantic.ValidationInfo) -> dict[str, Any]:
+        """Read every value; all that is wrong is raised together."""
+        names = isinstance(value, Mapping) and all(isinstance(name, str) and name for name in value)
+        if not names or not (value or self.may_be_empty):
+            raise InputError(f"it is {shown(value)}", allowed=self.form)
+        found, problems = {}, []
+        for key, item in value.items():
+            try:
+                check_no_zero_byte(key)
+                checked = _adapter(self.item).validate_python(item, context=info.context)
+                found[key] = self.each(key, checked) if self.each else checked
+            except InputError as problem:
+                problems.append(detail_of((key,), problem))
+            except ValidationError as failure:
+                problems += details_inside(key, failure)
+        if problems:
+            raise ValidationError.from_exception_data("section", problems)
+        return found
+
+    def json(self) -> dict[str, Any]:
+        """An object with any keys."""
+        inner = {} if self.item is Any else json_schema(self.item)
+        return {"type": "object", "additionalProperties": inner or True}
+
+
+def detail_of(loc: tuple[str | int, ...], problem: InputError) -> Any:
+    """A problem as pydantic keeps it, for a form that reads several values by itself."""
+    return {"type": PydanticCustomError("form", "{error}", {"error": problem}), "loc": loc, "input": None}
+
+
+def details_inside(key: str | int, failure: ValidationError) -> list[Any]:
+    """What is wrong with one value, with its key in front."""
+    found = []
+    for detail in failure.errors(include_url=False):
+        known = {"ctx": detail["ctx"]} if detail.get("ctx") else {}
+        kind = detail["type"]
+        if isinstance(known.get("ctx", {}).get("error"), InputError):
+            found.append(detail_of((key, *detail["loc"]), known["ctx"]["error"]))
+        else:
+            found.append({"type": kind, "loc": (key, *detail["loc"]), "input": detail["input"], **known})
+    return found
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -162,7 +230,8 @@ def keys_of(kind: type, prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:
         variants = variants_of(field)
         if variants:
             yield f"{prefix}{key}.{variants.key}", _name_field(variants)
-        for section in sections_of(field):
+        of_the_user = get_origin(field.annotation) is dict  # names inside are the user's own
+        for section in () if of_the_user else sections_of(field):
             yield from keys_of(section, f"{prefix}{key}.")
 
 
@@ -176,19 +245,19 @@ def _adapter(kind: Any) -> TypeAdapter:
     return TypeAdapter(kind)
 
 
-def read_value(field: FieldInfo, value: Any, place: Place) -> Any:
-    """Read what a file has under the key of a field.
+def read_value(field: FieldInfo, value: Any, place: Place, context: str = IN_FILE) -> Any:
+    """Read what a file has under the key of a field; with the context FORM_ONLY without looking at its range.
 
     Raises
     ------
     InputError
         With all that is wrong inside, each with its place.
     """
-    if value is None and sections_of(field) and not _word(field):  # every key of the section is commented out
+    if value is None and sections_of(field) and not word_of(field):  # every key of the section is commented out
         value = {}
     try:
         kind = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
-        return _adapter(kind).validate_python(value, context=IN_FILE)
+        return _adapter(kind).validate_python(value, context=context)
     except ValidationError as failure:
         raise together(_problems(failure, field, place)) from None
 
@@ -247,17 +316,6 @@ def json_schema(kind: Any) -> dict[str, Any]:
     return plain(schema)
 
 
-def failure_of(problems: Mapping[str, InputError]) -> ValidationError:
-    """One failure for the problems of several keys, to be raised where a form reads a mapping by itself."""
-    return ValidationError.from_exception_data(
-        "section",
-        [
-            {"type": PydanticCustomError("form", "{error}", {"error": problem}), "loc": (key,), "input": None}
-            for key, problem in problems.items()
-        ],
-    )
-
-
 def _problems(failure: ValidationError, kind: Any, place: Place, noun: str = "") -> list[InputError]:
     """What pydantic found, in paragraphs: unknown keys first, then the others in the order of the fields."""
     details = failure.errors(include_url=False)
@@ -286,14 +344,16 @@ def _walk(kind: Any, loc: tuple[Any, ...]) -> tuple[list[str], FieldInfo | None,
     keys: list[str] = []
     names: list[str] = []
     for step in loc:
+        if field and get_origin(field.annotation) is dict:
+            keys.append(str(step))
+            field = None
+            continue
         variants = variants_of(field) if field else None
         if variants and step in variants.sections:
             sections, names = [variants.sections[step]], [variants.key]
             field = None
             continue
         inner = next((fields_of(section)[step] for section in sections if step in fields_of(section)), None)
-        if inner is None and field is None and not sections:
-            continue
         keys.append(str(step))
         field, names = inner, []
         sections = sections_of(inner) if inner else []
@@ -311,7 +371,9 @@ def _problem(detail: Mapping[str, Any], kind: Any, place: Place, noun: str) -> I
         return here.blamed(problem)
     if detail["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
         around = place.inside(*keys[:-1])
-        return unknown_key(loc[-1], _siblings(kind, loc), where=noun or here.source.where(*here.keys), inside=around.key)
+        return unknown_key(
+            loc[-1], _siblings(kind, loc), where=noun or here.source.where(*here.keys), inside=around.key
+        )
     if detail["type"] in ("missing", "missing_keyword_only_argument"):
         key = str(loc[-1])
         section_place = place.inside(*keys[:-1]) if keys and keys[-1] == key else here
@@ -328,7 +390,8 @@ def _problem(detail: Mapping[str, Any], kind: Any, place: Place, noun: str) -> I
     return InputError(what, where=noun, allowed=allowed) if noun else here.problem(what, allowed)
 
 
-def _word(field: FieldInfo) -> str:
+def word_of(field: FieldInfo) -> str:
+    """The word that switches a section off; empty if there is none."""
     return next((item.word for item in field.metadata if isinstance(item, OrWord)), "")
 
 
@@ -337,7 +400,7 @@ def _form_text(field: FieldInfo | None, inside: list[str]) -> str:
     if form is not None:
         return form.form
     keys = f"a section with the keys {', '.join(inside)}"
-    return f"{_word(field)} or {keys}" if field and _word(field) else keys
+    return f"{word_of(field)} or {keys}" if field and word_of(field) else keys
 
 
 def _missing(key: str, field: FieldInfo | None, place: Place, noun: str = "") -> InputError:

@@ -58,7 +58,9 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "", where: str =
         raise InputError(f"{subject} has no unit", where=where, allowed=allowed, remedy=remedy)
     if unit not in dimension.units:
         remedy = "Write the number alone." if pure else "Convert it to one of these units."
-        raise InputError(f"{what or shown(text)} has the unit {shown(unit)}", where=where, allowed=allowed, remedy=remedy)
+        raise InputError(
+            f"{what or shown(text)} has the unit {shown(unit)}", where=where, allowed=allowed, remedy=remedy
+        )
     value = float(number)
     if not math.isfinite(value) or not math.isfinite(dimension.to_si(value, unit)):
         raise InputError(f"{subject} is too large for a number", where=where, allowed=allowed)

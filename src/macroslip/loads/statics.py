@@ -43,15 +43,11 @@ class Drivetrain:
         A value outside its range.
     """
 
-    hub_to_bearing: Annotated[
-        float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)
-    ] = 1.26
+    hub_to_bearing: Annotated[float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)] = 1.26
     bearing_to_gearbox: Annotated[
         float, Quantity("distance from main bearing to gearbox support", LENGTH, 0.0, 20.0, above=True)
     ] = 2.2
-    tilt: Annotated[
-        float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)
-    ] = math.radians(5.0)
+    tilt: Annotated[float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)] = math.radians(5.0)
     shaft_mass: Annotated[float, Quantity("mass of the shaft without rotor", MASS, 0.0, 1e6)] = 0.0
     shaft_mass_station: Annotated[
         float,
