@@ -217,7 +217,7 @@ def test_duplicate_key(told):
         ("name: \x01\n", "mine.yaml: this is not valid YAML (unacceptable character"),
         ("name: 2001-99-99\n", "mine.yaml: this is not valid YAML ("),
         ("", "mine.yaml: the file holds nothing. Allowed: a mapping of keys to entries."),
-        ("- name\n", "mine.yaml: the file holds ['name']. Allowed: a mapping"),
+        ("- name\n", "mine.yaml: the file holds a list. Allowed: a mapping"),
     ],
 )
 def test_broken_file(told, text, expected):

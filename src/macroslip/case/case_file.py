@@ -14,7 +14,7 @@ from macroslip.case.case import Case
 from macroslip.case.keys import LOAD_SOURCES, CaseFile, LawsKeys, LoadsKeys
 from macroslip.catalogue import Record
 from macroslip.catalogue.input_section import json_schema, read_fields
-from macroslip.catalogue.problems import together
+from macroslip.catalogue.problems import shown, together
 from macroslip.catalogue.source import Place, Source, parse, read_text
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, HubLoads
@@ -51,7 +51,8 @@ def read_case(path: str | PathLike[str]) -> Case:
     """
     path = Path(path)
     remedy = "Write a case file that runs with: macroslip init"
-    data, source = parse(read_text(path, "case file", remedy), str(path), remedy)
+    text = read_text(path, "the case file cannot be read", where=str(path), remedy=remedy)
+    data, source = parse(text, str(path), remedy)
     return CaseBuilder(data, source, path.parent).case()
 
 
@@ -128,7 +129,7 @@ class CaseBuilder:
         if not path.is_file():
             close = get_close_matches(name, names, n=1)
             raise InputError(
-                f"'{name}' is neither in the catalogue nor a file",
+                f"{shown(name)} is neither in the catalogue nor a file",
                 where=kind.noun,
                 allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
                 remedy=f"Did you mean {close[0]}?" if close else self.start_of_paths,

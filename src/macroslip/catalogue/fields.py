@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -55,7 +56,28 @@ def allowed_text(field: FieldInfo, dimension: Dimension | None, unit: str = "") 
     return f"a {'whole ' if field.annotation is int else ''}number {' and '.join(bounds)}"
 
 
-def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict[str, Any]:
+def is_allowed(field: FieldInfo, si_value: float) -> bool:
+    """Whether a value is within the bounds of a field.
+
+    Parameters
+    ----------
+    field : FieldInfo
+        The field, whose bounds are in SI.
+    si_value : float
+        The value [SI].
+    """
+    tests = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
+    return all(
+        test(si_value, getattr(item, name))
+        for name, test in tests.items()
+        for item in field.metadata
+        if hasattr(item, name)
+    )
+
+
+def schema(
+    record: type[BaseModel], title: str, tags: Mapping[str, str], derivable: frozenset[str] = frozenset()
+) -> dict[str, Any]:
     """Build the JSON Schema (2020-12) of the file format of a record class.
 
     Parameters
@@ -66,6 +88,8 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
         Title of the schema.
     tags : Mapping[str, str]
         Provenance tags and their meaning.
+    derivable : frozenset of str
+        Quantities that may follow from others.
 
     Returns
     -------
@@ -113,6 +137,6 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
         "title": title,
         "type": "object",
         "properties": properties,
-        "required": [key for key, field in record.model_fields.items() if field.is_required()],
+        "required": [key for key, field in record.model_fields.items() if field.is_required() and key not in derivable],
         "additionalProperties": False,
     }

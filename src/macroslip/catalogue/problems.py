@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 
 from macroslip.errors import InputError
 
-#: Problems that a message spells out.
-_LISTED = 20
+MOST_PROBLEMS = 20
+"""Problems that one message lists."""
 
 
 def shown(value: object) -> str:
@@ -43,7 +43,8 @@ def unknown_key(key: object, allowed: Iterable[str], *, where: str = "", inside:
     b.yaml, line 3: the key 'witdh' is unknown. Did you mean 'width'?
     """
     allowed = list(allowed)
-    close = difflib.get_close_matches(str(key), allowed, n=1)
+    # Comparing takes the square of the length; no key is that long.
+    close = difflib.get_close_matches(str(key)[:60], allowed, n=1)
     return InputError(
         f"the key {shown(key)} {f'inside {inside} ' if inside else ''}is unknown",
         where=where,
@@ -77,9 +78,9 @@ class Problems(InputError):
 
     def __init__(self, parts: Sequence[InputError]):
         self.parts = list(parts)
-        listed = " ".join(f"({number}) {part}" for number, part in enumerate(parts[:_LISTED], 1))
-        more = f" ... and {len(parts) - _LISTED} more" if len(parts) > _LISTED else ""
-        super().__init__(f"{len(parts)} problems: {listed}{more}")
+        listed = " ".join(f"({n}) {part}" for n, part in enumerate(parts[:MOST_PROBLEMS], 1))
+        rest = len(parts) - MOST_PROBLEMS
+        super().__init__(f"{len(parts)} problems: {listed}" + (f" And {rest} more." if rest > 0 else ""))
 
     def __reduce__(self) -> tuple[type[Problems], tuple[list[InputError]]]:
         return Problems, (self.parts,)

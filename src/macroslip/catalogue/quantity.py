@@ -45,7 +45,8 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "", where: str =
     """
     pure, subject = dimension is NUMBER, f"{what} is {shown(text)}, which" if what else shown(text)
     allowed = "a number" if pure else f"a number with its unit, {dimension.choices}"
-    match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})\s*(?P<unit>[^\d\s.,].*?)?\s*", text)
+    # What follows the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
+    match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,]|$)\s*(?P<unit>.*?)\s*", text)
     if match is None:
         decimal = re.match(r"\s*[+-]?\d+,\d", text)
         example = "1" if pure else f"1 {dimension.si_unit}"
@@ -53,9 +54,9 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "", where: str =
         raise InputError(f"{subject} is not a quantity", where=where, allowed=allowed, remedy=remedy)
     number, unit = match["number"], match["unit"] or ("1" if pure else None)
     if unit is None:
-        example = shown(f"{number} {dimension.si_unit}").strip("'")
-        remedy = f"Write {example}, for example."
-        raise InputError(f"{subject} has no unit", where=where, allowed=allowed, remedy=remedy)
+        example = shown(f"{number} {dimension.si_unit}")
+        remedy = f"Write {example if what else example[1:-1]}, for example."
+        raise InputError(f"{subject} {'does not give its' if what else 'has no'} unit", where=where, allowed=allowed, remedy=remedy)
     if unit not in dimension.units:
         remedy = "Write the number alone." if pure else "Convert it to one of these units."
         raise InputError(

@@ -58,7 +58,7 @@ def _with_bearing(case: Case, **values: float) -> Case:
 
 
 def with_inlet_temperature(case: Case, temperature: float) -> Case:
-    """The case with its lubricant at another inlet temperature [K], by `Lubricant.at_inlet`.
+    """The case with its lubricant at another inlet temperature [K], by `Lubricant.at`.
 
     Examples
     --------
@@ -67,7 +67,7 @@ def with_inlet_temperature(case: Case, temperature: float) -> Case:
     >>> round(warm.lubricant.viscosity, 4)
     0.1332
     """
-    return dataclasses.replace(case, lubricant=case.lubricant.at_inlet(temperature))
+    return dataclasses.replace(case, lubricant=case.lubricant.at(temperature))
 
 
 def film_factor(case: Case) -> float:

@@ -97,7 +97,7 @@ VALUES = (
         low=20.0,
         high=50.0,
         tag="P",
-        reason="the paper's 35 °C and 15 K either way, cold to warm; changes viscosity only",
+        reason="the paper's 35 °C and 15 K either way, cold to warm; viscosity, its coefficients, density and Eyring stress follow",
     ),
     UncertainValue(
         name=HUB,
@@ -155,7 +155,7 @@ def with_values(case: Case, values: Mapping[str, float]) -> Case:
         hardness=1e9 * values[HARDNESS],
         cage_youngs_modulus=1e9 * values[CAGE],
     )
-    oil = oil.at_inlet(values[TEMPERATURE] + 273.15).replace(
+    oil = oil.at(values[TEMPERATURE] + 273.15).replace(
         limiting_shear=values[LIMITING], boundary_friction=values[BOUNDARY], starvation=values[STARVATION]
     )
     drivetrain = dataclasses.replace(case.drivetrain, hub_to_bearing=values[HUB], bearing_to_gearbox=values[GEARBOX])

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
 #: Keys of a case that have a place of their own in a study.
 _ELSEWHERE = {"loads": "loads", "bearing": "bearings", "lubricant": "lubricants"}
-_QUANTITY = re.compile(rf"\s*(?P<number>{NUMBER_PATTERN})\s*(?P<unit>[^\d\s.,].*?)\s*")
+_QUANTITY = re.compile(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,])\s*(?P<unit>\S.*?)\s*")
 
 
 @dataclass(frozen=True)

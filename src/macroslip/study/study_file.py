@@ -42,7 +42,8 @@ def read_study(path: str | PathLike[str]) -> Study:
         If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
     """
     path = Path(path)
-    data, source = parse(read_text(path, "study file", _REMEDY), str(path), _REMEDY)
+    text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
+    data, source = parse(text, str(path), _REMEDY)
     return _study(data, source, path.parent)
 
 
