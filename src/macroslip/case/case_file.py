@@ -56,6 +56,18 @@ def read_case(path: str | PathLike[str]) -> Case:
     return CaseBuilder(data, source, path.parent).case()
 
 
+def files_named_in(path: Path) -> list[Path]:
+    """Files that a case file names: bearing, lubricant and loads. None of a file that cannot be read."""
+    try:
+        data, _ = parse(read_text(path, "the case file cannot be read"), str(path))
+    except InputError:
+        return []  # whoever reads the case says what is wrong with it
+    loads = data.get("loads")
+    named = [data.get("bearing"), data.get("lubricant")]
+    named += [loads.get("file"), loads.get("bearing_file")] if isinstance(loads, Mapping) else []
+    return [path.parent / name for name in named if isinstance(name, str) and "\0" not in name]
+
+
 def case_schema() -> dict[str, Any]:
     """JSON Schema (2020-12) of the case file, for editors and for programs that write such files."""
     return {

@@ -18,9 +18,10 @@ from pydantic_core import core_schema
 
 from macroslip.catalogue.entry import is_finite_number
 from macroslip.catalogue.problems import shown
-from macroslip.catalogue.quantity import NUMBER_PATTERN, parse_quantity, quantity_pattern
+from macroslip.catalogue.quantity import parse_quantity, quantity_pattern
 from macroslip.catalogue.units import ANGLE, LENGTH, MASS, NUMBER, TIME, Dimension
 from macroslip.errors import InputError
+from macroslip.files import check_no_zero_byte
 
 #: Context of a validation whose values come from a file.
 IN_FILE = "file"
@@ -304,17 +305,6 @@ class Texts(Form):
         """Text or a list of texts."""
         several = {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True}
         return {"anyOf": [{"type": "string"}, several]}
-
-
-def check_no_zero_byte(text: str) -> None:
-    """Refuse a character that no path may contain, and that would show only when the path is used.
-
-    Raises
-    ------
-    InputError
-    """
-    if "\0" in text:
-        raise InputError(f"{shown(text)} holds a zero byte", allowed="text without it", remedy="Write the name anew.")
 
 
 @dataclass(frozen=True)

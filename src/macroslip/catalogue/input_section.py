@@ -17,10 +17,11 @@ from pydantic import ConfigDict, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, core_schema
 
-from macroslip.catalogue.forms import IN_FILE, Choice, Form, check_no_zero_byte
+from macroslip.catalogue.forms import IN_FILE, Choice, Form
 from macroslip.catalogue.problems import shown, together, unknown_key
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
+from macroslip.files import check_no_zero_byte
 
 Kind = TypeVar("Kind")
 

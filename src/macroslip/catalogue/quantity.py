@@ -56,7 +56,9 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "", where: str =
     if unit is None:
         example = shown(f"{number} {dimension.si_unit}")
         remedy = f"Write {example if what else example[1:-1]}, for example."
-        raise InputError(f"{subject} {'does not give its' if what else 'has no'} unit", where=where, allowed=allowed, remedy=remedy)
+        raise InputError(
+            f"{subject} {'does not give its' if what else 'has no'} unit", where=where, allowed=allowed, remedy=remedy
+        )
     if unit not in dimension.units:
         remedy = "Write the number alone." if pure else "Convert it to one of these units."
         raise InputError(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.study.durable import write_durably
+from macroslip.files import write_durably
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
 from macroslip.study.outcome import Outcome

@@ -12,7 +12,7 @@ from macroslip.result.simulate import usable_processors
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
 from macroslip.study.crew import Crew, ThisProcess
 from macroslip.study.cycles import check_installed as check_fatpack
-from macroslip.study.durable import make_folder
+from macroslip.files import make_folder
 from macroslip.study.lock import locked
 from macroslip.study.progress import Progress
 from macroslip.study.session import Ended, Session

@@ -13,7 +13,7 @@ from macroslip.case.case import Case
 from macroslip.errors import InputError, MacroslipError
 from macroslip.loads import BearingLoads, HubLoads, main_bearing_load
 from macroslip.study.build import read_loads, template
-from macroslip.study.durable import write_durably
+from macroslip.files import write_durably
 from macroslip.study.key import case_key, program
 from macroslip.study.outcome import Outcome
 from macroslip.study.settings import RECORDS, Setting
