@@ -152,7 +152,7 @@ def new_file(path: Path, *, force: bool) -> Iterator[Path]:
         raise InputError(
             f"the file was not written ({error.strerror or error})",
             where=str(path),
-            remedy="Free some space there or choose another folder; nothing partial was left behind.",
+            remedy="Make room there or choose another folder; nothing partial was left behind.",
         ) from error
     finally:
         temporary.unlink(missing_ok=True)

@@ -9,7 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from macroslip import files, InputError, MacroslipError, open_study, run_study
+from macroslip import InputError, MacroslipError, files, open_study, run_study
 from macroslip.study import journal as journal_module
 from macroslip.study import tables as tables_module
 from macroslip.study.study_file import study_of

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.files import check_new_file, new_file
 from macroslip.errors import MacroslipError
+from macroslip.files import check_new_file, new_file
 
 PAGE = "report.html"
 

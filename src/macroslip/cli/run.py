@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.files import check_new_file, new_file
 from macroslip.cli.progress import progress_bar
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,11 +8,11 @@ from os import PathLike
 from pathlib import Path
 
 from macroslip.errors import InputError, MacroslipError
+from macroslip.files import make_folder
 from macroslip.result.simulate import usable_processors
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
 from macroslip.study.crew import Crew, ThisProcess
 from macroslip.study.cycles import check_installed as check_fatpack
-from macroslip.files import make_folder
 from macroslip.study.lock import locked
 from macroslip.study.progress import Progress
 from macroslip.study.session import Ended, Session

@@ -13,8 +13,8 @@ from typing import Any
 
 import macroslip
 from macroslip.errors import MacroslipError
-from macroslip.study.crew import Crew
 from macroslip.files import make_folder
+from macroslip.study.crew import Crew
 from macroslip.study.journal import Journal
 from macroslip.study.key import program
 from macroslip.study.log import Log

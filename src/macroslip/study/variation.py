@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from macroslip.catalogue.input_section import MappingOf, input_section
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 from macroslip.study.settings import Setting
-
 
 METHODS = ("latin-hypercube", "sobol")
 SCALES = ("linear", "log")

@@ -11,9 +11,9 @@ from typing import Any
 
 from macroslip.case.case import Case
 from macroslip.errors import InputError, MacroslipError
+from macroslip.files import write_durably
 from macroslip.loads import BearingLoads, HubLoads, main_bearing_load
 from macroslip.study.build import read_loads, template
-from macroslip.files import write_durably
 from macroslip.study.key import case_key, program
 from macroslip.study.outcome import Outcome
 from macroslip.study.settings import RECORDS, Setting
