@@ -142,21 +142,21 @@ def test_input_page_names_every_key_of_a_case():
     assert [name for name in names if name not in quoted] == []
 
 
-def test_campaigns_page_names_every_key_of_a_study():
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8"))
+def test_studies_page_names_every_key_of_a_study():
+    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"))
     names = [key for key, _ in keys_of(StudyFile) if key != "variations"]
     assert [name for name in names if name not in quoted] == []
     choices = [*METHODS, *SCALES, *KINDS, "values", "low", "high", "unit", "scale"]
     assert [name for name in choices if name not in quoted] == []
 
 
-def test_campaigns_page_has_the_sentence_of_every_outcome():
-    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+def test_studies_page_has_the_sentence_of_every_outcome():
+    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     assert [outcome for outcome in Outcome if f"| `{outcome}` | {outcome.sentence} |" not in text] == []
 
 
-def test_campaigns_page_names_every_file_every_table_and_every_variable(tmp_path):
-    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+def test_studies_page_names_every_file_every_table_and_every_variable(tmp_path):
+    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     study = {"case": {"rollers": [0], "loads": {"end": "8 s"}}, "loads": {"bundled": ["14B"]}, "cycles": True}
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
@@ -167,8 +167,8 @@ def test_campaigns_page_names_every_file_every_table_and_every_variable(tmp_path
     assert [name for name in names if f"`{name}`" not in text] == []
 
 
-def test_campaigns_page_gives_the_units_of_the_summary():
-    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8"), re.MULTILINE)
+def test_studies_page_gives_the_units_of_the_summary():
+    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"), re.MULTILINE)
     cells = [[cell.strip() for cell in row.split("|")] for row in rows]
     for name, (units, _) in (ROW_VARIABLES | CASE_VARIABLES).items():
         assert any(units in re.split(", ", row[1]) for row in cells if f"`{name}`" in row[0]), name
@@ -176,7 +176,7 @@ def test_campaigns_page_gives_the_units_of_the_summary():
 
 def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     assert len(read_study(ROOT / "examples" / "study.yaml")) == 96
-    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
     (tmp_path / "dlc12").mkdir()
     shutil.copy(SAMPLE, tmp_path / "dlc12" / "14mps_seed1.outb")

@@ -17,7 +17,7 @@ from macroslip.catalogue.problems import shown
 from macroslip.catalogue.units import FORCE, MOMENT, SPEED, TIME
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, bundled_cases
-from macroslip.mechanisms import MECHANISMS, MODELS, asperity_laws, rheologies, viscosities
+from macroslip.mechanisms import MECHANISMS, NAMED_SETS, asperity_laws, rheologies, viscosities
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
@@ -85,7 +85,7 @@ class Forces:
 class LawsKeys:
     """Choices of `Laws`; None leaves one as the named set has it."""
 
-    model: Annotated[str, Choice("named set of mechanisms", lambda: MODELS)] = "paper"
+    model: Annotated[str, Choice("named set of mechanisms", lambda: NAMED_SETS)] = "paper"
     film: Annotated[str | None, Choice("film thickness", _film_laws, _OWN_LAW)] = None
     starvation: Annotated[bool | None, Flag("film thinned by the lubricant's starvation factor")] = None
     inlet_heating: Annotated[bool | None, Flag("film thinned by shear heating in the inlet")] = None

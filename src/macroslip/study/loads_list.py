@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from macroslip.errors import InputError
 from macroslip.loads import bundled_cases
 from macroslip.study.pattern import Pattern
-from macroslip.study.printable import printable
+from macroslip.study.safe_text import safe_text
 
 if TYPE_CHECKING:
     from macroslip.study.study_keys import StudyLoads
@@ -91,14 +91,14 @@ def load_list(given: StudyLoads, folder: Path) -> LoadList:
     for name in names:
         if name in RESERVED or not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             raise InputError(
-                f"a field is called '{printable(name)}'",
+                f"a field is called '{safe_text(name)}'",
                 allowed=f"letters, digits and _, and none of {', '.join(RESERVED)}",
                 remedy="Give it another name.",
             )
     for load in loads:
         for name, value in load.fields.items():
             if type(value) is int and abs(value) > _LARGEST:
-                what = f"the field {name} of {printable(load.name)} is {value}"
+                what = f"the field {name} of {safe_text(load.name)} is {value}"
                 raise InputError(
                     what, allowed=f"whole numbers up to {_LARGEST}", remedy=f"Read it as text: {{{name}}}."
                 )
@@ -115,7 +115,7 @@ def _bundled(names: Sequence[str]) -> list[Load]:
     known = bundled_cases()
     wrong = [name for name in names if name not in known and name != "all"]
     if wrong:
-        raise InputError(f"there is no bundled case '{printable(wrong[0])}'", allowed=f"all, or {', '.join(known)}")
+        raise InputError(f"there is no bundled case '{safe_text(wrong[0])}'", allowed=f"all, or {', '.join(known)}")
     chosen = known if "all" in names else names
     return [Load(name, {"wind_speed": float(name[:-1]), "turbulence": name[-1]}) for name in chosen]
 
@@ -137,7 +137,7 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
                 f"no file fits the pattern '{pattern.text}'",
                 remedy=f"Relative paths start at {folder.resolve()}."
                 + (
-                    f" The fields of {len(unread)} files could not be read, {printable(unread[0])} first."
+                    f" The fields of {len(unread)} files could not be read, {safe_text(unread[0])} first."
                     if unread
                     else ""
                 ),
@@ -146,7 +146,7 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
         if unread:
             remarks.append(
                 f"{len(unread)} files fit the pattern '{pattern.text}' but for their fields and are left out, "
-                f"{printable(unread[0])} first"
+                f"{safe_text(unread[0])} first"
             )
     return list(loads.values()), remarks
 
@@ -185,5 +185,5 @@ def _from_table(path: Path) -> list[Load]:
     loads = [Load(row["file"], {name: value for name, value in row.items() if name != "file"}) for row in rows]
     name, times = Counter(load.name for load in loads).most_common(1)[0]
     if times > 1:
-        raise InputError(f"the file {printable(name)} stands {times} times", where=where, remedy="Keep one row of it.")
+        raise InputError(f"the file {safe_text(name)} stands {times} times", where=where, remedy="Keep one row of it.")
     return loads

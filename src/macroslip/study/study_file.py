@@ -19,7 +19,7 @@ from macroslip.study.study import Study
 from macroslip.study.study_keys import StudyFile, Variations
 from macroslip.study.variation import grid
 
-_REMEDY = "docs/campaigns.md has a study file that runs."
+_REMEDY = "docs/studies.md has a study file that runs."
 
 
 def read_study(path: str | PathLike[str]) -> Study:
@@ -30,7 +30,7 @@ def read_study(path: str | PathLike[str]) -> Study:
     Parameters
     ----------
     path : path
-        YAML file; docs/campaigns.md explains every key. Relative paths in it start at its own folder.
+        YAML file; docs/studies.md explains every key. Relative paths in it start at its own folder.
 
     Returns
     -------
