@@ -24,6 +24,7 @@ _HOMES = {
     "BackwardEuler": "macroslip.case.case",
     "Window": "macroslip.case.case",
     "Traces": "macroslip.case.case",
+    "read_case": "macroslip.case.case_file",
     "simulate": "macroslip.result.simulate",
     "rate_case": "macroslip.result.rating",
     "read_study": "macroslip.study.study_file",

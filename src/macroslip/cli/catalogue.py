@@ -10,7 +10,7 @@ import typer
 
 from macroslip.cli.bearing import add_commands
 from macroslip.cli.failure import command
-from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -117,7 +117,7 @@ def estimate(
         typer.echo(oil.as_yaml(), nl=False)
         return
     check_new_file(output, force=force)
-    with new_file(output) as temporary:
+    with new_file(output, force=force) as temporary:
         temporary.write_text(oil.as_yaml(), encoding="utf-8")
     typer.echo(f"written: {output}\nshow it: macroslip lubricant show {output}")
 

@@ -101,8 +101,8 @@ def ring_motion(loads: BearingLoads, bearing: Bearing, model: RollerModel, highe
             "ends",
             where=f"{loads.source}, t = {time[sample]:g} s",
             allowed=f"roller loads up to {highest_load / 1e3:.4g} kN for {bearing.name}",
-            remedy="Check units and signs of the loads, the bearing's size and its osculation; a truncated contact has "
-            "pressures and films these formulas do not describe",
+            remedy="Check units and signs of the loads, the bearing's size and its osculation. Loads a little higher are "
+            "taken with laws: {model: physical}, whose microslip cuts the contact off at the roller's ends.",
         )
     return Motion(time, speed, angle, displacement), largest
 
