@@ -26,6 +26,7 @@ _HOMES = {
     "Traces": "macroslip.case.case",
     "read_case": "macroslip.case.case_file",
     "simulate": "macroslip.result.simulate",
+    "rate_case": "macroslip.result.rating",
     "read_study": "macroslip.study.study_file",
     "run_study": "macroslip.study.run",
     "open_study": "macroslip.study.reader",

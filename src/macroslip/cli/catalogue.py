@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from macroslip.cli.bearing import add_commands
 from macroslip.cli.failure import command
 from macroslip.files import check_new_file, new_file
 
@@ -122,5 +123,6 @@ def estimate(
 
 
 bearing = _catalogue("bearing", _bearing_class, _of_bearing)
+add_commands(bearing)
 lubricant = _catalogue("lubricant", _lubricant_class, lambda lubricant: [])
 command(lubricant, estimate)
