@@ -32,7 +32,7 @@ def solve(history: History, reference: Reference, step: float, tolerance: float)
     # Asked for a little early, a step's state is found whatever rounding does to its time.
     times = history.start + step * (np.stack([lower, lower + 1.0], axis=1).ravel() - 0.01)
     times, back = np.unique(times, return_inverse=True)
-    record = new_record(np.array([history.start, history.end]), times)
+    record = new_record(np.array([history.start, history.end]), times, history.limits.speed_scale)
     place = history.model, history.motion, history.start_angle, 0.0, history.end
     status = integrate_fixed_step(*place, step, True, tolerance, np.inf, record)
     around = record.trace[back, 0].reshape(-1, 2)

@@ -17,7 +17,7 @@ REFERENCE_TOLERANCE = 1e-9
 
 def integrate(history: History, tolerance: float, trace_time: np.ndarray) -> tuple[int, Record]:
     """Status and record of the whole history; a step ends at each trace time [s]."""
-    record = new_record(np.array([history.start, history.end]), trace_time)
+    record = new_record(np.array([history.start, history.end]), trace_time, history.limits.speed_scale)
     stops = np.unique(np.concatenate([trace_time, [history.end]]))
     limits = history.limits._replace(tolerance=tolerance)
     classes = empty_classes(history.motion.time.size)

@@ -28,11 +28,12 @@ def solve(bearing, lubricant, displacement, speed, start_angle, slip, times, acc
         tolerance=tolerance,
         max_steps=10**6,
         speed_scale=fastest,
+        energy_scale=fastest**2 / model.mobility,
         longest_step=0.1 * times[-1],
         cold_slip=0.0,
         firm=firm_interference(model, fastest),
     )
-    record = new_record(np.array([0.0, times[-1]]), np.array(times))
+    record = new_record(np.array([0.0, times[-1]]), np.array(times), fastest)
     status = integrate_radau(
         model, motion, start_angle, slip, np.array(times), limits, empty_classes(time.size), record
     )

@@ -254,7 +254,7 @@ def setup(laws, force, speed, time, *, gravity=False):
 
 
 def integrate(model, motion, limits, angle, slip, trace_time):
-    record = new_record(np.array([motion.time[0]]), np.asarray(trace_time))
+    record = new_record(np.array([motion.time[0]]), np.asarray(trace_time), limits.speed_scale)
     stops = np.unique(np.concatenate([trace_time, motion.time[-1:]]))
     status = integrate_radau(model, motion, angle, slip, stops, limits, empty_classes(motion.time.size), record)
     assert status == Status.COMPLETED

@@ -224,8 +224,8 @@ def integrate_radau(model, motion, start_angle, slip, stops, limits, classes, re
 def _first_guess(model, h, slip, forces, at, at1, at2, at3, drifts, follows, exponent):
     """Slip at the stages [m/s] to start Newton's iteration from.
 
-    That of a roller which `drifts` under small forces, changed as the forces at the start say, or the slip before the
-    step; then, for one that `follows` its loads, what `held_slip` makes of it.
+    That of a roller which `drifts` under small forces, changed as the forces at the start say; that of one stuck to the
+    cage, which keeps its spin; else the slip before the step; then, for one that `follows` its loads, what `held_slip` makes of it.
     """
     v1, v2, v3 = slip, slip, slip
     if drifts:
@@ -233,6 +233,11 @@ def _first_guess(model, h, slip, forces, at, at1, at2, at3, drifts, follows, exp
         v1 = slip + (at1.ring_speed - at.ring_speed) + drift * NODES[0] * h
         v2 = slip + (at2.ring_speed - at.ring_speed) + drift * NODES[1] * h
         v3 = slip + (at3.ring_speed - at.ring_speed) + drift * h
+    elif forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope):
+        # What holds the roller is the cage: its spin stays as it is, at zero.
+        v1 = slip + (at1.ring_speed - at.ring_speed)
+        v2 = slip + (at2.ring_speed - at.ring_speed)
+        v3 = slip + (at3.ring_speed - at.ring_speed)
     if follows:
         v1 = held_slip(model.inner, v1, at, at1, exponent)
         v2 = held_slip(model.inner, v2, at, at2, exponent)

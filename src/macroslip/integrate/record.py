@@ -21,6 +21,9 @@ TRACES = (
     *("slip", "ring_speed", "roller_load", "force_inner", "force_outer", "force_cage", "cage_load"),
     *("power_inner", "power_outer", "power_cage", "film_inner", "film_outer", "film_cage", "skew_inner", "skew_outer"),
 )
+#: Part of the largest raceway speed of a history below which the ratio of spins is not taken: through standstill both
+#: spins pass zero, one a little after the other, and their ratio is any number.
+SPIN_RATIO_SPEED = 0.1
 
 
 class Record(NamedTuple):
@@ -35,7 +38,9 @@ class Record(NamedTuple):
     orbit_energy, peak_power : ndarray, shape (orbits, 3)
         Energy [J] and largest power (33) [W] in each complete orbit.
     spin_ratio : ndarray, shape (1,)
-        Smallest ω/ω_pure in the window [-].
+        Smallest ω/ω_pure in the window, of states at which the rings move past the roller at `slowest` or more [-].
+    slowest : float
+        Speed of the rings [m/s] from which on the spin ratio has a meaning.
     loaded_time, outside_time : ndarray, shape (3,)
         Time in the window with load on the interface, and the part of it outside the film law's range [s].
     count : ndarray of int, shape (3,)
@@ -68,6 +73,7 @@ class Record(NamedTuple):
     orbit_energy: np.ndarray
     peak_power: np.ndarray
     spin_ratio: np.ndarray
+    slowest: float
     loaded_time: np.ndarray
     outside_time: np.ndarray
     count: np.ndarray
@@ -83,8 +89,8 @@ class Record(NamedTuple):
     station_work: np.ndarray
 
 
-def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
-    """An empty record for the given orbit edges [s] and trace times [s]."""
+def new_record(edges: np.ndarray, trace_time: np.ndarray, highest_speed: float) -> Record:
+    """An empty record for the given orbit edges [s], trace times [s] and largest raceway speed [m/s]."""
     orbits = edges.size - 1
     extreme = np.zeros((orbits, 3, len(EXTREMES)))
     extreme[..., EXTREMES.index("film_ratio")] = np.inf
@@ -94,6 +100,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
         orbit_energy=np.zeros((orbits, 3)),
         peak_power=np.zeros((orbits, 3)),
         spin_ratio=np.full(1, np.inf),
+        slowest=SPIN_RATIO_SPEED * highest_speed,
         loaded_time=np.zeros(3),
         outside_time=np.zeros(3),
         count=np.zeros(3, dtype=np.int64),
@@ -160,7 +167,7 @@ def raise_peak(record, orbit, interface, power):
 @jit_part
 def note_state(record, model, at, forces, slip, span):
     """Book spin ratio and range of the film law for a state held over `span` [s] of the window."""
-    if at.ring_speed != 0.0:
+    if abs(at.ring_speed) >= record.slowest and at.ring_speed != 0.0:
         ratio = (at.ring_speed - slip) / at.ring_speed
         if ratio < record.spin_ratio[0]:
             record.spin_ratio[0] = ratio

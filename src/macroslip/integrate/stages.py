@@ -19,6 +19,11 @@ _MICROSLIP_FORCE_SHARE, _MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
 #: Safety factor on the residual foreseen from the curvature of the forces in earlier steps, and what is left of that
 #: curvature when a newer one is smaller.
 _BEND_SAFETY, _FORGET = 10.0, 0.7
+#: Part of the sum of force magnitudes up to which the second of two residuals may be left to a last correction without
+#: an evaluation. A larger one is no sign of convergence, however much larger the first was: but for the forces the
+#: stage equations are linear in slip, so a correction removes most of a residual that a poor guess made; and where the
+#: forces are at their limit on the wrong side, what it leaves is twice their magnitude.
+_LAST_REST = 0.5
 
 
 class Stages(NamedTuple):
@@ -131,7 +136,9 @@ def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, a
         v1 += u1
         v2 += u2
         v3 += u3
-        if foreseen <= force_part * min(magnitude(f1), magnitude(f2), magnitude(f3)) + round_off:
+        least = min(magnitude(f1), magnitude(f2), magnitude(f3))
+        is_close = iteration == 0 or size <= _LAST_REST * least + round_off
+        if is_close and foreseen <= force_part * least + round_off:
             f1, f2, f3 = shifted(f1, u1), shifted(f2, u2), shifted(f3, u3)
             s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
             converged = True

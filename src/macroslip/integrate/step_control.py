@@ -18,6 +18,9 @@ _LONGEST_TURN = 0.6
 #: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a coast and adds up;
 #: errors of energy are of either sign and its estimate is of low order, hence far too large.
 SLIP_SHARE, _ENERGY_SHARE = 0.1, 10.0
+#: Part of a roller's kinetic energy at the largest raceway speed below which a step's energy need not be known better:
+#: out of standstill there is no energy yet to compare with.
+_NO_ENERGY = 1e-9
 #: Safety factor on the step that the error asks for.
 _SAFETY = 0.8
 #: Part of a sample interval below which energy is not controlled more finely.
@@ -38,6 +41,8 @@ class Limits(NamedTuple):
         Steps after which the integration gives up.
     speed_scale : float
         Largest raceway speed |u2| of the history [m/s].
+    energy_scale : float
+        Twice the kinetic energy of a roller's spin at that speed, I_z' u2²/r² [J].
     longest_step : float
         Longest step [s].
     cold_slip : float
@@ -49,6 +54,7 @@ class Limits(NamedTuple):
     tolerance: float
     max_steps: int
     speed_scale: float
+    energy_scale: float
     longest_step: float
     cold_slip: float
     firm: float
@@ -118,7 +124,8 @@ def error_ratio(limits, slip_off, energy_off, energy, mean_power, h, sample_step
     # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a sample interval may
     # be off by what is allowed in that part.
     share = max(h, _SHORT_PART * sample_step)
-    return max(error, abs(energy_off) / (_ENERGY_SHARE * limits.tolerance * max(mean_power * share, energy) + 1e-300))
+    worth = max(mean_power * share, energy, _NO_ENERGY * limits.energy_scale)
+    return max(error, abs(energy_off) / (_ENERGY_SHARE * limits.tolerance * worth + 1e-300))
 
 
 @jit_part

@@ -82,7 +82,7 @@ def simulate(
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
 
     def run(row: str, angle: float) -> tuple[int, Record]:
-        record = new_record(edges, trace_time)
+        record = new_record(edges, trace_time, highest_speed(motion, model))
         if limits is not None:
             classes = empty_classes(motion.time.size)
             return integrate_radau(models[row], motion, angle, 0.0, stops, limits, classes, record), record
@@ -121,7 +121,7 @@ def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float)
     """Bounds of the Radau integrator that hold for all rollers of the case; None for the Euler methods."""
     if not isinstance(case.integrator, Radau):
         return None
-    speed = float(np.max(np.abs(motion.shaft_speed))) * model.orbit_ratio * model.outer_radius
+    speed = highest_speed(motion, model)
     heaviest = largest + abs(model.weight_in_plane) + model.centrifugal * (speed / model.outer_radius) ** 2
     # Twice the raceways' speed bounds the slip, and with it the thickest film.
     cold = rising_at(model, heaviest, heaviest, speed, 2.0 * speed) if heaviest else np.inf
@@ -129,10 +129,16 @@ def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float)
         tolerance=float(case.integrator.tolerance),
         max_steps=case.integrator.max_steps,
         speed_scale=speed,
+        energy_scale=speed**2 / model.mobility,
         longest_step=longest_step(motion, model.orbit_ratio),
         cold_slip=float(cold),
         firm=firm_interference(model, speed),
     )
+
+
+def highest_speed(motion: Motion, model: RollerModel) -> float:
+    """Largest raceway speed |u2| of the history [m/s]."""
+    return float(np.max(np.abs(motion.shaft_speed))) * model.orbit_ratio * model.outer_radius
 
 
 def _largest_slip(motion: Motion, model: RollerModel) -> float:

@@ -16,6 +16,9 @@ from macroslip.traction.traction_law import rising_slip
 LIMIT_EXPONENT = 2.0 / 3.0
 #: Change of ln Q below which a step says nothing of the exponent, and how far the exponent may reasonably be.
 _TELLING, _STEEPEST = 1e-3, 3.0
+#: Largest change of speed in a step, as a factor, over which slip is taken to be in proportion to it. Out of standstill
+#: the slip before the step is the tolerance of its balance and says nothing of its proportion to speed.
+_MOST_QUICKENING = 5.0
 
 
 @jit
@@ -71,6 +74,8 @@ def held_slip(contact, slip, at, later, exponent):
     and to a power of the load that `held_exponent` measures.
     """
     if not slips_everywhere(contact) or at.elastic_load <= 0.0 or at.ring_speed == 0.0:
+        return slip
+    if abs(later.ring_speed) > _MOST_QUICKENING * abs(at.ring_speed):
         return slip
     return slip * (later.elastic_load / at.elastic_load) ** exponent * (later.ring_speed / at.ring_speed)
 
