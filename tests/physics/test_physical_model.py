@@ -19,18 +19,19 @@ from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, W
 from macroslip.bearing import Bearing
 from macroslip.bearing.frames import initial_angles
 from macroslip.errors import InputError
+from macroslip.integrate.load_zone import empty_classes
+from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
 from macroslip.integrate.status import Status
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.result.simulate import radau_limits
-from macroslip.ring.load_zone import empty_classes
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion, instant
 from macroslip.roller.contact_force import friction_power, slip_field
 from macroslip.roller.forces import slip_forces, station
-from macroslip.roller.model import roller_model
+from macroslip.roller.model import ring_geometry, roller_model
 from macroslip.traction.film_shear_law import microslip_traction
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
@@ -248,7 +249,7 @@ def setup(laws, force, speed, time, *, gravity=False):
     loads = BearingLoads(time, np.broadcast_to(speed, time.shape) * 1.0, np.tile(force, (time.size, 1)), "made")
     case = Case(loads=loads, laws=laws, gravity=gravity, drag=gravity, integrator=Radau(tolerance=1e-6))
     model = roller_model(BEARING, OIL, 1, tilt=case.drivetrain.tilt, gravity=gravity, drag=gravity, laws=laws)
-    motion, largest = ring_motion(loads, BEARING, model, truncation_load(BEARING, OIL))
+    motion, largest = ring_motion(loads, BEARING, ring_geometry(BEARING, model), truncation_load(BEARING, OIL))
     assert isinstance(motion, Motion)
     return model, motion, radau_limits(case, motion, model, largest), initial_angles("downwind", 28)[0]
 
@@ -256,7 +257,7 @@ def setup(laws, force, speed, time, *, gravity=False):
 def integrate(model, motion, limits, angle, slip, trace_time):
     record = new_record(np.array([motion.time[0]]), np.asarray(trace_time), limits.speed_scale)
     stops = np.unique(np.concatenate([trace_time, motion.time[-1:]]))
-    status = integrate_radau(model, motion, angle, slip, stops, limits, empty_classes(motion.time.size), record)
+    status = integrate_radau(Path(model, motion, angle, limits), slip, stops, empty_classes(motion.time.size), record)
     assert status == Status.COMPLETED
     return record.trace[:, 0]
 
@@ -350,7 +351,7 @@ def test_slip_of_an_orbiting_roller_is_the_balance_of_the_instant():
     model = roller_model(BEARING, OIL, 1, tilt=Drivetrain().tilt, laws=FULL)
     from macroslip.roller.model import truncation_load
 
-    motion, _ = ring_motion(loads, BEARING, model, truncation_load(BEARING, OIL))
+    motion, _ = ring_motion(loads, BEARING, ring_geometry(BEARING, model), truncation_load(BEARING, OIL))
     checked = 0
     for k in range(1, found.time.size):
         t = float(found.time[k])

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.film.film_law import film_thickness
+from macroslip.integrate.held_contact import slip_variation, steady_slip
 from macroslip.mechanisms import Laws
 from macroslip.roller.contact_force import (
     CurvedContact,
@@ -19,7 +20,6 @@ from macroslip.roller.contact_force import (
 )
 from macroslip.roller.contacts import contact_shape
 from macroslip.roller.forces import Station, slip_forces
-from macroslip.roller.held_contact import slip_variation, steady_slip
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.traction.slip_field import slip_at
 

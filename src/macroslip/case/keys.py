@@ -5,8 +5,9 @@ from __future__ import annotations
 from macroslip.case.form import Choice, Numbers, Plain, Quantity, Vector
 from macroslip.case.section import Section, Variants
 from macroslip.catalogue.units import ANGLE, FORCE, LENGTH, MASS, MOMENT, SPEED, TIME
+from macroslip.constants import MECHANISMS
 from macroslip.loads import bundled_cases
-from macroslip.mechanisms import MECHANISMS, MODELS, asperity_laws, rheologies, viscosities
+from macroslip.mechanisms import MODELS, asperity_laws, rheologies, viscosities
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 

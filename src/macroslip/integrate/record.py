@@ -12,6 +12,7 @@ from numba.extending import overload
 from macroslip.compiled import jit_part
 from macroslip.film.film_law import film_in_range, film_thickness
 from macroslip.integrate.detail import EXTREMES, MECHANISMS, STATIONS
+from macroslip.integrate.tuning import SPIN_RATIO_SPEED
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
 
 #: Meaning of `Record.count` by position.
@@ -21,9 +22,6 @@ TRACES = (
     *("slip", "ring_speed", "roller_load", "force_inner", "force_outer", "force_cage", "cage_load"),
     *("power_inner", "power_outer", "power_cage", "film_inner", "film_outer", "film_cage", "skew_inner", "skew_outer"),
 )
-#: Part of the largest raceway speed of a history below which the ratio of spins is not taken: through standstill both
-#: spins pass zero, one a little after the other, and their ratio is any number.
-SPIN_RATIO_SPEED = 0.1
 
 
 class Record(NamedTuple):
@@ -206,8 +204,17 @@ def _skew_moment(detail):
 
 
 @jit_part
-def write_trace(record, model, index, at, forces, slip):
-    """Write the state at trace time `index`."""
+def write_traces(record, model, first, time, at, forces, slip):
+    """Write the state at all trace times from index `first` on that are not after `time` [s]; the index after them."""
+    index = first
+    while index < record.trace_time.size and record.trace_time[index] <= time:
+        _write_trace(record, model, index, at, forces, slip)
+        index += 1
+    return index
+
+
+@jit_part
+def _write_trace(record, model, index, at, forces, slip):
     row = record.trace[index]
     row[0] = slip
     row[1] = at.ring_speed
@@ -222,4 +229,5 @@ def write_trace(record, model, index, at, forces, slip):
     row[11] = _film(model.outer, at.outer_load, raceway_speed)
     row[12] = _film(model.cage, abs(forces.cage_load), 0.5 * abs(at.ring_speed - slip))
     row[13] = skew_moment(forces.inner_detail)
-    row[14] = skew_moment(forces.outer_detail)
+    # A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer one.
+    row[14] = -skew_moment(forces.outer_detail)
