@@ -163,6 +163,30 @@ def test_traces_stay_within_the_laws(blown):
     assert (blown.film_thickness.where(blown.film_thickness.notnull(), 1e-6) > 1e-8).all()
 
 
+def test_net_skew_moment_of_a_held_roller_is_the_small_difference_of_its_raceways():
+    """Traction that drives the spin acts along +x' at the inner raceway and along −x' at the outer one.
+
+    Forces along x' balance, and so nearly do the moments they make about the contact normal: both are moments of the
+    same stations on the same axis, of the parts of traction that change sign along it.
+    """
+    loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.1, 8.0)
+    case = Case(loads=loads, rollers=[0], laws=Laws.physical(), traces=Traces(step=0.02, start=3.0))
+    found = simulate(case).isel(roller=0).sel(row="downwind")
+    at = found.isel(time=int(found.roller_load.argmax("time")))
+    model = roller_model(BEARING, OIL, 1, tilt=case.drivetrain.tilt, laws=Laws.physical())
+    load, slip = float(at.roller_load), float(at.slip)
+    ring_speed = float(at.spin_pure) * model.radius
+    along_x = 0.0
+    for contact, sign in ((model.inner, 1.0), (model.outer, -1.0)):
+        # Body forces of some tens of newtons beside the load are left out.
+        force = raceway_force(contact, load, slip, ring_speed, abs(ring_speed - 0.5 * slip), 0.0)
+        along_x += sign * force.detail.skew
+    inner, outer = at.skew_moment.values
+    assert abs(along_x) < 0.3 * abs(inner)
+    assert inner * outer < 0.0
+    assert inner + outer == pytest.approx(along_x, abs=0.02 * abs(inner))
+
+
 def test_microslip_needs_a_load(blown):
     """Rows' energies go with what their rollers carry."""
     ratio = blown.energy.sum(["roller", "interface"])
