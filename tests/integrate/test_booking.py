@@ -66,9 +66,9 @@ def test_energy_converges_with_the_fifth_order_of_the_method(path):
 def test_peak_of_each_orbit_is_the_largest_power_in_it(path):
     record, _, _ = walk(path, [0.02] * 15)
     fine = []
-    for end in np.linspace(0.005, 0.3, 60):
-        _, _, state = walk(path, [0.01] * int(end // 0.01) + [end % 0.01] * (end % 0.01 > 1e-6))
-        fine.append((end, state.powers))
+    for steps in range(1, 61):
+        _, _, state = walk(path, [0.005] * steps)
+        fine.append((0.005 * steps, state.powers))
     start = state_at(path, 0.0, 0, 0.05).powers
     first = np.max([start, *(powers for end, powers in fine if end <= EDGES[1])], axis=0)
     second = np.max([powers for end, powers in fine if end >= EDGES[1] - 1e-9], axis=0)
