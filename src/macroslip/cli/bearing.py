@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from macroslip.cli.failure import command
-from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.files import check_new_file, new_file
 from macroslip.errors import InputError, MacroslipError
 
 if TYPE_CHECKING:
