@@ -11,6 +11,7 @@ from macroslip.case.section import Section
 from macroslip.catalogue.entry import is_finite_number
 from macroslip.catalogue.problems import shown, together, unknown_key
 from macroslip.errors import InputError
+from macroslip.result.dataset import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Range, Sample
 
@@ -37,6 +38,26 @@ class Texts:
         if not texts or not all(isinstance(text, str) and text for text in texts) or len(set(texts)) != len(texts):
             raise place.problem(f"it is {shown(value)}", self.form, f"It is the {self.about}.")
         return texts
+
+
+@dataclass(frozen=True)
+class Variables:
+    """Names of variables of a result."""
+
+    about: str
+
+    @property
+    def form(self) -> str:
+        """What is accepted, in words."""
+        return f"a list of variables of a result: {', '.join(VARIABLES)}"
+
+    def read(self, value: Any, place: Place) -> list[str]:
+        """A list in any case."""
+        names = value if isinstance(value, list) else [value]
+        wrong = [name for name in names if name not in VARIABLES]
+        if wrong or not names:
+            raise place.problem(f"it is {shown(wrong[0] if wrong else value)}", self.form, f"It is the {self.about}.")
+        return names
 
 
 @dataclass(frozen=True)
@@ -209,6 +230,7 @@ STUDY = Section(
             },
         ),
         "cycles": Plain("whether to count the cycles of the bearing's load", bool),
+        "keep": Variables("variables of a result to store; all if left out"),
     },
     required=("loads",),
 )
