@@ -104,7 +104,7 @@ def _of_summary(run: xr.Dataset) -> xr.Dataset:
     """Numbers of one run's summary, under the names of the study."""
     import xarray as xr
 
-    found = xr.Dataset(coords={"row": run.row})
+    found = xr.Dataset(coords={"row": run.row.values})
     for name, (source, long_name) in _OF_SUMMARY.items():
         found[name] = (run[source].dims, run[source].values, {"units": run[source].units, "long_name": long_name})
     return found

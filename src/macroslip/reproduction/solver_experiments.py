@@ -15,8 +15,8 @@ import numpy as np
 
 from macroslip.case.case import BackwardEuler, Case, Radau
 from macroslip.loads import BearingLoads
-from macroslip.reproduction.single_roller import static_load
 from macroslip.machine import usable_processors
+from macroslip.reproduction.single_roller import static_load
 from macroslip.result.simulate import simulate
 
 if TYPE_CHECKING:
