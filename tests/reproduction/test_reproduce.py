@@ -343,6 +343,11 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, monkey
         "friction_torque.svg",
     ):
         assert (tmp_path / "results" / name).is_file()
+    documented = (Path(__file__).parents[2] / "docs" / "results.md").read_text(encoding="utf-8")
+    figures = {path.stem.removesuffix("_physical") for path in (tmp_path / "results").glob("*.png")}
+    with xr.open_dataset(tmp_path / "results" / "study_physical.nc", engine="h5netcdf") as stored:
+        names = [*summary, *stored.data_vars, *(name.removeprefix("figure_") for name in figures)]
+    assert [name for name in names if f"`{name}`" not in documented and f"`figure_{name}`" not in documented] == []
     torque = summary["figures"]["friction_torque_physical"]["data_vars"]["torque"]
     assert 1.0 < torque["data"] < 1e3
     assert torque["attrs"]["units"] == "N m"
