@@ -21,6 +21,7 @@ _OF_ROLLERS = (
     "energy", "min_spin_ratio", "outside_film_range", "status",
     "mechanism_energy", "asperity_energy", "station_energy", "quadrature_error",
 )  # fmt: skip
+_COORDINATES = ("row", "roller", "interface", "start_angle", "mechanism", "station", "raceway", "case")
 #: Quantities of every orbit of which the study keeps the extreme of the window, and which.
 _EXTREMES = {"flash_temperature": "max", "power_density": "max", "slide_roll_ratio": "max", "min_film_ratio": "min"}
 _PEAK = "largest power at any interface per orbit, over all rollers and orbits"
@@ -70,6 +71,8 @@ def paper_study(directory: Path) -> xr.Dataset:
     study = xr.concat(
         parts, xr.DataArray(opened.loads.values.tolist(), dims="case", name="case"), combine_attrs="override"
     )
+    # In an order of their own, whatever that of the files.
+    study = xr.Dataset(study.data_vars, {name: study[name] for name in _COORDINATES if name in study.coords})
     study = study.assign_coords(
         wind_speed=("case", opened.wind_speed.values, {"units": "m/s", "long_name": "mean wind speed"}),
         turbulence=("case", opened.turbulence.values.tolist(), {"units": "1", "long_name": "IEC turbulence class"}),

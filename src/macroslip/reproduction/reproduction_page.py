@@ -157,7 +157,7 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
         names = table.variation.values.tolist()
         notes = [f"{one}: {note}" for one, note in zip(names, table.note.values.tolist(), strict=True) if note]
         texts = zip(names, table.refused.values.tolist(), strict=True)
-        refused = [f"{one}: {text} Half the way to it was taken" for one, text in texts if text]
+        refused = [f"{one}: {text} The next one towards the base case was taken" for one, text in texts if text]
         blocks.append(Points(tuple(f"{note[0].upper()}{note[1:]}." for note in (*notes, *refused))))
     return Section("sensitivity", "What the result depends on", tuple(blocks))
 

@@ -113,13 +113,10 @@ def run_study(
 
 
 def _shared_out(study: Study, threads: int) -> tuple[int, int]:
-    """How many runs to compute at once in this process, and the threads of each: no more than it has rollers."""
+    """How many runs to compute at once in this process, and the threads of each: its rollers, if they are few."""
     records = {noun: next(iter(getattr(study, f"{noun}s").values())) for noun in RECORDS}
-    cases = (
-        template(study.case, list(settings), records, folder=study.folder)[0] for settings in study.models.values()
-    )
-    rollers = len(ROWS) * min(len(case.roller_numbers) for case in cases)
-    runs = max(1, threads // rollers)
+    base, _ = template(study.case, [], records, folder=study.folder)
+    runs = max(1, threads // (len(ROWS) * len(base.roller_numbers)))
     return runs, threads // runs
 
 
