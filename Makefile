@@ -2,16 +2,29 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+# Files of tests that start processes or clusters share one worker each; the rest is spread.
+PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --dist worksteal
 
-.PHONY: reproduce test bench clean
+.PHONY: reproduce test test-fast test-deep lint bench clean
 
-reproduce: $(VENV)/.ready
+reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/
 	$(BIN)/macroslip reproduce -o results
 
-test: $(VENV)/.ready
-	$(BIN)/python -m pytest $(ARGS)
+test: lint  ## everything that has to hold
+	$(PYTEST) $(ARGS)
 
-bench: $(VENV)/.ready
+test-fast: $(VENV)/.ready  ## the loop of development, under a minute
+	$(PYTEST) -m "not slow" $(or $(ARGS),tests)
+
+test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs; REPEAT rounds
+	for round in $$(seq $(or $(REPEAT),5)); do $(PYTEST) -m "hypothesis or deep" --hypothesis-profile deep $(ARGS) || exit 1; done
+
+lint: $(VENV)/.ready  ## format, lint and types
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/pyright
+
+bench: $(VENV)/.ready  ## the integrator against its rivals, measured here and now
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
 	$(BIN)/python -m benchmarks $(ARGS)
 
@@ -19,7 +32,7 @@ $(VENV)/.ready: pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "macroslip needs Python 3.11 or newer; name one with: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable '.[test]'
+	$(BIN)/python -m pip install --quiet --editable '.[test]' $(CONSTRAINTS)
 	touch $@
 
 clean:

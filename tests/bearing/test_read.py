@@ -162,7 +162,7 @@ def test_unknown_key_inside_an_entry(told):
         ("roller_length: {value: 106, unit: mm", "roller_length: {value: .nan, unit: mm",
          "roller_length has the value nan. Allowed: a finite number"),
         ("mass: {value: 519, unit: kg, tag: V, note: \"catalogue\"}", "mass: 519",
-         "mass is 519, which does not say its unit. Allowed: mass: {value: a number, unit: kg,"),
+         "mass is 519, which does not give its unit. Allowed: mass: {value: a number, unit: kg,"),
         ("mass: {value: 519, unit: kg, tag: V", "mass: {value: 519, unit: kg, tag: Q",
          "mass has the tag 'Q'. Allowed: P (paper), V (catalogue or public model), D (derived), R"),
         ("mass: {value: 519, unit: kg, tag: V, note: \"catalogue\"", "mass: {value: 519, unit: kg, note: 3",
@@ -217,7 +217,7 @@ def test_duplicate_key(told):
         ("name: \x01\n", "mine.yaml: this is not valid YAML (unacceptable character"),
         ("name: 2001-99-99\n", "mine.yaml: this is not valid YAML ("),
         ("", "mine.yaml: the file holds nothing. Allowed: a mapping of keys to entries."),
-        ("- name\n", "mine.yaml: the file holds ['name']. Allowed: a mapping"),
+        ("- name\n", "mine.yaml: the file holds a list. Allowed: a mapping"),
     ],
 )
 def test_broken_file(told, text, expected):

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 from importlib import resources
 
 import pytest
@@ -17,9 +18,11 @@ SHIPPED = [(kind, name) for kind in (Bearing, Lubricant) for name in kind.catalo
 def valid(value, schema):
     """Check a value against the few words of JSON Schema that the schema uses, and against no others."""
     known = {"$schema", "title", "description", "default", "type", "properties", "required", "additionalProperties",
-             "enum", "minLength"}  # fmt: skip
+             "enum", "minLength", "anyOf", "pattern", "items", "minItems", "maxItems"}  # fmt: skip
     assert schema.keys() <= known, schema.keys() - known
     if "enum" in schema and not any(value == item and type(value) is type(item) for item in schema["enum"]):
+        return False
+    if "anyOf" in schema and not any(valid(value, one) for one in schema["anyOf"]):
         return False
     number = isinstance(value, int | float) and not isinstance(value, bool)
     match schema.get("type"):
@@ -31,7 +34,11 @@ def valid(value, schema):
                 and all(valid(value[key], inner) for key, inner in schema["properties"].items() if key in value)
             )
         case "string":
-            return isinstance(value, str) and len(value) >= schema.get("minLength", 0)
+            long_enough = isinstance(value, str) and len(value) >= schema.get("minLength", 0)
+            return long_enough and re.search(schema.get("pattern", ""), value) is not None
+        case "array":
+            in_bounds = isinstance(value, list) and schema["minItems"] <= len(value) <= schema["maxItems"]
+            return in_bounds and all(valid(item, schema["items"]) for item in value)
         case "number":
             return number
         case "integer":
@@ -56,15 +63,23 @@ def test_shipped_files_are_valid(kind, name):
 @pytest.mark.parametrize(("kind", "name"), SHIPPED)
 def test_schema_and_reader_refuse_the_same(kind, name):
     schema, good = kind.json_schema(), shipped(kind, name)
-    quantities = [key for key in good if key not in ("name", "title")]
+    quantities = [key for key in good if isinstance(good[key], dict)]
+    needed = schema["required"][-1]
     for key in quantities:
-        for change in ({"unit": "furlong"}, {"unit": None}, {"value": "1"}, {"tag": "Q"}, {"note": 1}, {"extra": 1}):
+        for change in ({"unit": "furlong"}, {"unit": None}, {"value": "1"}, {"tag": "Q"}, {"note": 1}, {"extra": 1},
+                       {"range": 1}, {"range": [1]}, {"range": [None, 1e9]}, {"range": [1, 2, 3]}):  # fmt: skip
             bad = copy.deepcopy(good)
             bad[key] |= change
             assert not valid(bad, schema), (key, change)
             with pytest.raises(InputError):
                 kind.from_dict(bad)
-    for bad in (good | {"unknown": 1}, good | {"name": ""}, {k: v for k, v in good.items() if k != "density"}):
+        for bad in ("70", "70 furlongs", "mm 70", "70,5 mm", [70, "mm"], None):
+            if bad == "70" and good[key]["unit"] == "1":
+                continue  # a pure number needs no unit
+            assert not valid(good | {key: bad}, schema), (key, bad)
+            with pytest.raises(InputError):
+                kind.from_dict(good | {key: bad})
+    for bad in (good | {"unknown": 1}, good | {"name": ""}, {k: v for k, v in good.items() if k != needed}):
         assert not valid(bad, schema)
         with pytest.raises(InputError):
             kind.from_dict(bad)
@@ -72,8 +87,12 @@ def test_schema_and_reader_refuse_the_same(kind, name):
 
 def test_units_of_the_schema_are_the_units_of_the_reader():
     properties = Bearing.json_schema()["properties"]
-    assert properties["contact_angle"]["properties"]["unit"]["enum"] == ["rad", "deg"]
-    assert properties["pitch_radius"]["properties"]["unit"]["enum"] == ["m", "mm", "um"]
-    assert properties["rollers_per_row"]["properties"]["value"]["type"] == "integer"
+
+    def entry(key):
+        return properties[key]["anyOf"][0]["properties"]
+
+    assert entry("contact_angle")["unit"]["enum"] == ["rad", "deg"]
+    assert entry("pitch_radius")["unit"]["enum"] == ["m", "mm", "um"]
+    assert entry("rollers_per_row")["value"]["type"] == "integer"
     assert properties["pitch_radius"]["description"].endswith("above 0 m and at most 5 m")
     assert "bore_diameter" not in Bearing.json_schema()["required"]

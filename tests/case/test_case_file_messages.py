@@ -1,11 +1,12 @@
 """What a user is told about a case file that is wrong."""
 
+import os
 import re
 from pathlib import Path
 
 import pytest
 
-from macroslip import InputError
+from macroslip import InputError, Lubricant
 from macroslip.case.case_file import read_case
 
 DATA = Path(__file__).parents[1] / "data"
@@ -216,8 +217,8 @@ def told(tmp_path):
             LOADS + "bearing: skf-240-600\nlubricant: oil.yaml\n",
             "2 problems: (1) case.yaml, line 2, bearing: 'skf-240-600' is neither in the catalogue nor a file. "
             "Allowed: skf-240-600-bc, or the path of a bearing file. Did you mean skf-240-600-bc? (2) case.yaml, "
-            "line 3, lubricant: 'oil.yaml' is neither in the catalogue nor a file. Allowed: vg460-pao, or the "
-            "path of a lubricant file. Relative paths start at FOLDER.",
+            f"line 3, lubricant: 'oil.yaml' is neither in the catalogue nor a file. Allowed: "
+            f"{', '.join(Lubricant.catalogue())}, or the path of a lubricant file. Relative paths start at FOLDER.",
         ),
         (LOADS + "bearing: 3\n", "case.yaml, line 2, bearing: it is 3. Allowed: text."),
         (
@@ -226,8 +227,8 @@ def told(tmp_path):
         ),
         (
             "just text\n",
-            "case.yaml: the file holds 'just text'. Allowed: a mapping of keys to entries. Write a case file that runs "
-            "with: macroslip init.",
+            "case.yaml: the file holds text or a number. Allowed: a mapping of keys to entries. Write a case file that "
+            "runs with: macroslip init.",
         ),
     ],
 )
@@ -278,5 +279,26 @@ def test_a_file_that_cannot_be_read(tmp_path):
     with pytest.raises(InputError, match=r"nowhere\.yaml: the case file cannot be read \(No such file or directory\)"):
         read_case(tmp_path / "nowhere.yaml")
     (tmp_path / "latin.yaml").write_bytes("# Lagergröße\n".encode("latin-1"))
-    with pytest.raises(InputError, match=r"the case file is not UTF-8 text. Save it as UTF-8"):
+    with pytest.raises(InputError, match=r"the file is not UTF-8 text. Save it as UTF-8"):
         read_case(tmp_path / "latin.yaml")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are a thing of Unix")
+def test_a_pipe_in_place_of_a_case_file_is_refused_at_once(tmp_path):
+    os.mkfifo(tmp_path / "case.yaml")
+    with pytest.raises(
+        InputError, match="the case file cannot be read .it is a pipe, a socket or a device, not a file"
+    ):
+        read_case(tmp_path / "case.yaml")
+
+
+def test_names_with_a_nul_and_files_that_are_none_of_ours(tmp_path):
+    with pytest.raises(InputError, match="the case file cannot be read .no file can have this name"):
+        read_case(tmp_path / "a\0.yaml")
+    (tmp_path / "secret.txt").write_text("user: alice\npassword: hunter2\n", encoding="utf-8")
+    for name in ('"a\\0.yaml"', "secret.txt"):
+        (tmp_path / "case.yaml").write_text(f"loads: {{bundled: 14B}}\nbearing: {name}\n", encoding="utf-8")
+        with pytest.raises(InputError) as caught:
+            read_case(tmp_path / "case.yaml")
+        assert str(caught.value).isprintable()
+        assert "hunter2" not in str(caught.value) and "password" not in str(caught.value)

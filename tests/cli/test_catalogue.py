@@ -57,3 +57,40 @@ def test_a_name_that_does_not_exist(folder, macroslip):
         "error: no bearing can be read from 'skf' (No such file or directory). Allowed: the path of a YAML file, or a "
         f"catalogue name: skf-240-600-bc. Relative paths start at {folder}.\n"
     )
+
+
+@pytest.mark.parametrize(("noun", "kind"), KINDS)
+def test_show_as_a_file_that_can_be_read_again(folder, macroslip, noun, kind):
+    for name in kind.catalogue():
+        done = macroslip(noun, "show", name, "--yaml")
+        assert (done.code, done.err) == (0, "")
+        (folder / "mine.yaml").write_text(done.out, encoding="utf-8")
+        assert kind.read(folder / "mine.yaml") == kind.read(name)
+
+
+def test_estimate_a_lubricant_that_can_be_read_and_shown(folder, macroslip):
+    arguments = ("lubricant", "estimate", "--v40", "320 mm2/s", "--v100", "35 cSt", "--base", "pao", "--name", "mine")
+    done = macroslip(*arguments, "-o", "mine.yaml")
+    assert (done.code, done.err) == (0, "")
+    oil = Lubricant.read(folder / "mine.yaml")
+    assert (oil.name, oil.base_oil, oil.kinematic_viscosity_100) == ("mine", "pao", 35e-6)
+    assert macroslip(*arguments).out == (folder / "mine.yaml").read_text(encoding="utf-8")
+    assert "reference_pressure_viscosity" in macroslip("lubricant", "show", "mine.yaml").out
+    again = macroslip(*arguments, "-o", "mine.yaml")
+    assert again.code == 2 and "the file exists" in again.err
+    assert macroslip(*arguments, "-o", "mine.yaml", "--force").code == 0
+
+
+@pytest.mark.parametrize(
+    ("v40", "v100", "base", "message"),
+    [
+        ("320", "35 mm2/s", "pao", "error: --v40 is '320', which does not give its unit. Allowed: a number with its unit, m2/s"),
+        ("320 mm2/s", "35 Pa s", "pao", "error: --v100 has the unit 'Pa s'. Allowed: a number with its unit, m2/s"),
+        ("320 mm2/s", "35 mm2/s", "whale", "error: there is no base oil 'whale'. Allowed: pao (polyalphaolefin), "),
+        ("35 mm2/s", "320 mm2/s", "pao", "error: the viscosity is 35 mm2/s at 313.15 K and 320 mm2/s at 373.15 K."),
+    ],
+)  # fmt: skip
+def test_estimate_refuses_what_is_no_lubricant(folder, macroslip, v40, v100, base, message):
+    done = macroslip("lubricant", "estimate", "--v40", v40, "--v100", v100, "--base", base, "-o", "mine.yaml")
+    assert done.code == 2 and done.err.startswith(message) and done.err.count("\n") == 1
+    assert not (folder / "mine.yaml").exists()

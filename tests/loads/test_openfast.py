@@ -220,7 +220,37 @@ def test_truncated_binary(tmp_path, sample_outb, size):
 def test_binary_with_bytes_to_spare(tmp_path, sample_outb):
     path = tmp_path / "long.outb"
     path.write_bytes(sample_outb.read_bytes() + bytes(RECORD))
-    assert "damaged: its header announces 82890 bytes, it has 82958" in _message(path)
+    read, whole = HubLoads.read(path), HubLoads.read(sample_outb)
+    np.testing.assert_array_equal(read.force, whole.force)
+    np.testing.assert_array_equal(read.time, whole.time)
+
+
+def test_text_with_units_in_latin_1(tmp_path, sample_out):
+    content = sample_out.read_bytes()
+    assert b"(kN-m)" in content
+    for name, encoding in (("latin.out", "latin-1"), ("unicode.out", "utf-8")):
+        path = tmp_path / name
+        path.write_bytes(content.replace(b"(kN-m)", "(kN·m)".encode(encoding)))
+        np.testing.assert_array_equal(HubLoads.read(path).moment, HubLoads.read(sample_out).moment)
+
+
+def test_invalid_channels_as_openfast_writes_them(tmp_path, sample_out):
+    path = tmp_path / "invalid.out"
+    lines = sample_out.read_text().splitlines()
+    column = lines[6].split("\t").index(next(name for name in lines[6].split("\t") if name.strip() == "LSSTipMys"))
+    units = lines[7].split("\t")
+    units[column] = "INVALID"
+    lines[7] = "\t".join(units)
+    path.write_text("\n".join(lines) + "\n")
+    message = _message(path)
+    assert "channel LSSTipMys has the unit (INVALID)" in message
+    assert "check that ElastoDyn is in use" in message
+
+
+def test_what_was_read_is_said(sample_outb):
+    reading = HubLoads.read(sample_outb).reading
+    assert "RotSpeed (rpm)" in reading
+    assert any("LSSTipMys" in line for line in reading)
 
 
 def _poke(content, offset, layout, value):
@@ -236,7 +266,6 @@ def _poke(content, offset, layout, value):
         (4, "<i", 35),
         (8, "<i", 0),
         (8, "<i", 2_000_000_000),
-        (8, "<i", 1200),
         (28 + 34 * 8, "<i", -5),
     ],
 )

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from macroslip.catalogue import TAGS, Provenance
+from macroslip.catalogue import TAGS
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
-from macroslip.lubricant.density import dowson_higginson
-from macroslip.lubricant.viscosity import barus, roelands, roelands_index
+from macroslip.lubricant.roelands_index import roelands_index
+from macroslip.lubricant.viscosity import barus, roelands
 
 
 @pytest.fixture(scope="module")
@@ -24,16 +24,21 @@ def test_base_lubricant_has_the_specified_values_in_si(base):
     assert "vg460-pao" in Lubricant.catalogue()
     values = base.model_dump()
     assert values.pop("title")
-    assert values == {
+    assert [key for key, value in values.items() if value is None] == [
+        "kinematic_viscosity_40", "kinematic_viscosity_100", "roelands_index", "reference_pressure_viscosity",
+        "reference_temperature", "density_15",
+    ]  # fmt: skip
+    assert {key: value for key, value in values.items() if value is not None} == {
+        "base_oil": "pao", "thickener": "",
         "name": "vg460-pao", "inlet_temperature": 308.15, "viscosity": 0.54, "pressure_viscosity": 21e-9,
         "temperature_viscosity": 0.056, "thermal_conductivity": 0.125, "density": 900.0, "fill_factor": 0.7,
-        "drag_coefficient": 1.0, "limiting_shear": 0.042, "eyring_stress": 3.3e6, "boundary_friction": 0.1,
+        "drag_coefficient": 1.0, "limiting_shear": 0.042, "eyring_stress": 6.7e6, "boundary_friction": 0.1,
         "starvation": 0.7,
     }  # fmt: skip
 
 
 def test_every_quantity_says_where_it_comes_from(base):
-    assert set(base.provenance) == set(Lubricant.model_fields) - {"name", "title"}
+    assert set(base.provenance) == {key for key, value in base.model_dump().items() if isinstance(value, float)}
     assert all(origin.tag in TAGS and origin.tag != "U" and origin.note for origin in base.provenance.values())
     assert "misprint" in base.provenance["thermal_conductivity"].note
     assert [base.provenance[key].tag for key in ("pressure_viscosity", "temperature_viscosity")] == ["P", "P"]
@@ -108,39 +113,6 @@ def test_a_file_without_the_data_of_the_physical_model_is_read_and_they_are_aske
         base.replace(starvation=None).require("eyring_stress", "starvation", purpose="grease")
 
 
-def test_another_inlet_temperature_changes_the_viscosity_alone(base):
-    warm = base.at_inlet(318.15)
-    assert warm.viscosity == pytest.approx(0.54 * np.exp(-0.56), rel=1e-14)
-    assert warm.inlet_temperature == 318.15
-    changed = {key for key in Lubricant.model_fields if getattr(warm, key) != getattr(base, key)}
-    assert changed == {"viscosity", "inlet_temperature"}
-    kept = set(base.provenance) - changed
-    assert all(warm.provenance[key] == base.provenance[key] for key in kept)
-    assert warm.provenance["viscosity"] == Provenance(
-        warm.viscosity, "Pa s", "D", "from 0.54 Pa s at 308.15 K by exp(-0.056/K * 10 K)"
-    )
-    assert warm.provenance["inlet_temperature"] == Provenance(318.15, "K", "U", "")
-    assert Lubricant.from_dict(warm.as_dict()) == warm
-    assert base.at_inlet(308.15).viscosity == 0.54
-
-
-@given(st.floats(278.5, 337.8), st.floats(278.5, 337.8))
-def test_two_changes_of_temperature_are_as_one(first, second):
-    base = Lubricant.read("vg460-pao")
-    if abs(second - first) < 30:
-        twice = base.at_inlet(first).at_inlet(second)
-        assert twice.viscosity == pytest.approx(base.at_inlet(second).viscosity, rel=1e-12)
-
-
-def test_a_temperature_too_far_away_is_refused(base):
-    with pytest.raises(InputError, match="^lubricant vg460-pao: the inlet temperature 373.15 K is 65 K from that of .*"
-                                         "Allowed: 278.15 K to 338.15 K"):  # fmt: skip
-        base.at_inlet(373.15)
-    for value in (float("nan"), "40 degC", 10.0):
-        with pytest.raises(InputError, match="^inlet_temperature is "):
-            base.at_inlet(value)
-
-
 @given(st.floats(-3.0, 1.0), st.floats(5e-9, 4e-8))
 def test_roelands_has_the_slope_of_barus_at_ambient_pressure(log_viscosity, pressure_viscosity):
     viscosity, pressure = 10.0**log_viscosity, 1.0
@@ -183,9 +155,3 @@ def test_a_viscosity_too_low_for_roelands_is_told():
             roelands_index(viscosity, 2.1e-8)
     assert np.isnan(roelands(6e-5, 2.1e-8, 1e8))
     assert roelands_index(6.4e-5, 2.1e-8) > 0.0
-
-
-def test_density_under_pressure():
-    assert dowson_higginson(0.0) == 1.0
-    assert dowson_higginson(1e30) == pytest.approx(1.0 + 0.6 / 1.7, rel=1e-15)
-    assert (dowson_higginson(1e3) - 1.0) / 1e3 == pytest.approx(0.6e-9, rel=1e-5)

@@ -35,7 +35,7 @@ def test_every_bar_is_a_run_of_its_own(made, table):
     np.testing.assert_array_equal(table.energy.sel(variation="diametral clearance", level="high"), energy(own))
     far = dataclasses.replace(case, drivetrain=dataclasses.replace(case.drivetrain, bearing_to_gearbox=1.8))
     np.testing.assert_array_equal(table.energy.sel(variation="bearing to gearbox", level="low"), energy(far))
-    warm = dataclasses.replace(case, lubricant=case.lubricant.at_inlet(333.15))
+    warm = dataclasses.replace(case, lubricant=case.lubricant.at("60 degC"))
     np.testing.assert_array_equal(table.energy.sel(variation="inlet temperature", level="high"), energy(warm))
     assert (table.failed == 0).all()
 
@@ -76,7 +76,6 @@ def test_limiting_shear_is_varied_where_it_acts(small, tmp_path):
 def test_every_point_changes_one_value_with_what_follows_from_it(model):
     together = {
         "bearing.osculation_inner": "bearing.osculation_outer",
-        "lubricant.viscosity": "lubricant.inlet_temperature",
         "laws.starvation": "lubricant.starvation",
     }
     base, *points = reproduction_study(f"sensitivity_{model}").variations
@@ -88,15 +87,12 @@ def test_every_point_changes_one_value_with_what_follows_from_it(model):
 
 
 @pytest.mark.parametrize("model", ["paper", "physical"])
-def test_values_that_follow_from_a_varied_one_are_right(model):
-    study = reproduction_study(f"sensitivity_{model}")
-    oil, looked_at = base_case(study).lubricant, 0
-    for point in study.variations:
-        values = {one.key: one.value for one in point}
-        if "lubricant.inlet_temperature" in values:
-            warmer = values["lubricant.inlet_temperature"] + 273.15 - oil.inlet_temperature
-            expected = oil.viscosity * np.exp(-oil.temperature_viscosity * warmer)
-            assert values["lubricant.viscosity"] == pytest.approx(expected, rel=1e-14)
-            looked_at += 1
-        assert values.get("bearing.osculation_inner") == values.get("bearing.osculation_outer")
-    assert looked_at == 2
+def test_osculation_is_that_of_both_raceways(model):
+    points = [{one.key: one.value for one in point} for point in reproduction_study(f"sensitivity_{model}").variations]
+    pairs = [
+        (point["bearing.osculation_inner"], point["bearing.osculation_outer"])
+        for point in points
+        if "bearing.osculation_inner" in point
+    ]
+    assert len(pairs) >= 2
+    assert all(inner == outer for inner, outer in pairs)

@@ -59,7 +59,7 @@ def local_stress(laws, pressure, film, speed):
         viscous = eta * speed / film * 4 * c * np.exp(-2 * c) / -np.expm1(-4 * c)
         if laws.rheology == "limiting-shear":
             return -GAMMA * pressure * np.expm1(-viscous / (GAMMA * pressure))
-        return 3.3e6 * np.arcsinh(viscous / 3.3e6) if laws.rheology == "eyring" else viscous
+        return 6.7e6 * np.arcsinh(viscous / 6.7e6) if laws.rheology == "eyring" else viscous
 
     if not laws.heating:
         return stress(np.full_like(pressure, 1e-9))

@@ -44,7 +44,7 @@ class Bearing(Record):
     >>> bearing.roller_diameter, bearing.provenance["roller_diameter"].tag
     (0.07, 'E')
     >>> bearing.replace(diametral_clearance=1e-4).provenance["diametral_clearance"]
-    Provenance(value=0.0001, unit='m', tag='U', note='')
+    Provenance(value=0.0001, unit='m', tag='U', note='', range=None)
     """
 
     noun: ClassVar[str] = "bearing"

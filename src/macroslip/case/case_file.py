@@ -13,8 +13,8 @@ from macroslip.case.case import BackwardEuler, Case, ExplicitEuler, Radau, Trace
 from macroslip.case.form import Place
 from macroslip.case.keys import CASE
 from macroslip.catalogue import Record
-from macroslip.catalogue.problems import together
-from macroslip.catalogue.source import Source, parse
+from macroslip.catalogue.problems import shown, together
+from macroslip.catalogue.source import Source, parse, read_text
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.loads.statics import allowed_range
@@ -52,12 +52,7 @@ def read_case(path: str | PathLike[str]) -> Case:
     """
     path = Path(path)
     remedy = "Write a case file that runs with: macroslip init"
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"the case file cannot be read ({error.strerror})", where=str(path), remedy=remedy) from None
-    except UnicodeDecodeError:
-        raise InputError("the case file is not UTF-8 text", where=str(path), remedy="Save it as UTF-8.") from None
+    text = read_text(path, "the case file cannot be read", where=str(path), remedy=remedy)
     data, source = parse(text, str(path), remedy)
     return _Builder(data, source, path.parent).case()
 
@@ -146,7 +141,7 @@ class _Builder:
         if not path.is_file():
             close = get_close_matches(name, names, n=1)
             raise InputError(
-                f"'{name}' is neither in the catalogue nor a file",
+                f"{shown(name)} is neither in the catalogue nor a file",
                 where=kind.noun,
                 allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
                 remedy=f"Did you mean {close[0]}?" if close else self.start_of_paths,

@@ -1,15 +1,16 @@
-"""One entry of a catalogue file: `{value: 70, unit: mm, tag: E, note: "..."}`."""
+"""One entry of a catalogue file: `{value: 70, unit: mm, tag: E, note: "...", range: [66, 74]}`, or just `70 mm`."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Integral, Real
 from types import MappingProxyType
 from typing import Any
 
 from macroslip.catalogue.problems import shown, unknown_key
+from macroslip.catalogue.quantity import parse_quantity
 from macroslip.catalogue.source import Source
 from macroslip.catalogue.units import NUMBER, Dimension
 from macroslip.errors import InputError
@@ -26,7 +27,7 @@ TAGS: Mapping[str, str] = MappingProxyType(
 )
 """Provenance tags and their meaning."""
 
-ENTRY_KEYS = ("value", "unit", "tag", "note")
+ENTRY_KEYS = ("value", "unit", "tag", "note", "range")
 
 
 @dataclass(frozen=True)
@@ -43,12 +44,16 @@ class Provenance:
         One of `TAGS`.
     note : str
         Free text.
+    range : tuple[float, float] | None
+        Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
+        nothing is known of its scatter.
     """
 
     value: float
     unit: str
     tag: str = "U"
     note: str = ""
+    range: tuple[float, float] | None = None
 
 
 def is_finite_number(value: object) -> bool:
@@ -69,7 +74,8 @@ def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tu
     key : str
         Key under which the entry stands.
     entry : Any
-        What stands there: a mapping with value, unit and optionally tag and note.
+        What stands there: text of number and unit, a plain number where the quantity has no unit, or a mapping with
+        value, unit and optionally tag, note and range.
     dimension : Dimension
         Units the quantity may have.
     source : Source
@@ -83,24 +89,17 @@ def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tu
     Raises
     ------
     InputError
-        If the entry is no such mapping, has an unknown key, or a wrong value, unit, tag or note.
+        If the entry is none of these, has an unknown key, or a wrong value, unit, tag, note or range.
     """
-    units = dimension.choices
-    form = f"{key}: {{value: a number, unit: {units}, tag: {' or '.join(TAGS)}, note: text}}; tag and note are optional"
-    if not isinstance(entry, Mapping):
-        raise InputError(
-            f"{key} is {shown(entry)}, which does not say its unit",
-            where=source.where(key),
-            allowed=form,
-            remedy="Give the value with its unit.",
-        )
-    for inner in entry:
-        if inner not in ENTRY_KEYS:
-            raise unknown_key(inner, ENTRY_KEYS, where=source.where(key, inner), inside=key)
-    for inner in ("value", "unit"):
-        if inner not in entry:
-            raise InputError(f"{key} has no {inner}", where=source.where(key), allowed=form, remedy=f"Add the {inner}.")
+    if isinstance(entry, str):
+        value, unit = parse_quantity(entry, dimension, key, source.where(key))
+        return dimension.to_si(value, unit), Provenance(value, unit)
+    if dimension is NUMBER and is_finite_number(entry):
+        value = _plain(entry)
+        return dimension.to_si(value, "1"), Provenance(value, "1")
+    _check_keys(key, entry, dimension, source)
     value, unit, tag, note = entry["value"], entry["unit"], entry.get("tag", "U"), entry.get("note", "")
+    units = dimension.choices
     if not is_finite_number(value):
         raise InputError(
             f"{key} has the value {shown(value)}",
@@ -110,7 +109,7 @@ def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tu
         )
     if not isinstance(unit, str) or unit not in dimension.units:
         raise InputError(
-            f"{key} has the unit {shown(unit)} (with the value {value})",
+            f"{key} has the unit {shown(unit)} (with the value {shown(value)})",
             where=source.where(key, "unit"),
             allowed=units,
             remedy="Write it with its quotes." if dimension is NUMBER else "Convert the value to one of these units.",
@@ -129,5 +128,48 @@ def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tu
             allowed="text",
             remedy="Put it in quotes.",
         )
-    value = int(value) if isinstance(value, Integral) else float(value)
-    return dimension.to_si(value, unit), Provenance(value, unit, tag, note)
+    value = _plain(value)
+    limits = _read_range(key, entry["range"], value, source) if "range" in entry else None
+    return dimension.to_si(value, unit), Provenance(value, unit, tag, note, limits)
+
+
+def _check_keys(key: str, entry: Any, dimension: Dimension, source: Source) -> None:
+    """Refuse what is no mapping with value, unit and known keys."""
+    units = dimension.choices
+    form = (
+        f"{key}: {{value: a number, unit: {units}, tag: {' or '.join(TAGS)}, note: text, range: [lowest, highest]}}; tag, "
+        f"note and range are optional. Short form: {key}: {'1' if dimension is NUMBER else f'1 {dimension.si_unit}'}"
+    )
+    if not isinstance(entry, Mapping):
+        raise InputError(
+            f"{key} is {shown(entry)}, which does not give its unit"
+            if is_finite_number(entry)
+            else f"{key} is {shown(entry)}, which is no quantity",
+            where=source.where(key),
+            allowed=form,
+            remedy="Give the value with its unit.",
+        )
+    for inner in entry:
+        if inner not in ENTRY_KEYS:
+            raise unknown_key(inner, ENTRY_KEYS, where=source.where(key, inner), inside=key)
+    for inner in ("value", "unit"):
+        if inner not in entry:
+            raise InputError(f"{key} has no {inner}", where=source.where(key), allowed=form, remedy=f"Add the {inner}.")
+
+
+def _read_range(key: str, limits: Any, value: float, source: Source) -> tuple[float, float]:
+    """Check the range of a value: two numbers in its unit, with the value between them."""
+    pair = isinstance(limits, Sequence) and not isinstance(limits, str) and len(limits) == 2
+    if not pair or not all(is_finite_number(limit) for limit in limits) or not limits[0] <= value <= limits[1]:
+        raise InputError(
+            f"{key} has the range {shown(limits)} (with the value {shown(value)})",
+            where=source.where(key, "range"),
+            allowed="two numbers in the unit of the value, [lowest, highest], with the value between them",
+            remedy="Leave it out if nothing is known of the scatter.",
+        )
+    return _plain(limits[0]), _plain(limits[1])
+
+
+def _plain(number: Any) -> float:
+    """The number as Python has it, an integer if it is one."""
+    return int(number) if isinstance(number, Integral) else float(number)

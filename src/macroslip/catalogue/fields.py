@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import operator
 from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from macroslip.catalogue.units import Dimension
+from macroslip.catalogue.quantity import quantity_pattern
+from macroslip.catalogue.units import NUMBER, Dimension
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -54,7 +56,28 @@ def allowed_text(field: FieldInfo, dimension: Dimension | None, unit: str = "") 
     return f"a {'whole ' if field.annotation is int else ''}number {' and '.join(bounds)}"
 
 
-def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict[str, Any]:
+def is_allowed(field: FieldInfo, si_value: float) -> bool:
+    """Whether a value is within the bounds of a field.
+
+    Parameters
+    ----------
+    field : FieldInfo
+        The field, whose bounds are in SI.
+    si_value : float
+        The value [SI].
+    """
+    tests = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
+    return all(
+        test(si_value, getattr(item, name))
+        for name, test in tests.items()
+        for item in field.metadata
+        if hasattr(item, name)
+    )
+
+
+def schema(
+    record: type[BaseModel], title: str, tags: Mapping[str, str], derivable: frozenset[str] = frozenset()
+) -> dict[str, Any]:
     """Build the JSON Schema (2020-12) of the file format of a record class.
 
     Parameters
@@ -65,6 +88,8 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
         Title of the schema.
     tags : Mapping[str, str]
         Provenance tags and their meaning.
+    derivable : frozenset of str
+        Quantities that may follow from others.
 
     Returns
     -------
@@ -79,9 +104,8 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
             if field.is_required():
                 properties[key]["minLength"] = 1
             continue
-        properties[key] = {
+        entry = {
             "type": "object",
-            "description": f"{field.description}: {allowed_text(field, dimension)}",
             "properties": {
                 "value": {"type": "integer" if field.annotation is int else "number"},
                 "unit": {"enum": list(dimension.units)},
@@ -91,15 +115,28 @@ def schema(record: type[BaseModel], title: str, tags: Mapping[str, str]) -> dict
                     "description": ", ".join(f"{tag}: {meaning}" for tag, meaning in tags.items()),
                 },
                 "note": {"type": "string"},
+                "range": {
+                    "type": "array",
+                    "items": {"type": "number"},
+                    "minItems": 2,
+                    "maxItems": 2,
+                    "description": "lowest and highest value; four out of five lie between them",
+                },
             },
             "required": ["value", "unit"],
             "additionalProperties": False,
+        }
+        short = {"type": "string", "pattern": quantity_pattern(dimension)}
+        number = [{"type": "integer" if field.annotation is int else "number"}] if dimension is NUMBER else []
+        properties[key] = {
+            "description": f"{field.description}: {allowed_text(field, dimension)}",
+            "anyOf": [entry, short, *number],
         }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": title,
         "type": "object",
         "properties": properties,
-        "required": [key for key, field in record.model_fields.items() if field.is_required()],
+        "required": [key for key, field in record.model_fields.items() if field.is_required() and key not in derivable],
         "additionalProperties": False,
     }

@@ -8,6 +8,9 @@ from collections.abc import Iterable, Sequence
 
 from macroslip.errors import InputError
 
+MOST_PROBLEMS = 20
+"""Problems that one message lists."""
+
 
 def shown(value: object) -> str:
     """Write a value for a message, cut to one short line.
@@ -40,7 +43,8 @@ def unknown_key(key: object, allowed: Iterable[str], *, where: str = "", inside:
     b.yaml, line 3: the key 'witdh' is unknown. Did you mean 'width'?
     """
     allowed = list(allowed)
-    close = difflib.get_close_matches(str(key), allowed, n=1)
+    # Comparing takes the square of the length; no key is that long.
+    close = difflib.get_close_matches(str(key)[:60], allowed, n=1)
     return InputError(
         f"the key {shown(key)} {f'inside {inside} ' if inside else ''}is unknown",
         where=where,
@@ -59,4 +63,6 @@ def together(problems: Sequence[InputError]) -> InputError:
     """
     if len(problems) == 1:
         return problems[0]
-    return InputError(f"{len(problems)} problems: " + " ".join(f"({n}) {p}" for n, p in enumerate(problems, 1)))
+    listed = " ".join(f"({n}) {p}" for n, p in enumerate(problems[:MOST_PROBLEMS], 1))
+    rest = len(problems) - MOST_PROBLEMS
+    return InputError(f"{len(problems)} problems: {listed}" + (f" And {rest} more." if rest > 0 else ""))

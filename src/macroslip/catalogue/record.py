@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterator, Mapping
 from importlib import resources
 from importlib.resources.abc import Traversable
@@ -13,10 +14,14 @@ from typing import Any, ClassVar, Self
 from pydantic import BaseModel, ConfigDict, PrivateAttr, ValidationError
 
 from macroslip.catalogue.entry import TAGS, Provenance, is_finite_number, read_entry
-from macroslip.catalogue.fields import allowed_text, dimensions, schema
+from macroslip.catalogue.fields import allowed_text, dimensions, is_allowed, schema
 from macroslip.catalogue.problems import shown, together, unknown_key
-from macroslip.catalogue.source import Source, parse
+from macroslip.catalogue.source import Source, parse, read_text
+from macroslip.catalogue.yaml_text import yaml_text
 from macroslip.errors import InputError
+
+LONGEST_TEXT = 2000
+"""Characters that a name, a title or a note may have."""
 
 
 class Record(BaseModel):
@@ -34,13 +39,22 @@ class Record(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
     noun: ClassVar[str] = "record"
+    # Quantities that may be left out of a file because they follow from others that it gives.
+    derivable: ClassVar[frozenset[str]] = frozenset()
     # Pairs instead of a mapping keep the record hashable and picklable.
     _provenance: tuple[tuple[str, Provenance], ...] = PrivateAttr(default=())
+    _derived: frozenset[str] = PrivateAttr(default=frozenset())
 
     def __init__(self, **values: Any):
         self._fill(values, {}, Source())
 
-    def _fill(self, values: Mapping[str, Any], provenance: Mapping[str, Provenance], source: Source) -> None:
+    def _fill(
+        self,
+        values: Mapping[str, Any],
+        provenance: Mapping[str, Provenance],
+        source: Source,
+        derived: frozenset[str] = frozenset(),
+    ) -> None:
         """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
         kinds = dimensions(type(self))
         fields = type(self).model_fields
@@ -62,8 +76,8 @@ class Record(BaseModel):
             unusable = (item for item in details.items() if item[0] not in missing)
             problems += [self._unusable(key, detail, provenance, source) for key, detail in unusable]
             raise together(problems) from None
-        self._provenance = tuple(provenance.items())
-        problems = list(self._inconsistencies(source))
+        self._provenance, self._derived = tuple(provenance.items()), derived
+        problems = [*self._unwritable(source), *self._wide(source), *self._inconsistencies(source)]
         if problems:
             raise together(problems)
 
@@ -106,6 +120,32 @@ class Record(BaseModel):
                 remedy=f"Make another one: new = old.replace({key}=...).",
             )
         super().__setattr__(key, value)
+
+    def _unwritable(self, source: Source) -> Iterator[InputError]:
+        """Yield text that results could not hold: a NUL ends it there, half a surrogate pair has no UTF-8."""
+        texts = {(key,): getattr(self, key) for key in type(self).model_fields if isinstance(getattr(self, key), str)}
+        notes = {(key, "note"): origin.note for key, origin in self._provenance}
+        for keys, text in (texts | notes).items():
+            if len(text) > LONGEST_TEXT or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in text):
+                yield InputError(
+                    f"{' of '.join(reversed(keys))} is {shown(text)}",
+                    where=source.where(*keys),
+                    allowed=f"at most {LONGEST_TEXT} characters on one line, without control characters",
+                    remedy="Write it as one line of plain text.",
+                )
+
+    def _wide(self, source: Source) -> Iterator[InputError]:
+        """Yield ranges of values that go beyond what the quantity may be."""
+        for key, origin in self._provenance:
+            field, kind = type(self).model_fields[key], dimensions(type(self))[key]
+            for limit in origin.range or ():
+                if not is_allowed(field, kind.to_si(limit, origin.unit)):
+                    yield InputError(
+                        f"the range of {key} goes to {shown(limit)}",
+                        where=source.where(key, "range"),
+                        allowed=allowed_text(field, kind, origin.unit),
+                        remedy="Give a range in which every value is possible.",
+                    )
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         """Yield what is wrong with values that are each within their range."""
@@ -152,19 +192,16 @@ class Record(BaseModel):
         """
         name, names = fspath(source), cls.catalogue()
         if name in names:
-            file, path = f"{name}.yaml", cls._shipped() / f"{name}.yaml"
+            file = f"{name}.yaml"
+            text = (cls._shipped() / file).read_text(encoding="utf-8")
         else:
-            file, path = name, Path(name)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise InputError(
-                f"no {cls.noun} can be read from '{name}' ({error.strerror})",
+            file = name
+            text = read_text(
+                Path(name),
+                f"no {cls.noun} can be read from {shown(name)}",
                 allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
                 remedy=f"Relative paths start at {Path.cwd()}.",
-            ) from None
-        except UnicodeDecodeError:
-            raise InputError("the file is not UTF-8 text", where=file, remedy="Save it as UTF-8.") from None
+            )
         return cls._from_entries(*parse(text, file))
 
     @classmethod
@@ -188,6 +225,14 @@ class Record(BaseModel):
         values: dict[str, Any] = {}
         provenance: dict[str, Provenance] = {}
         problems: list[InputError] = []
+        if entries and not entries.keys() & cls.model_fields.keys():
+            # Some other file: its keys are not for a message that others may see.
+            raise InputError(
+                f"none of its keys is one of a {cls.noun}",
+                where=source.file,
+                allowed=", ".join(cls.model_fields),
+                remedy=f"Name a {cls.noun} file.",
+            )
         for key, entry in entries.items():
             try:
                 if key not in cls.model_fields:
@@ -246,17 +291,25 @@ class Record(BaseModel):
         Returns
         -------
         dict
-            Text fields as text, quantities as value and unit as written, tag and note. Quantities without a value are
-            left out. `from_dict` turns it back into an equal record.
+            Text fields as text, quantities as value and unit as written, tag, note and, where it is known, range.
+            Quantities without a value, and those that follow from others, are left out. `from_dict` turns it back into an equal record.
         """
         entries: dict[str, Any] = {}
         for key in type(self).model_fields:
+            if key in self._derived:
+                continue
             if key in self.provenance:
                 origin = self.provenance[key]
                 entries[key] = {"value": origin.value, "unit": origin.unit, "tag": origin.tag, "note": origin.note}
+                if origin.range is not None:
+                    entries[key]["range"] = list(origin.range)
             elif key not in dimensions(type(self)):
                 entries[key] = getattr(self, key)
         return entries
+
+    def as_yaml(self) -> str:
+        """Give the record as the text of a catalogue file, every key explained; `read` gives it back as it is."""
+        return yaml_text(self.as_dict(), self.noun, type(self).model_fields)
 
     def replace(self, **values: Any) -> Self:
         """Copy the record with other values, checked as any other input.
@@ -272,14 +325,15 @@ class Record(BaseModel):
             As the constructor.
         """
         kept = {key: origin for key, origin in self.provenance.items() if key not in values}
+        given = {key: getattr(self, key) for key in type(self).model_fields if key not in self._derived}
         record = type(self).__new__(type(self))
-        record._fill({key: getattr(self, key) for key in type(self).model_fields} | values, kept, Source())
+        record._fill(given | values, kept, Source())
         return record
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
-        return schema(cls, f"{cls.noun} of macroslip", TAGS)
+        return schema(cls, f"{cls.noun} of macroslip", TAGS, cls.derivable)
 
 
 def _number(value: Any, whole: bool) -> Any:

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import stat
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.constructor import DuplicateKeyError
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent, ScalarEvent
 
-from macroslip.catalogue.problems import shown
 from macroslip.errors import InputError
+
+# A bearing file has 6 kB, 250 nodes and 2 levels. Some thousand nodes parse in a second; YAML without bounds can
+# describe a file of any size in a few lines.
+MOST_BYTES = 200_000
+MOST_NODES = 10_000
+MOST_LEVELS = 20
 
 
 @dataclass(frozen=True)
@@ -27,6 +35,58 @@ class Source:
         depths = range(len(keys), 0, -1)
         line = next((self.lines[keys[:depth]] for depth in depths if keys[:depth] in self.lines), None)
         return ", ".join([part for part in (self.file, f"line {line}" if line else "") if part])
+
+
+def read_text(path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> str:
+    """Read a YAML file that somebody has named, whatever the name leads to.
+
+    Parameters
+    ----------
+    path : Path
+        The file. Only a regular file is opened: a pipe or a device would wait or never end.
+    what : str
+        Begin of the message if it cannot be read: "the case file cannot be read", say.
+    where, allowed, remedy : str
+        The rest of that message.
+
+    Returns
+    -------
+    str
+        Its text, at most `MOST_BYTES` long.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is no regular file, is too long, or is not UTF-8.
+    """
+
+    def unreadable(reason: str) -> InputError:
+        return InputError(f"{what} ({reason})", where=where, allowed=allowed, remedy=remedy)
+
+    try:
+        kind = path.stat().st_mode
+        regular = stat.S_ISREG(kind) or stat.S_ISDIR(kind)  # the system has its own words for a folder
+        content = b""
+        if regular:
+            with path.open("rb") as file:
+                content = file.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise unreadable(error.strerror or str(error)) from None
+    except ValueError:  # a NUL, or what UTF-8 cannot write
+        raise unreadable("no file can have this name") from None
+    if not regular:
+        raise unreadable("it is a pipe, a socket or a device, not a file")
+    if len(content) > MOST_BYTES:
+        raise InputError(
+            "the file is too long",
+            where=str(path),
+            allowed=f"at most {MOST_BYTES} bytes",
+            remedy="Is it the file you meant? Data of that size belong into files of their own.",
+        )
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError:
+        raise InputError("the file is not UTF-8 text", where=str(path), remedy="Save it as UTF-8.") from None
 
 
 def parse(
@@ -51,10 +111,13 @@ def parse(
     Raises
     ------
     InputError
-        If the text is not YAML, a key stands twice, or the file is not one mapping.
+        If the text is not YAML, a key stands twice, the file is not one mapping, or it is too long or too deep.
     """
     try:
+        _check_size(text, file)
         data = YAML(typ="rt", pure=True).load(text)
+    except InputError:  # a ValueError itself
+        raise
     except MarkedYAMLError as error:
         line = f", line {error.problem_mark.line + 1}" if error.problem_mark else ""
         if isinstance(error, DuplicateKeyError):
@@ -70,12 +133,55 @@ def parse(
         raise _not_yaml(str(error).split("\n")[0], file) from None
     if not isinstance(data, CommentedMap):
         raise InputError(
-            f"the file holds {'nothing' if data is None else shown(data)}",
+            # Not its content: the file may be another one than was meant, and nothing for others to see.
+            f"the file holds {_KINDS.get(type(data), 'text or a number')}",
             where=file,
             allowed="a mapping of keys to entries",
             remedy=remedy,
         )
     return _plain(data), Source(file, dict(_lines(data)))
+
+
+_KINDS = {type(None): "nothing", CommentedSeq: "a list"}
+
+
+def _check_size(text: str, file: str) -> None:
+    """Refuse text that is deep, or large once its aliases are written out, before anything is built from it."""
+    largest: dict[str, int] = {}  # nodes behind each anchor
+    open_nodes: list[tuple[str | None, int]] = []  # anchor, and nodes before it
+    nodes = 0
+    for event in YAML(typ="rt", pure=True).parse(text):
+        if isinstance(event, CollectionStartEvent):
+            open_nodes.append((event.anchor, nodes))
+            nodes += 1
+        elif isinstance(event, CollectionEndEvent):
+            anchor, before = open_nodes.pop()
+            if anchor:
+                largest[anchor] = nodes - before
+        elif isinstance(event, AliasEvent):
+            if any(anchor == event.anchor for anchor, _ in open_nodes):
+                raise _too_large("an alias that contains itself", file, event.start_mark.line + 1)
+            nodes += largest.get(event.anchor, 1)
+        elif isinstance(event, ScalarEvent):
+            nodes += 1
+            if event.anchor:
+                largest[event.anchor] = 1
+        if nodes > MOST_NODES:
+            what = f"more than {MOST_NODES} keys and values, those behind its aliases counted"
+            raise _too_large(what, file, event.start_mark.line + 1)
+        if len(open_nodes) > MOST_LEVELS:
+            raise _too_large(
+                f"more than {MOST_LEVELS} levels of brackets or indentation", file, event.start_mark.line + 1
+            )
+
+
+def _too_large(what: str, file: str, line: int) -> InputError:
+    return InputError(
+        f"the file has {what}",
+        where=f"{file}, line {line}",
+        allowed=f"{MOST_NODES} keys and values in {MOST_LEVELS} levels",
+        remedy="Is it the file you meant?",
+    )
 
 
 def _not_yaml(problem: str, where: str) -> InputError:

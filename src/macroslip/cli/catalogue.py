@@ -1,13 +1,15 @@
-"""`macroslip bearing` and `macroslip lubricant`: list, show and describe catalogue entries."""
+"""`macroslip bearing` and `macroslip lubricant`: list, show, describe and estimate catalogue entries."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from macroslip.cli.failure import command
+from macroslip.cli.new_file import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -29,11 +31,17 @@ def _catalogue(
         records = [load().read(name) for name in load().catalogue()]
         table(f"{noun}s", [("name", False), ("title", False)], [[record.name, record.title] for record in records])
 
-    def show(name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")]) -> None:
+    def show(
+        name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")],
+        yaml: Annotated[bool, typer.Option("--yaml", help="Print it as a file, to save and to change.")] = False,
+    ) -> None:
         from macroslip.catalogue import TAGS
         from macroslip.cli.printing import table
 
         record = load().read(name_or_file)
+        if yaml:
+            typer.echo(record.as_yaml(), nl=False)
+            return
         rows = [
             [key, _written(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]
             for key, origin in record.provenance.items()
@@ -87,5 +95,32 @@ def _of_bearing(bearing: Bearing) -> list[list[str]]:
     ]
 
 
+def estimate(
+    v40: Annotated[str, typer.Option("--v40", help="Kinematic viscosity at 40 degC, '320 mm2/s' for example.")],
+    v100: Annotated[str, typer.Option("--v100", help="Kinematic viscosity at 100 degC.")],
+    base: Annotated[str, typer.Option("--base", help="Base oil, 'pao' or 'mineral' for example.")],
+    name: Annotated[str, typer.Option("--name", help="Short name of the lubricant, used in results.")] = "estimated",
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="File to write; else it is printed.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
+) -> None:
+    """Write a lubricant file from two viscosities and the base oil; what is estimated has the tag E and a range."""
+    from macroslip.catalogue.quantity import parse_quantity
+    from macroslip.catalogue.units import KINEMATIC_VISCOSITY
+    from macroslip.lubricant.estimate import estimate_lubricant
+
+    def viscosity(text: str, option: str) -> float:
+        return KINEMATIC_VISCOSITY.to_si(*parse_quantity(text, KINEMATIC_VISCOSITY, option))
+
+    oil = estimate_lubricant(viscosity(v40, "--v40"), viscosity(v100, "--v100"), base, name)
+    if output is None:
+        typer.echo(oil.as_yaml(), nl=False)
+        return
+    check_new_file(output, force=force)
+    with new_file(output) as temporary:
+        temporary.write_text(oil.as_yaml(), encoding="utf-8")
+    typer.echo(f"written: {output}\nshow it: macroslip lubricant show {output}")
+
+
 bearing = _catalogue("bearing", _bearing_class, _of_bearing)
 lubricant = _catalogue("lubricant", _lubricant_class, lambda lubricant: [])
+command(lubricant, estimate)

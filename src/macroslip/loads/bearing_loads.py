@@ -63,6 +63,9 @@ class BearingLoads:
         columns = {name: getattr(self, name) for name in ("time", "shaft_speed", "force")}
         return BearingLoads(**series.cut(columns, start, end, self.source), source=self.source)
 
+    def __repr__(self) -> str:
+        return series.summary("BearingLoads", self, dict(zip(("F_X0", "F_Y0", "F_Z0"), self.force.T, strict=True)))
+
     @classmethod
     def constant(cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05) -> BearingLoads:
         """The same force (3,) [N] and shaft speed [rad/s] from t = 0 to `duration` [s].

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.resources
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,16 @@ from macroslip.errors import InputError
 from macroslip.loads import series
 from macroslip.loads.source_file import source_file
 
-_FILE_KINDS = {".outb": "OpenFAST binary output", ".out": "OpenFAST text output", ".parquet": "table", ".csv": "table"}
+_FILE_KINDS = {
+    ".outb": "OpenFAST binary output",
+    ".out": "OpenFAST text output",
+    ".%nn": "Bladed output, any file of the run",
+    ".$nn": "the same",
+    ".sel": "HAWC2 output",
+    ".hdf5": "HAWC2 output in the format gtsdf",
+    ".parquet": "table",
+    ".csv": "table",
+}
 
 
 def bundled_cases() -> list[str]:
@@ -47,6 +57,8 @@ class HubLoads:
         mx (> 0 drives the rotation), my (> 0: more thrust on the upper half of the rotor), mz; at most 1e9 N m each.
     source : str
         Where the loads come from, for errors and reports.
+    reading : tuple of str
+        Which channels of a file they were read from, and how; empty for loads that were not read.
 
     Raises
     ------
@@ -64,6 +76,7 @@ class HubLoads:
     force: NDArray[np.float64]
     moment: NDArray[np.float64]
     source: str
+    reading: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         series.validate(self, {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")})
@@ -76,7 +89,12 @@ class HubLoads:
     def window(self, start: float | None, end: float | None) -> HubLoads:
         """The samples with ``start <= time <= end`` [s]; None keeps that end. Outside the record: InputError."""
         columns = {name: getattr(self, name) for name in ("time", "shaft_speed", "force", "moment")}
-        return HubLoads(**series.cut(columns, start, end, self.source), source=self.source)
+        return HubLoads(**series.cut(columns, start, end, self.source), source=self.source, reading=self.reading)
+
+    def __repr__(self) -> str:
+        return series.summary(
+            "HubLoads", self, {"fx": self.force[:, 0], "fy": self.force[:, 1], "fz": self.force[:, 2]}
+        )
 
     @classmethod
     def constant(
@@ -101,15 +119,26 @@ class HubLoads:
         )
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None) -> HubLoads:
-        """Read an OpenFAST output (``.outb``, ``.out``) or a table with units in its column names (Parquet, CSV).
+    def read(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        start: float | None = None,
+        end: float | None = None,
+        shaft_speed: float | None = None,
+    ) -> HubLoads:
+        """Read output of OpenFAST, Bladed or HAWC2, or a table with units in its column names (Parquet, CSV).
 
         Parameters
         ----------
         path : path
-            See `macroslip.loads.openfast` for the channels and `macroslip.loads.table` for the columns that are needed.
+            ``.outb`` and ``.out``: see `macroslip.loads.openfast` for the channels; ``.%nn`` or ``.$nn``, any file of a
+            run: `macroslip.loads.bladed`; ``.sel`` or ``.hdf5``: `macroslip.loads.hawc2`; ``.parquet`` and ``.csv``:
+            `macroslip.loads.table` for the columns.
         start, end : float, optional
             Keep only this part of the file [s], on the file's own time axis. What lies outside is not validated.
+        shaft_speed : float, optional
+            Constant shaft speed [rad/s] in place of the file's; needed where the file has none.
 
         Raises
         ------
@@ -117,11 +146,12 @@ class HubLoads:
             The file is absent, empty, damaged or cut off, lacks a channel, or holds values that `HubLoads` refuses.
         """
         path, extension = source_file(path, _FILE_KINDS)
-        if extension in (".out", ".outb"):
-            from macroslip.loads.openfast import read_openfast as reader
-        else:
-            from macroslip.loads.table import read_hub_table as reader
-        return cls(**series.cut(reader(path), start, end, str(path)), source=str(path))
+        columns = _reader(extension)(path, speed_needed=shaft_speed is None)
+        reading = columns.pop("reading")
+        if shaft_speed is not None:
+            columns["shaft_speed"] = np.full(columns["time"].shape, shaft_speed)
+            reading = (*reading, f"shaft speed: given, {shaft_speed:g} rad/s")
+        return cls(**series.cut(columns, start, end, str(path)), source=str(path), reading=reading)
 
     @classmethod
     def bundled(cls, case: str) -> HubLoads:
@@ -145,4 +175,25 @@ class HubLoads:
 
         folder = importlib.resources.files("macroslip.loads") / "cases"
         with importlib.resources.as_file(folder / f"{case}.parquet") as path:
-            return cls(**read_hub_table(path), source=f"bundled case {case}")
+            columns = read_hub_table(path)
+        del columns["reading"]
+        return cls(**columns, source=f"bundled case {case}")
+
+
+def _reader(extension: str) -> Callable[..., dict]:
+    """What reads files with an extension."""
+    if extension in (".out", ".outb"):
+        from macroslip.loads.openfast import read_openfast
+
+        return read_openfast
+    if extension.startswith((".%", ".$")):
+        from macroslip.loads.bladed import read_bladed
+
+        return read_bladed
+    if extension in (".sel", ".hdf5"):
+        from macroslip.loads.hawc2 import read_hawc2
+
+        return read_hawc2
+    from macroslip.loads.table import read_hub_table
+
+    return read_hub_table

@@ -17,15 +17,19 @@ four significant digits as a rule; prefer the binary one.
 
 from __future__ import annotations
 
+import contextlib
 import io
 import math
 import struct
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
+from macroslip.loads.turning import turn_to_fixed
 
 _RPM = math.pi / 30.0
 _FORCE_UNITS = {"N": 1.0, "kN": 1e3}
@@ -55,8 +59,19 @@ _MEANING = {
 }
 
 
-def read_openfast(path: Path) -> dict[str, NDArray[np.float64]]:
+def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
     """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+
+    Parameters
+    ----------
+    path : Path
+    speed_needed : bool
+        Whether the file has to hold the speed; otherwise `shaft_speed` is left out if it does not.
+
+    Returns
+    -------
+    dict
+        The arrays, and `reading`: the channels they come from.
 
     Raises
     ------
@@ -67,7 +82,8 @@ def read_openfast(path: Path) -> dict[str, NDArray[np.float64]]:
     names, units, data = _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)
     channels = _Channels(names, units, data, str(path))
     time = channels.column(("Time",), _TIME_UNITS)
-    speed = channels.column(_SPEED, _SPEED_UNITS)
+    with_speed = speed_needed or channels.has_all((_SPEED,))
+    speed = {"shaft_speed": channels.column(_SPEED, _SPEED_UNITS)} if with_speed else {}
     thrust = channels.column(_THRUST, _FORCE_UNITS)
     shear = channels.across(_SHEAR, _ROTATING_SHEAR, _FORCE_UNITS)
     torque = channels.column(_TORQUE, _MOMENT_UNITS)
@@ -77,9 +93,10 @@ def read_openfast(path: Path) -> dict[str, NDArray[np.float64]]:
         _check_weight(*shear, str(path))
     return {
         "time": time,
-        "shaft_speed": speed,
+        **speed,
         "force": np.column_stack([thrust, *shear]),
         "moment": np.column_stack([torque, *bending]),
+        "reading": tuple(channels.taken),
     }
 
 
@@ -91,6 +108,7 @@ class _Channels:
         self.index = {name.lower(): i for i, name in reversed(list(enumerate(names)))}
         self.missing: list[str] = []
         self.looked_for: list[str] = []
+        self.taken: list[str] = []
 
     def has_all(self, quantities: tuple[tuple[str, ...], ...]) -> bool:
         return all(any(alias.lower() in self.index for alias in aliases) for aliases in quantities)
@@ -102,11 +120,13 @@ class _Channels:
             self.looked_for.append(" or ".join(aliases))
             return np.zeros(len(self.data))
         i = self.index[found.lower()]
+        self.taken.append(f"{self.names[i]} ({self.units[i]})")
         unit = self.units[i].replace("·", "-").replace("*", "-").replace(" ", "-")
         if unit not in factors:
-            invalid = unit.upper() == "INVALID"
+            # OpenFAST writes INVALID without the brackets that its reader takes away.
+            invalid = unit.upper() in ("INVALID", "NVALI")
             raise InputError(
-                f"channel {self.names[i]} has the unit ({self.units[i]})",
+                f"channel {self.names[i]} has the unit ({'INVALID' if invalid else self.units[i]})",
                 where=self.where,
                 allowed=", ".join(f"({name})" for name in factors),
                 remedy="OpenFAST writes INVALID for a channel that it cannot compute with this model; check that "
@@ -123,8 +143,10 @@ class _Channels:
         if self.has_all(fixed):
             return self.column(fixed[0], factors), self.column(fixed[1], factors)
         if self.has_all((*rotating, _AZIMUTH)):
+            y, z = self.column(rotating[0], factors), self.column(rotating[1], factors)
             azimuth = self.column(_AZIMUTH, _ANGLE_UNITS)
-            return turn_to_fixed(self.column(rotating[0], factors), self.column(rotating[1], factors), azimuth)
+            self.taken[-3:] = [f"{self.taken[-3]} and {self.taken[-2]} turned by {self.taken[-1]}"]
+            return turn_to_fixed(y, z, azimuth)
         for aliases in fixed:
             if not self.has_all((aliases,)):
                 self.missing.append(aliases[0])
@@ -155,23 +177,6 @@ class _Channels:
         )
 
 
-def turn_to_fixed(along_ya: NDArray, along_za: NDArray, azimuth: NDArray) -> tuple[NDArray, NDArray]:
-    """Components along the non-rotating y and z from those in the rotating shaft axes, at the azimuth ψ [rad].
-
-    y = y_a cos ψ − z_a sin ψ, z = y_a sin ψ + z_a cos ψ; ψ = 0 with blade 1 up, increasing with rotation about +x.
-
-    Examples
-    --------
-    A quarter of a turn after blade 1 was up, the rotating z axis points to −y:
-
-    >>> y, z = turn_to_fixed(0.0, 1.0, math.pi / 2)
-    >>> round(float(y), 12), round(float(z), 12)
-    (-1.0, 0.0)
-    """
-    cos, sin = np.cos(azimuth), np.sin(azimuth)
-    return along_ya * cos - along_za * sin, along_ya * sin + along_za * cos
-
-
 def _check_weight(fy: NDArray, fz: NDArray, where: str) -> None:
     # The file does not tell AzimB1Up. A value other than zero turns the rotor's weight away from -z: plain to see.
     mean_y, mean_z = float(fy.mean()), float(fz.mean())
@@ -189,10 +194,10 @@ def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
     from openfast_io.FAST_output_reader import load_binary_output
 
     actual, expected = path.stat().st_size, _binary_size(path)
-    if actual != expected:
-        state = "cut off" if actual < expected else "damaged"
+    # Some versions of OpenFAST write more bytes than their header announces; the official reader leaves them.
+    if actual < expected:
         raise InputError(
-            f"the file is {state}: its header announces {expected} bytes, it has {actual}",
+            f"the file is cut off: its header announces {expected} bytes, it has {actual}",
             where=str(path),
             remedy="Copy the file again, or run OpenFAST again.",
         )
@@ -252,16 +257,14 @@ def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
         if b"\0" in file.read(1024):
             raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
     try:
-        data, info = load_ascii_output(str(path))
+        with _plain_text(path) as plain:
+            data, info = load_ascii_output(str(plain))
     except Exception as error:  # the reader raises whatever its parsing stumbles over
-        bad_line = _first_bad_line(path)
-        remedy = (
-            "If the run was stopped or the copy cut off, delete the incomplete last line; otherwise run OpenFAST again."
-            if bad_line
-            else "Write the description in the file's head in plain ASCII."
-        )
         raise InputError(
-            f"not readable as OpenFAST text output ({bad_line or error})", where=str(path), remedy=remedy
+            f"not readable as OpenFAST text output ({_first_bad_line(path) or error})",
+            where=str(path),
+            remedy="If the run was stopped or the copy cut off, delete the incomplete last line; otherwise run OpenFAST "
+            "again.",
         ) from error
     names, units = info["attribute_names"], info["attribute_units"]
     if not names or data.ndim != 2 or data.shape[1] != len(names) or len(units) != len(names):
@@ -273,6 +276,26 @@ def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
         )
     _check_last_line(path)
     return names, units, data
+
+
+@contextlib.contextmanager
+def _plain_text(path: Path) -> Iterator[Path]:
+    """The file itself, or a copy in ASCII: the official reader takes the encoding of the system it runs on.
+
+    Older versions write units such as kN·m in Latin-1.
+    """
+    content = path.read_bytes()
+    if content.isascii():
+        yield path
+        return
+    try:
+        text = content.decode("utf-8")
+    except UnicodeDecodeError:
+        text = content.decode("latin-1")
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / path.name
+        copy.write_bytes(text.replace("·", "-").encode("ascii", "replace"))
+        yield copy
 
 
 def _check_last_line(path: Path) -> None:

@@ -14,6 +14,9 @@ from macroslip.errors import InputError
 GAP_FACTOR = 1.5
 """A step longer than this many median steps is a gap: something between two samples was lost."""
 
+LATEST_TIME = 1e10
+"""Largest time stamp [s], about 300 years: seconds since 1970 are allowed, milliseconds are not."""
+
 MAGNITUDE_LIMITS = {"shaft_speed": (100.0, "rad/s"), "force": (1e8, "N"), "moment": (1e9, "N m")}
 """Magnitudes beyond which only a mistaken unit is left as an explanation.
 
@@ -75,6 +78,8 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
     Works on arrays that are not validated yet, so that a bad stretch of a file can be cut away on reading.
     """
     columns = {name: np.asarray(values) for name, values in columns.items()}
+    if start is None and end is None:
+        return columns
     stamps = columns["time"][np.isfinite(columns["time"])]
     if stamps.size < 2:  # nothing to cut; validation says what is wrong
         return columns
@@ -96,7 +101,21 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
             allowed="at least 2 samples",
             remedy="Widen the window.",
         )
+    # A stamp that is not a number may lie inside: it is kept, so that validation refuses it.
+    inside = np.flatnonzero(keep)
+    unknown = np.flatnonzero(~np.isfinite(columns["time"]))
+    keep[unknown[(unknown > inside[0]) & (unknown < inside[-1])]] = True
     return {name: values[keep] for name, values in columns.items()}
+
+
+def summary(kind: str, record: Any, forces: Mapping[str, NDArray]) -> str:
+    """One line on a load history, for people."""
+    means = ", ".join(f"{name} {values.mean() / 1e3:.4g} kN" for name, values in forces.items())
+    rpm = record.shaft_speed.mean() * 30.0 / math.pi
+    return (
+        f"<{kind} from {record.source}: {record.time.size} samples, {record.time[0]:g} s to {record.time[-1]:g} s; means: "
+        f"{means}, shaft {rpm:.4g} rpm>"
+    )
 
 
 def uniform_time(duration: float, step: float) -> NDArray[np.float64]:
@@ -147,6 +166,14 @@ def _check_time(time: NDArray, source: str) -> None:
             remedy="Remove repeated samples; a restart leaves them, or a time written with too few digits.",
         )
     typical = float(np.median(steps))
+    latest = float(np.abs(time).max())
+    if latest > LATEST_TIME or np.spacing(latest) > 1e-6 * typical:
+        raise InputError(
+            f"time reaches {latest:.6g} s, with steps of {typical:.6g} s",
+            where=source,
+            allowed=f"magnitudes up to {LATEST_TIME:g} s, and steps that numbers of this size resolve",
+            remedy="Time is in seconds. Convert stamps of an epoch, in microseconds say, and count from the start.",
+        )
     bad = np.flatnonzero(steps > GAP_FACTOR * typical)
     if bad.size:
         i = bad[0]

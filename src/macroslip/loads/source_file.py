@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -26,7 +27,9 @@ def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: 
         what = "is a folder, not a file" if path.is_dir() else "no such file"
         raise InputError(what, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}.")
     extension = path.suffix.lower()
-    if extension not in kinds:
+    # Bladed numbers its groups of results: run.%23 and run.$23.
+    numbered = re.fullmatch(r"\.[%$](\d{1,4}|pj)", extension)
+    if extension not in kinds and not (numbered and ".%nn" in kinds):
         raise InputError(
             f"the extension {path.suffix!r} is not known",
             where=str(path),

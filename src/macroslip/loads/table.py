@@ -37,20 +37,31 @@ _HUB = (
 _BEARING = _BASE | {name: ((name,), _FORCE) for name in ("F_X0", "F_Y0", "F_Z0")}
 
 
-def read_hub_table(path: Path) -> dict[str, NDArray[np.float64]]:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the hub."""
-    columns = _read(path, _HUB, "F_X0", "This table holds main-bearing loads: read it with BearingLoads.read.")
+def read_hub_table(path: Path, *, speed_needed: bool = True) -> dict:
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m] at the hub.
+
+    Without a column for it, `shaft_speed` is left out unless it is needed; `reading` names the columns.
+    """
+    columns, taken = _read(
+        path,
+        _HUB,
+        "F_X0",
+        "This table holds main-bearing loads: read it with BearingLoads.read.",
+        optional=() if speed_needed else ("shaft_speed",),
+    )
+    speed = {"shaft_speed": columns["shaft_speed"]} if "shaft_speed" in columns else {}
     return {
         "time": columns["time"],
-        "shaft_speed": columns["shaft_speed"],
+        **speed,
         "force": np.column_stack([columns[name] for name in ("fx", "fy", "fz")]),
         "moment": np.column_stack([columns[name] for name in ("mx", "my", "mz")]),
+        "reading": taken,
     }
 
 
 def read_bearing_table(path: Path) -> dict[str, NDArray[np.float64]]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s] and force (n, 3) [N] on the inner ring."""
-    columns = _read(
+    columns, _ = _read(
         path, _BEARING, "fx", "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
     )
     return {
@@ -60,7 +71,10 @@ def read_bearing_table(path: Path) -> dict[str, NDArray[np.float64]]:
     }
 
 
-def _read(path: Path, quantities: Mapping, other_kind: str, other_remedy: str) -> dict[str, NDArray[np.float64]]:
+def _read(
+    path: Path, quantities: Mapping, other_kind: str, other_remedy: str, optional: tuple[str, ...] = ()
+) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
+    """Columns by quantity in SI units, and the names of those taken."""
     import pyarrow as pa
 
     table = _open(path)
@@ -95,7 +109,8 @@ def _read(path: Path, quantities: Mapping, other_kind: str, other_remedy: str) -
                 allowed=", ".join(spellings),
                 remedy="Convert the values and rename the column.",
             )
-        missing.append(" or ".join(spellings))
+        if quantity not in optional:
+            missing.append(" or ".join(spellings))
     if missing:
         other = any(name.startswith(f"{other_kind}_") for name in names)
         raise InputError(
@@ -117,7 +132,7 @@ def _read(path: Path, quantities: Mapping, other_kind: str, other_remedy: str) -
         # Empty cells become NaN here and are reported with their time.
         values = column.cast(pa.float64()).to_numpy() * factor
         result[quantity] = _rebuild_uniform(values) if quantity == "time" and kind == pa.float32() else values
-    return result
+    return result, tuple(names[i] for i, _ in chosen.values())
 
 
 def _open(path: Path):

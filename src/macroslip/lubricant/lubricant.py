@@ -2,38 +2,57 @@
 
 from __future__ import annotations
 
-import math
-from typing import Annotated, ClassVar, Self
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field
 
 from macroslip.catalogue import Provenance, Record
+from macroslip.catalogue.entry import is_finite_number
+from macroslip.catalogue.problems import shown
+from macroslip.catalogue.quantity import parse_quantity
 from macroslip.catalogue.source import Source
 from macroslip.catalogue.units import (
     CONDUCTIVITY,
     DENSITY,
     INVERSE_PRESSURE,
     INVERSE_TEMPERATURE,
+    KINEMATIC_VISCOSITY,
     NUMBER,
     PRESSURE,
     TEMPERATURE,
     VISCOSITY,
 )
 from macroslip.errors import InputError
+from macroslip.lubricant.base_oil import BASE_OILS
+from macroslip.lubricant.inlet import Inlet, derive, moved_inlet, scaled_range
 
-INLET_TEMPERATURE_SPAN = 30.0
-"""Largest change of inlet temperature [K] over which one exponential describes the viscosity."""
+COLDEST, HOTTEST = 253.15, 423.15
+"""Inlet temperatures [K] over which `Lubricant.at` uses Walther's line: -20 to 150 degC."""
+
+_SOURCES: Mapping[str, tuple[str, ...]] = {
+    "density": ("density_15",),
+    "viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),
+    "temperature_viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),
+    "pressure_viscosity": ("roelands_index", "reference_pressure_viscosity", "reference_temperature"),
+}
+"""What a file may give instead of a value at the inlet."""
 
 
 class Lubricant(Record):
     """Data of a lubricant at the inlet of the contacts, and of its drag on the rollers.
 
-    Attributes are in SI units (K, Pa s, 1/Pa, 1/K, W/(m K), kg/m3); `provenance` says for each where it comes from.
+    A file gives viscosity, temperature_viscosity, pressure_viscosity and density at the inlet temperature, or in place of
+    each what data sheets give: kinematic_viscosity_40 and kinematic_viscosity_100, density_15, and roelands_index or
+    reference_pressure_viscosity at a reference_temperature. The values at the inlet then follow. `at` gives the lubricant
+    at another temperature.
+
+    Attributes are in SI units (K, Pa s, m2/s, 1/Pa, 1/K, W/(m K), kg/m3); `provenance` says for each where it comes from.
 
     Raises
     ------
     InputError
-        If a value is missing or out of range.
+        If a value is missing, out of range, or given in two ways.
 
     Examples
     --------
@@ -43,18 +62,40 @@ class Lubricant(Record):
     """
 
     noun: ClassVar[str] = "lubricant"
+    derivable: ClassVar[frozenset[str]] = frozenset(_SOURCES)
 
     name: str = Field(min_length=1, description="short name of the lubricant, used in results")
     title: str = Field(default="", description="one line that says what lubricant it is")
+    base_oil: str = Field(default="", description=f"family of the base oil: {', '.join(BASE_OILS)}")
+    thickener: str = Field(default="", description="thickener of a grease; only the base oil enters the contacts here")
 
     inlet_temperature: Annotated[
         float, TEMPERATURE, Field(ge=200, le=500, description="temperature at the inlet of the contacts")
     ]
+    kinematic_viscosity_40: Annotated[
+        float | None, KINEMATIC_VISCOSITY, Field(ge=2e-6, le=0.1, description="kinematic viscosity at 40 degC")
+    ] = None
+    kinematic_viscosity_100: Annotated[
+        float | None, KINEMATIC_VISCOSITY, Field(ge=1e-6, le=0.1, description="kinematic viscosity at 100 degC")
+    ] = None
     viscosity: Annotated[
         float, VISCOSITY, Field(gt=0, le=1000, description="dynamic viscosity at inlet temperature, ambient pressure")
     ]
+    roelands_index: Annotated[
+        float | None, NUMBER, Field(gt=0, le=2, description="Roelands' pressure-viscosity index Z")
+    ] = None
+    reference_pressure_viscosity: Annotated[
+        float | None,
+        INVERSE_PRESSURE,
+        Field(gt=0, le=1e-7, description="pressure-viscosity coefficient at the reference temperature"),
+    ] = None
+    reference_temperature: Annotated[
+        float | None,
+        TEMPERATURE,
+        Field(ge=200, le=500, description="temperature of the reference pressure-viscosity coefficient"),
+    ] = None
     pressure_viscosity: Annotated[
-        float, INVERSE_PRESSURE, Field(gt=0, le=1e-7, description="Barus pressure-viscosity coefficient")
+        float, INVERSE_PRESSURE, Field(gt=0, le=1e-7, description="pressure-viscosity coefficient at inlet temperature")
     ]
     temperature_viscosity: Annotated[
         float,
@@ -62,7 +103,8 @@ class Lubricant(Record):
         Field(gt=0, le=1, description="temperature-viscosity coefficient beta in exp(-beta * temperature rise)"),
     ]
     thermal_conductivity: Annotated[float, CONDUCTIVITY, Field(gt=0, le=10, description="thermal conductivity")]
-    density: Annotated[float, DENSITY, Field(ge=100, le=5000, description="density of the lubricant")]
+    density_15: Annotated[float | None, DENSITY, Field(ge=100, le=5000, description="density at 15 degC")] = None
+    density: Annotated[float, DENSITY, Field(ge=100, le=5000, description="density at inlet temperature")]
     fill_factor: Annotated[
         float, NUMBER, Field(ge=0, le=1, description="share of the space between the rollers that is filled, for drag")
     ]
@@ -74,7 +116,9 @@ class Lubricant(Record):
         float | None, NUMBER, Field(gt=0, le=0.5, description="limiting shear stress / pressure of the film")
     ] = None
     eyring_stress: Annotated[
-        float | None, PRESSURE, Field(ge=1e4, le=1e9, description="Eyring stress, at which shear thinning sets in")
+        float | None,
+        PRESSURE,
+        Field(ge=1e4, le=1e9, description="Eyring stress at inlet temperature, at which shear thinning sets in"),
     ] = None
     boundary_friction: Annotated[
         float | None, NUMBER, Field(ge=0, le=1, description="friction coefficient where asperities carry the load")
@@ -83,53 +127,159 @@ class Lubricant(Record):
         float | None, NUMBER, Field(gt=0, le=1, description="film thickness / film thickness of a flooded contact")
     ] = None
 
-    def at_inlet(self, temperature: float) -> Self:
-        """Give the lubricant at another inlet temperature, by eta0 exp(-beta (T - T0)); nothing else changes.
+    def _fill(
+        self,
+        values: Mapping[str, Any],
+        provenance: Mapping[str, Provenance],
+        source: Source,
+        derived: frozenset[str] = frozenset(),
+    ) -> None:
+        """Add what follows from the figures of a data sheet, as far as they are positive numbers; then check all."""
+        usable = {key: float(value) for key, value in values.items() if is_finite_number(value) and value > 0}
+        try:
+            found = derive(usable, provenance)
+        except InputError as problem:
+            where = source.file or problem.where
+            raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+        follows = {key: origin.value for key, origin in found.items()}
+        super()._fill({**values, **follows}, {**provenance, **found}, source, frozenset(found))
 
-        For sensitivity studies: one exponential follows a mineral or PAO oil only near the temperature it was fitted
-        at. For VG 460 (46 mm2/s at 100 degC) it differs from the ASTM D341 chart by 4 % at a change of 10 K, 13 % at
-        20 K and 24 to 28 % at 30 K. Pressure-viscosity coefficient and limiting shear fall with temperature too; give
-        them by `replace` where that matters.
+    @classmethod
+    def _missing(cls, keys: list[str], source: Source) -> InputError:
+        problem = super()._missing(keys, source)
+        others = [f"for {key} {' and '.join(_SOURCES[key])}" for key in keys if key in _SOURCES]
+        if not others:
+            return problem
+        instead = f"{problem.remedy}. Data sheets have other figures, which do as well: {'; '.join(others)}"
+        return InputError(problem.what, where=problem.where, remedy=instead)
+
+    def _inconsistencies(self, source: Source) -> Iterator[InputError]:
+        for key in _SOURCES.keys() - self._derived:
+            twice = [other for other in _SOURCES[key] if getattr(self, other) is not None]
+            if twice:
+                yield InputError(
+                    f"{key} and {' and '.join(twice)} are given",
+                    where=source.where(key),
+                    allowed="one or the other, since one follows from the other",
+                    remedy="Leave out what is less certain.",
+                )
+        if self.roelands_index is not None and self.reference_pressure_viscosity is not None:
+            yield InputError(
+                "roelands_index and reference_pressure_viscosity are given",
+                where=source.where("roelands_index"),
+                allowed="one of the two",
+                remedy="Leave out what is less certain.",
+            )
+        if self.base_oil and self.base_oil not in BASE_OILS:
+            yield InputError(
+                f"base_oil is {shown(self.base_oil)}",
+                where=source.where("base_oil"),
+                allowed=", ".join(BASE_OILS),
+                remedy="Leave it out if it is none of these.",
+            )
+
+    def replace(self, **values: Any) -> Self:
+        """Copy the lubricant with other values, checked as any other input.
 
         Parameters
         ----------
-        temperature : float
-            Inlet temperature T [K], within 30 K of the lubricant's own.
-
-        Returns
-        -------
-        Lubricant
-            Its viscosity has the tag D, its inlet temperature the tag U.
+        **values : Any
+            New values [SI] by key. They get the tag U; the others keep their provenance. A value at the inlet, such as
+            viscosity, takes the place of the figures from which it followed.
 
         Raises
         ------
         InputError
-            If the temperature is too far away, or no number within the range of inlet temperatures.
+            As the constructor.
+        """
+        stated = self._stated() if self._derived & values.keys() else self
+        return super(Lubricant, stated).replace(**values)
+
+    def _stated(self, **changes: Provenance) -> Self:
+        """The lubricant by its values at the inlet alone, some of them changed; their origins are in SI."""
+        sources = {source for those in _SOURCES.values() for source in those}
+        kept = {key: origin for key, origin in self.provenance.items() if key not in sources}
+        values = {key: getattr(self, key) for key in type(self).model_fields if key not in sources}
+        record = type(self).__new__(type(self))
+        record._fill(values | {key: origin.value for key, origin in changes.items()}, kept | changes, Source())
+        return record
+
+    def at(self, temperature: float | str) -> Self:
+        """Give the lubricant at another inlet temperature.
+
+        Viscosity and its temperature coefficient follow Walther's line (ASTM D341) through viscosity and slope at the
+        present inlet temperature; density falls by 0.65 kg/(m3 K); the pressure-viscosity coefficient follows Roelands'
+        law with constant index Z, alpha_p = Z (ln eta0 + 9.67)/p_r; the Eyring stress 2 gamma/alpha(T, p) rises as
+        alpha falls. The limiting shear coefficient stays: measured changes with temperature are within 0.003.
+
+        Parameters
+        ----------
+        temperature : float or str
+            Inlet temperature [K], or text with its unit such as "50 degC"; -20 to 150 degC.
+
+        Returns
+        -------
+        Lubricant
+            Its changed values have the tag D. At its own temperature it is the lubricant itself.
+
+        Raises
+        ------
+        InputError
+            If the temperature is no number or out of range, or a law does not hold for the lubricant.
 
         Examples
         --------
-        >>> warm = Lubricant.read("vg460-pao").at_inlet(318.15)
-        >>> round(warm.viscosity, 4), warm.provenance["viscosity"].tag
-        (0.3085, 'D')
+        >>> warm = Lubricant.read("vg460-pao").at("50 degC")
+        >>> round(warm.viscosity, 4), round(warm.pressure_viscosity * 1e9, 2), warm.provenance["viscosity"].tag
+        (0.2496, 19.21, 'D')
         """
-        # Checks that it is a number and a possible inlet temperature.
-        moved = self.replace(inlet_temperature=temperature)
-        change = moved.inlet_temperature - self.inlet_temperature
-        if abs(change) > INLET_TEMPERATURE_SPAN:
+        where = f"lubricant {self.name}"
+        if isinstance(temperature, str):
+            temperature = TEMPERATURE.to_si(*parse_quantity(temperature, TEMPERATURE, "the inlet temperature", where))
+        if not is_finite_number(temperature) or not COLDEST <= temperature <= HOTTEST:
             raise InputError(
-                f"the inlet temperature {temperature:g} K is {abs(change):g} K from that of the lubricant's viscosity",
-                where=f"lubricant {self.name}",
-                allowed=f"{self.inlet_temperature - INLET_TEMPERATURE_SPAN:g} K to "
-                f"{self.inlet_temperature + INLET_TEMPERATURE_SPAN:g} K",
-                remedy="Use a lubricant file with the viscosity at that temperature.",
+                f"the inlet temperature is {shown(temperature)} K",
+                where=where,
+                allowed=f"{COLDEST:g} K to {HOTTEST:g} K, -20 to 150 degC, where Walther's line holds",
+                remedy="Give kelvin, or text such as '50 degC'.",
             )
-        viscosity = self.viscosity * math.exp(-self.temperature_viscosity * change)
-        note = (
-            f"from {self.viscosity:g} Pa s at {self.inlet_temperature:g} K "
-            f"by exp(-{self.temperature_viscosity:g}/K * {change:g} K)"
+        temperature = float(temperature)
+        if temperature == self.inlet_temperature:
+            return self
+        here = Inlet(
+            self.inlet_temperature,
+            self.density,
+            self.viscosity,
+            self.temperature_viscosity,
+            self.pressure_viscosity,
         )
-        provenance = dict(moved.provenance) | {"viscosity": Provenance(viscosity, "Pa s", "D", note)}
-        values = {key: getattr(moved, key) for key in type(self).model_fields} | {"viscosity": viscosity}
-        record = type(self).__new__(type(self))
-        record._fill(values, provenance, Source())
-        return record
+        try:
+            there = moved_inlet(here, temperature)
+        except InputError as problem:
+            raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+        given = f"at {self.inlet_temperature:g} K"
+        changes = {
+            "inlet_temperature": Provenance(temperature, "K"),
+            "density": self._moved("density", there.density, "kg/m3", f"0.65 kg/(m3 K) from {self.density:g} {given}"),
+            "viscosity": self._moved(
+                "viscosity", there.viscosity, "Pa s", f"Walther line from {self.viscosity:g} Pa s {given}"
+            ),
+            "temperature_viscosity": self._moved(
+                "temperature_viscosity", there.temperature_viscosity, "1/K", "slope of the Walther line"
+            ),
+            "pressure_viscosity": self._moved(
+                "pressure_viscosity",
+                there.pressure_viscosity,
+                "1/Pa",
+                f"Roelands' index constant, from {self.pressure_viscosity:g} 1/Pa {given}",
+            ),
+        }
+        if self.eyring_stress is not None:
+            stress = self.eyring_stress * self.pressure_viscosity / there.pressure_viscosity
+            note = f"2 gamma/alpha, from {self.eyring_stress:g} Pa {given}"
+            changes["eyring_stress"] = self._moved("eyring_stress", stress, "Pa", note)
+        return self._stated(**changes)
+
+    def _moved(self, key: str, value: float, unit: str, note: str) -> Provenance:
+        """Origin of a value that follows from the one at another temperature; its range moves in proportion."""
+        return Provenance(value, unit, "D", note, scaled_range(self.provenance[key], value))

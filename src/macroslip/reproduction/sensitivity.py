@@ -60,10 +60,10 @@ VARIATIONS = (
     ),
     Variation(
         name="inlet temperature",
-        key="lubricant.inlet_temperature",
+        key="lubricant.at",
         unit="°C",
         base=lambda case: case.lubricant.inlet_temperature - 273.15,
-        note="viscosity η0 exp(−β (T − T0)) from the base temperature T0; nothing else changes",
+        note="viscosity, its coefficients, density and Eyring stress follow",
     ),
     Variation(
         name="bearing to gearbox",

@@ -122,12 +122,13 @@ VALUES = (
     ),
     UncertainValue(
         name="inlet temperature",
-        key="lubricant.inlet_temperature",
+        key="lubricant.at",
         unit="°C",
         low=20.0,
         high=50.0,
         tag="P",
-        reason="the paper's 35 °C and 15 K either way, cold to warm; changes viscosity only",
+        reason="the paper's 35 °C and 15 K either way, cold to warm; viscosity, its coefficients, density "
+        "and Eyring stress follow",
     ),
     UncertainValue(
         name="hub to bearing",

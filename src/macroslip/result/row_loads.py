@@ -14,11 +14,44 @@ from macroslip.roller.model import highest_load, roller_model
 
 if TYPE_CHECKING:
     import xarray as xr
+    from numpy.typing import NDArray
 
     from macroslip.case.case import Case
 
 #: Of so many samples of the ring balance one is looked at.
 _EVERY = 5
+
+
+def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, NDArray]:
+    """Elastic load of every roller at every fifth sample of the ring balance between two times.
+
+    Parameters
+    ----------
+    case : Case
+    start, end : float
+        [s] on the loads' time axis.
+
+    Returns
+    -------
+    time : ndarray, shape (m,)
+        [s].
+    load : ndarray, shape (m, 2, rollers)
+        [N], by time, row and roller.
+
+    Raises
+    ------
+    InputError
+        As `macroslip.simulate`.
+    """
+    loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
+    model = roller_model(case.bearing, case.lubricant, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
+    motion, _ = ring_motion(loads, case.bearing, model, highest_load(case.bearing, case.lubricant, case.laws))
+    ring = ring_geometry(case.bearing, model)
+    here = np.flatnonzero((motion.time >= start) & (motion.time <= end))[::_EVERY]
+    found = np.empty((here.size, len(ROWS) * case.bearing.rollers_per_row))
+    for line, k in zip(found, here, strict=True):
+        roller_loads(ring, motion.shaft_angle[k], motion.displacement[k], line)
+    return motion.time[here], found.reshape(here.size, len(ROWS), -1)
 
 
 def row_loads(case: Case, start: float, end: float) -> xr.Dataset:
@@ -51,14 +84,7 @@ def row_loads(case: Case, start: float, end: float) -> xr.Dataset:
     import xarray as xr
 
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
-    model = roller_model(case.bearing, case.lubricant, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
-    motion, _ = ring_motion(loads, case.bearing, model, highest_load(case.bearing, case.lubricant, case.laws))
-    ring = ring_geometry(case.bearing, model)
-    here = np.flatnonzero((motion.time >= start) & (motion.time <= end))[::_EVERY]
-    found = np.empty((here.size, len(ROWS) * case.bearing.rollers_per_row))
-    for line, k in zip(found, here, strict=True):
-        roller_loads(ring, motion.shaft_angle[k], motion.displacement[k], line)
-    by_row = found.reshape(here.size, len(ROWS), -1)
+    _, by_row = roller_load_series(case, start, end)
     inside = (loads.time >= start) & (loads.time <= end)
     x, y, axial = loads.force[inside].T
 

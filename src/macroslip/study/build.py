@@ -18,7 +18,7 @@ from macroslip.loads import BearingLoads, HubLoads
 from macroslip.study.settings import Setting, replaced, with_settings
 
 #: Stands in for the loads until they are read: so long that any window lies within it.
-_ANY_LOADS = BearingLoads(np.array([-1e12, 1e12]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
+_ANY_LOADS = BearingLoads(np.array([-1e10, 1e10]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
 
 
 class _TemplateBuilder(_Builder):

@@ -10,7 +10,7 @@ from typing import Any
 from macroslip.case.form import Place
 from macroslip.catalogue import Record
 from macroslip.catalogue.problems import together
-from macroslip.catalogue.source import Source, parse
+from macroslip.catalogue.source import Source, parse, read_text
 from macroslip.errors import InputError
 from macroslip.study.build import template
 from macroslip.study.loads_list import load_list
@@ -42,12 +42,7 @@ def read_study(path: str | PathLike[str]) -> Study:
         If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"the study file cannot be read ({error.strerror})", where=str(path), remedy=_REMEDY) from None
-    except UnicodeDecodeError:
-        raise InputError("the study file is not UTF-8 text", where=str(path), remedy="Save it as UTF-8.") from None
+    text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
     data, source = parse(text, str(path), _REMEDY)
     return _study(data, source, path.parent)
 

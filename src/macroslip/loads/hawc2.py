@@ -1,0 +1,289 @@
+"""Hub loads from the output of HAWC2: ``.sel`` with ``.dat`` (text or binary), or the HDF5 format gtsdf.
+
+HAWC2 writes what the user's input file asks for. Needed are force and moment at the hub's end of the shaft in the shaft's
+own axes, and the bearing's angle and speed:
+
+    mbdy forcevec shaft 4 2 shaft ;
+    mbdy momentvec shaft 4 2 shaft ;
+    constraint bearing1 shaft_rot 2 ;
+
+with the number of the shaft's last element in place of 4. The speed may be that of the rotor (``aero omega``) instead,
+or may be given. Of several nodes that with the highest number is taken, the hub's end.
+
+The axes of the main body ``shaft`` turn with the rotor. At angle zero x' points to the left (looking downwind), y' down
+and z' upwind along the shaft, as in the usual models, so that in the axes of `HubLoads` (x, y, z) = (−z', x', −y'), and
+the angle of the bearing turns y and z back. An internal force has either sign, depending on the side of the cut. The
+weight of the rotor decides: it has to give a mean fz below zero.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from macroslip.errors import InputError
+from macroslip.loads.turning import turn_to_fixed
+
+_FACTORS = {
+    "n": 1.0, "kn": 1e3, "nm": 1.0, "knm": 1e3, "s": 1.0, "rad/s": 1.0, "rpm": np.pi / 30.0, "deg/s": np.pi / 180.0,
+    "deg": np.pi / 180.0, "rad": 1.0,
+}  # fmt: skip
+_UNITS = {"force": ("kN", "N"), "moment": ("kNm", "Nm"), "speed": ("rad/s", "rpm", "deg/s"), "angle": ("deg", "rad")}
+_REMEDY = (
+    "Add to the output section of the .htc file\n  mbdy forcevec shaft N 2 shaft ;\n  mbdy momentvec shaft N 2 shaft ;\n"
+    "  constraint bearing1 shaft_rot 2 ;\nwith the number of the shaft's last element for N, and run HAWC2 again."
+)
+_AGAIN = "Copy the file again, or run HAWC2 again."
+#: Part of the mean force in the bearing's plane that has to point down for the weight to decide sign and angle.
+_DOWN = 0.9
+_MOST_VALUES = 500_000_000
+
+
+class Output(NamedTuple):
+    """Channels of an output file and their values (n, channels)."""
+
+    names: list[str]
+    units: list[str]
+    descriptions: list[str]
+    values: NDArray
+    time: NDArray
+
+
+def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+
+    Parameters
+    ----------
+    path : Path
+        ``.sel``, or ``.hdf5`` in the format gtsdf.
+    speed_needed : bool
+        Whether the output has to hold the speed; otherwise `shaft_speed` is left out if it does not.
+
+    Returns
+    -------
+    dict
+        The arrays, and `reading`: what each was read from.
+
+    Raises
+    ------
+    InputError
+        The file is cut off or damaged, lacks a channel, or its forces do not show the rotor's weight.
+    """
+    output = _read_gtsdf(path) if path.suffix.lower() in (".hdf5", ".h5") else _read_sel(path)
+    where = str(path)
+    force, node = _vector(output, "F", where)
+    moment, _ = _vector(output, "M", where, node)
+    angle = _channel(output, r"angle(?!\s*_?speed)", "angle", where, prefix="bea|bearing|shaft_rot")
+    if angle is None:
+        raise InputError("there is no angle of the shaft's bearing", where=where, remedy=_REMEDY)
+    force, moment, turned = _to_fixed(force, moment, angle[0], where)
+    how = f"turned back by {turned[0]} {angle[1]}, sign {turned[1]} as the rotor's weight asks"
+    reading = [f"force and moment: main body shaft, node {node}, {how}"]
+    result = {"time": output.time, "force": force, "moment": moment}
+    speed = _channel(output, r"omega|rotor speed|angle_?\s*speed", "speed", where)
+    if speed is None and speed_needed:
+        raise InputError(
+            "there is no speed of the shaft",
+            where=where,
+            allowed="constraint bearing1 of the shaft, or aero omega",
+            remedy="Add one of them to the output section, or give the speed: loads.shaft_speed.",
+        )
+    if speed is not None:
+        result["shaft_speed"] = np.abs(speed[0]) if np.all(speed[0] <= 0.0) else speed[0]
+        reading.append(f"shaft speed: {speed[1]}")
+    return result | {"reading": tuple(reading)}
+
+
+def _vector(output: Output, letter: str, where: str, node: int | None = None) -> tuple[NDArray, int]:
+    """Components x', y', z' of the force (F) or moment (M) of the shaft at a node, or at the last one there is."""
+    found: dict[int, dict[str, int]] = {}
+    for i, (name, text) in enumerate(zip(output.names, output.descriptions, strict=True)):
+        axis = re.match(rf"{letter}([xyz])\s+coo:\s*shaft\b", name.strip(), re.IGNORECASE)
+        body = re.search(r"mbdy:\s*shaft\s+nodenr:\s*(\d+)", text, re.IGNORECASE)
+        if axis and body:
+            found.setdefault(int(body[1]), {})[axis[1].lower()] = i
+    whole = [number for number, axes in found.items() if len(axes) == 3]
+    if not whole or (node is not None and node not in whole):
+        kind = "force" if letter == "F" else "moment"
+        at = f" at node {node}, where the force is given" if node is not None and whole else ""
+        raise InputError(
+            f"there is no {kind} of the main body shaft in its own axes{at} ({len(output.names)} channels)",
+            where=where,
+            allowed=f"{letter}x, {letter}y and {letter}z with 'coo: shaft' and 'Mbdy:shaft' in the description",
+            remedy=_REMEDY,
+        )
+    node = max(whole) if node is None else node
+    kind = "force" if letter == "F" else "moment"
+    return np.column_stack([_values(output, found[node][axis], kind, where) for axis in "xyz"]), node
+
+
+def _channel(output: Output, pattern: str, kind: str, where: str, prefix: str = "") -> tuple[NDArray, str] | None:
+    for i, (name, text) in enumerate(zip(output.names, output.descriptions, strict=True)):
+        both = f"{name} {text}"
+        if re.search(pattern, both, re.IGNORECASE) and (not prefix or re.search(prefix, both, re.IGNORECASE)):
+            return _values(output, i, kind, where), f"{name.strip()} ({text.strip()})"
+    return None
+
+
+def _values(output: Output, index: int, kind: str, where: str) -> NDArray[np.float64]:
+    unit = output.units[index].strip()
+    if unit not in _UNITS[kind]:
+        raise InputError(
+            f"channel {output.names[index].strip()} has the unit {unit or 'none'}",
+            where=where,
+            allowed=", ".join(_UNITS[kind]),
+            remedy="Convert the channel.",
+        )
+    return np.asarray(output.values[:, index], dtype=np.float64) * _FACTORS[unit.lower()]
+
+
+def _to_fixed(force: NDArray, moment: NDArray, angle: NDArray, where: str) -> tuple[NDArray, NDArray, tuple[str, str]]:
+    """Force and moment in axes that do not turn, with the direction of the angle and the sign that the weight gives."""
+    best = None
+    for direction in (1.0, -1.0):
+        turned = [_turned(vector, direction * angle) for vector in (force, moment)]
+        mean_y, mean_z = turned[0][:, 1].mean(), turned[0][:, 2].mean()
+        size = np.hypot(mean_y, mean_z)
+        if best is None or size > best[0]:
+            best = size, mean_z, direction, turned
+    size, mean_z, direction, turned = best
+    if not np.isfinite(size) or size == 0.0 or abs(mean_z) < _DOWN * size:
+        raise InputError(
+            f"the weight of the rotor cannot be seen: the force across the shaft has a mean of {size:.4g} N, of which "
+            f"{mean_z:.4g} N along the vertical",
+            where=where,
+            allowed="a main body shaft with y' down and z' upwind at angle zero, and gravity",
+            remedy="If your model has other axes, write the loads as a table with columns fx_N … mz_Nm instead.",
+        )
+    sign = -1.0 if mean_z > 0.0 else 1.0
+    words = "+" if direction > 0.0 else "−", "+" if sign > 0.0 else "−"
+    return sign * turned[0], sign * turned[1], words
+
+
+def _turned(vector: NDArray, angle: NDArray) -> NDArray:
+    y, z = turn_to_fixed(vector[:, 0], -vector[:, 1], angle)
+    return np.column_stack([-vector[:, 2], y, z])
+
+
+def _read_sel(path: Path) -> Output:
+    if path.stat().st_size > 50_000_000:
+        raise InputError("the list of channels is larger than 50 MB", where=str(path), remedy="Check that it is one.")
+    lines = path.read_text(encoding="latin-1").splitlines()
+    try:
+        start = next(i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"])
+        scans, channels, duration, kind = lines[start + 1].split()
+        scans, channels, duration = int(scans), int(channels), float(duration)
+        if not (0 < scans * channels <= _MOST_VALUES) or kind not in ("ASCII", "BINARY"):
+            raise ValueError(f"{scans} scans of {channels} channels, format {kind}")
+        rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:channels]
+        names, units, texts = zip(*(_channel_line(row) for row in rows), strict=True)
+        if len(rows) != channels:
+            raise ValueError(f"{len(rows)} channels are listed, {channels} are announced")
+        scale = _scale(lines, channels) if kind == "BINARY" else None
+    except (StopIteration, ValueError, IndexError) as error:
+        raise InputError(
+            f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})",
+            where=str(path),
+            remedy=_AGAIN,
+        ) from error
+    data = next((one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == ".dat"), None)
+    if data is None:
+        raise InputError(f"there is no {path.stem}.dat beside it", where=str(path), remedy="Copy the data file too.")
+    values = _binary(data, scans, channels, scale) if scale is not None else _text(data, scans, channels)
+    time = values[:, 0] if names[0].strip().lower() == "time" else np.arange(scans) * duration / scans
+    if scale is not None and names[0].strip().lower() == "time":
+        # 16 bits resolve the time of a long run to more than a step; the samples are equally spaced.
+        time = time[0] + (time[-1] - time[0]) * np.arange(scans) / max(scans - 1, 1)
+    return Output(list(names), list(units), list(texts), values, time)
+
+
+def _channel_line(line: str) -> tuple[str, str, str]:
+    """Name, unit and description of a channel, which stand in fixed columns."""
+    body = line.expandtabs()
+    return body[12:43].strip(), body[43:54].strip(), body[54:].strip()
+
+
+def _scale(lines: list[str], channels: int) -> NDArray:
+    numbers = [line.split()[0] for line in lines if re.fullmatch(r"\s*[-+]?\d\.\d+E[-+]\d+\s*", line)]
+    if len(numbers) < channels:
+        raise ValueError(f"{len(numbers)} scale factors for {channels} channels")
+    return np.array(numbers[-channels:], dtype=np.float64)
+
+
+def _binary(path: Path, scans: int, channels: int, scale: NDArray) -> NDArray:
+    size, full = path.stat().st_size, 2 * scans * channels
+    if size != full:
+        state = "cut off" if size < full else "damaged"
+        raise InputError(
+            f"the file is {state}: the list of channels announces {full} bytes, it has {size}",
+            where=str(path),
+            remedy=_AGAIN,
+        )
+    return np.fromfile(path, "<i2").reshape(channels, scans).T * scale
+
+
+def _text(path: Path, scans: int, channels: int) -> NDArray:
+    try:
+        values = np.array(path.read_text(encoding="ascii").split(), dtype=np.float64)
+    except ValueError as error:
+        raise InputError(f"not readable as numbers ({error})", where=str(path), remedy=_AGAIN) from error
+    if values.size != scans * channels:
+        raise InputError(
+            f"the file holds {values.size} numbers, the list of channels announces {scans * channels}",
+            where=str(path),
+            remedy=_AGAIN,
+        )
+    return values.reshape(scans, channels)
+
+
+def _read_gtsdf(path: Path) -> Output:
+    import h5py
+
+    try:
+        with h5py.File(path, "r") as file:
+            if str(_plain(file.attrs.get("type", ""))).lower() != "general time series data format":
+                raise ValueError("its type is not 'General time series data format'")
+            names, units, texts = ([str(_plain(one)) for one in file[f"attribute_{kind}"]] for kind in _ATTRIBUTES)
+            blocks = [file[f"block{i:04d}"] for i in range(int(file.attrs["no_blocks"]))]
+            values = np.concatenate([_block_values(block) for block in blocks])
+            time = np.concatenate([_block_time(block) for block in blocks])
+    except (OSError, KeyError, ValueError, TypeError) as error:
+        raise InputError(
+            f"not readable as HAWC2 output in the format gtsdf ({error})", where=str(path), remedy=_AGAIN
+        ) from error
+    if values.shape != (time.size, len(names)):
+        raise InputError(
+            f"data of shape {values.shape} for {time.size} times and {len(names)} channels",
+            where=str(path),
+            remedy=_AGAIN,
+        )
+    return Output(names, units, texts, values, time)
+
+
+_ATTRIBUTES = ("names", "units", "descriptions")
+
+
+def _plain(value: object) -> object:
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else value
+
+
+def _block_values(block) -> NDArray[np.float64]:
+    data = block["data"]
+    values = data[:].astype(np.float64)
+    if "gains" not in block:
+        return values
+    if data.dtype.kind in "iu":
+        # The largest number that fits means that there is no value.
+        values[data[:] == np.iinfo(data.dtype).max] = np.nan
+    return values * block["gains"][:] + block["offsets"][:]
+
+
+def _block_time(block) -> NDArray[np.float64]:
+    start, step = float(block.attrs.get("time_start", 0.0)), float(block.attrs.get("time_step", 1.0))
+    if "time" in block:
+        return block["time"][:] * step + start if "time_step" in block.attrs else block["time"][:] + start
+    return start + step * np.arange(block["data"].shape[0])

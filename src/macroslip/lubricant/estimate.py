@@ -1,0 +1,114 @@
+"""A lubricant from the two viscosities of a data sheet and the family of its base oil."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from macroslip.catalogue.problems import shown
+from macroslip.errors import InputError
+from macroslip.lubricant.base_oil import BASE_OILS
+from macroslip.lubricant.eyring import eyring_stress
+from macroslip.lubricant.gold import gold
+from macroslip.lubricant.inlet import T15, T40, T100, viscosities
+from macroslip.lubricant.lubricant import Lubricant
+from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity, pressure_viscosity_at
+from macroslip.lubricant.roelands_index import roelands_index
+from macroslip.lubricant.thermal_density import density_at
+from macroslip.lubricant.walther import walther_line_through
+
+PRESSURE_VISCOSITY_SCATTER = 0.2
+"""Share by which single oils of a family differ from the mean pressure-viscosity coefficient; the same oil differs by as
+much between a viscometer and a measured film."""
+
+INLET = 308.15
+"""Inlet temperature [K] of an estimated lubricant: that of the base case, 35 degC."""
+
+_CONTACT_PRESSURE = 1e9
+
+
+def estimate_lubricant(
+    kinematic_viscosity_40: float, kinematic_viscosity_100: float, base_oil: str, name: str
+) -> Lubricant:
+    """Estimate a lubricant from kinematic viscosities and base oil.
+
+    The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil family by Gold et al.,
+    and the Eyring stress 2 gamma/alpha at 1 GPa. What the family leaves open has the tag E and a range.
+
+    Parameters
+    ----------
+    kinematic_viscosity_40, kinematic_viscosity_100 : float
+        At 40 and 100 degC [m2/s].
+    base_oil : str
+        A family of `macroslip.lubricant.base_oil.BASE_OILS`. For a grease, that of its base oil.
+    name : str
+        Short name of the lubricant.
+
+    Returns
+    -------
+    Lubricant
+        At 35 degC; `Lubricant.at` gives it at another temperature.
+
+    Raises
+    ------
+    InputError
+        If there is no such family, a viscosity is out of range, or it does not fall with temperature.
+
+    Examples
+    --------
+    >>> oil = estimate_lubricant(320e-6, 35e-6, "pao", name="mine")
+    >>> round(oil.viscosity, 3), oil.provenance["reference_pressure_viscosity"].range
+    (0.349, (12.8, 19.1))
+    """
+    if base_oil not in BASE_OILS:
+        raise InputError(
+            f"there is no base oil {shown(base_oil)}",
+            allowed=", ".join(f"{key} ({family.title})" for key, family in BASE_OILS.items()),
+            remedy="Choose the one closest to the data sheet.",
+        )
+    family = BASE_OILS[base_oil]
+    line = walther_line_through(T40, kinematic_viscosity_40, T100, kinematic_viscosity_100)
+    alpha = gold(kinematic_viscosity_40, family.gold_factor, family.gold_exponent)
+    entries = {
+        "name": name,
+        "title": f"estimated from two viscosities, base oil {family.title}",
+        "base_oil": base_oil,
+        "inlet_temperature": _entry(INLET - 273.15, "degC", "inlet of the base case"),
+        "kinematic_viscosity_40": _entry(kinematic_viscosity_40 * 1e6, "mm2/s", "", tag="U"),
+        "kinematic_viscosity_100": _entry(kinematic_viscosity_100 * 1e6, "mm2/s", "", tag="U"),
+        "reference_pressure_viscosity": _entry(
+            alpha * 1e9,
+            "1/GPa",
+            f"Gold et al. (2001), {family.gold_factor:g} nu^{family.gold_exponent:g}; oils of a family scatter by 20 %",
+            spread=(1.0 - PRESSURE_VISCOSITY_SCATTER, 1.0 + PRESSURE_VISCOSITY_SCATTER),
+        ),
+        "reference_temperature": _entry(40, "degC", "of the viscosity in Gold's law"),
+        "thermal_conductivity": _entry(family.thermal_conductivity, "W/(m K)", "usual for the family"),
+        "density_15": _entry(family.density_15, "kg/m3", "usual for the family")
+        | {"range": [family.density_15 - family.density_scatter, family.density_15 + family.density_scatter]},
+        "fill_factor": _entry(0.7, "1", "as in the base case"),
+        "drag_coefficient": _entry(1, "1", "as in the base case"),
+        "boundary_friction": _entry(0.1, "1", "0.08 to 0.12 is usual") | {"range": [0.08, 0.12]},
+        "starvation": _entry(0.7, "1", "as in the base case; 1 is a flooded inlet") | {"range": [0.5, 1.0]},
+    }
+    low, mean, high = family.limiting_shear
+    entries["limiting_shear"] = _entry(mean, "1", "usual for the family, see docs/lubricants.md") | {
+        "range": [low, high]
+    }
+    index = roelands_index(viscosities(line, T40, density_at(family.density_15, T15, T40))[0], alpha)
+    viscosity, _ = viscosities(line, INLET, density_at(family.density_15, T15, INLET))
+    at_inlet = pressure_viscosity_at(index, viscosity)
+    stress = eyring_stress(mean, mean_pressure_viscosity(viscosity, at_inlet, _CONTACT_PRESSURE))
+    entries["eyring_stress"] = _entry(stress * 1e-6, "MPa", "2 gamma/alpha at 1 GPa; half of it is reported too",
+                                      spread=(0.5, 1.3))  # fmt: skip
+    return Lubricant.from_dict(entries)
+
+
+def _entry(
+    value: float, unit: str, note: str, *, tag: str = "E", spread: tuple[float, float] | None = None
+) -> dict[str, Any]:
+    """An entry of a lubricant file, to three digits where it is an estimate with a relative spread."""
+    entry: dict[str, Any] = {"value": float(f"{value:.12g}"), "unit": unit, "tag": tag, "note": note}
+    if spread:
+        entry["value"] = float(f"{value:.3g}")
+        entry["range"] = [float(f"{share * value:.3g}") for share in spread]
+    return entry

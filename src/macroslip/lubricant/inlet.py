@@ -1,0 +1,181 @@
+"""From what a lubricant file gives to the values at the inlet of the contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from macroslip.catalogue import Provenance
+from macroslip.lubricant.pressure_viscosity import pressure_viscosity_at
+from macroslip.lubricant.roelands_index import roelands_index
+from macroslip.lubricant.thermal_density import THERMAL_EXPANSION, density_at
+from macroslip.lubricant.walther import (
+    WaltherLine,
+    walther_coefficient,
+    walther_line_through,
+    walther_line_with_slope,
+    walther_viscosity,
+)
+
+T15, T40, T100 = 288.15, 313.15, 373.15
+"""Temperatures [K] at which makers give density and viscosities."""
+
+
+class Inlet(NamedTuple):
+    """Values of a lubricant that depend on the temperature at the inlet of the contacts.
+
+    Parameters
+    ----------
+    temperature : float
+        [K].
+    density : float
+        [kg/m3].
+    viscosity : float
+        eta0 [Pa s].
+    temperature_viscosity : float
+        beta = -d ln eta0/dT [1/K].
+    pressure_viscosity : float
+        alpha_p [1/Pa].
+    """
+
+    temperature: float
+    density: float
+    viscosity: float
+    temperature_viscosity: float
+    pressure_viscosity: float
+
+
+def viscosities(line: WaltherLine, temperature: float, density: float) -> tuple[float, float]:
+    """Dynamic viscosity and its relative fall with temperature, from Walther's line and the density.
+
+    eta0 = nu rho and beta = -d ln eta0/dT = -d ln nu/dT + 0.65 kg/(m3 K)/rho.
+
+    Parameters
+    ----------
+    line : WaltherLine
+        Kinematic viscosity over temperature.
+    temperature : float
+        T [K].
+    density : float
+        rho at that temperature [kg/m3].
+
+    Returns
+    -------
+    tuple[float, float]
+        eta0 [Pa s] and beta [1/K].
+
+    Examples
+    --------
+    >>> eta, beta = viscosities(walther_line_through(T40, 460e-6, T100, 46e-6), 308.15, 900.0)
+    >>> round(eta, 3), round(beta, 4)
+    (0.542, 0.0562)
+    """
+    return walther_viscosity(line, temperature) * density, (
+        walther_coefficient(line, temperature) + THERMAL_EXPANSION / density
+    )
+
+
+def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
+    """The values at another temperature: Walther's line through viscosity and slope, linear density, constant Z.
+
+    Parameters
+    ----------
+    inlet : Inlet
+        Values at their temperature; they define the line.
+    temperature : float
+        The other temperature [K].
+
+    Returns
+    -------
+    Inlet
+
+    Raises
+    ------
+    InputError
+        If the viscosity does not fall with temperature, or is too low for a law.
+
+    Examples
+    --------
+    >>> warm = moved_inlet(Inlet(308.15, 900.0, 0.54, 0.056, 2.1e-8), 323.15)
+    >>> round(warm.viscosity, 4), round(warm.temperature_viscosity, 4), round(warm.pressure_viscosity * 1e9, 2)
+    (0.2496, 0.0472, 19.21)
+    """
+    kinematic = inlet.viscosity / inlet.density
+    fall = inlet.temperature_viscosity - THERMAL_EXPANSION / inlet.density
+    density = density_at(inlet.density, inlet.temperature, temperature)
+    line = walther_line_with_slope(inlet.temperature, kinematic, fall)
+    viscosity, temperature_viscosity = viscosities(line, temperature, density)
+    index = roelands_index(inlet.viscosity, inlet.pressure_viscosity)
+    return Inlet(temperature, density, viscosity, temperature_viscosity, pressure_viscosity_at(index, viscosity))
+
+
+def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
+    """What follows, at the inlet, from the figures of a data sheet.
+
+    Parameters
+    ----------
+    given : Mapping[str, float]
+        Values of a lubricant file by key [SI], those that it gives.
+    origins : Mapping[str, Provenance]
+        Their provenance; a range is handed on in proportion.
+
+    Returns
+    -------
+    dict[str, Provenance]
+        Of density, viscosity, temperature_viscosity and pressure_viscosity those that the file does not give and that
+        follow from others; values in SI.
+    """
+    found: dict[str, Provenance] = {}
+
+    def follows(key: str, value: float, unit: str, note: str, source: str) -> None:
+        found[key] = Provenance(value, unit, "D", note, scaled_range(origins.get(source), value))
+
+    temperature = given.get("inlet_temperature")
+    if temperature is None:
+        return found
+    density = given.get("density")
+    if density is None and "density_15" in given:
+        density = density_at(given["density_15"], T15, temperature)
+        follows("density", density, "kg/m3", "from density_15, less 0.65 kg/(m3 K)", "density_15")
+    viscosity, line = given.get("viscosity"), None
+    if density is not None and {"kinematic_viscosity_40", "kinematic_viscosity_100"} <= given.keys():
+        line = walther_line_through(T40, given["kinematic_viscosity_40"], T100, given["kinematic_viscosity_100"])
+        eta, beta = viscosities(line, temperature, density)
+        if viscosity is None:
+            viscosity = eta
+            note = "Walther line through the viscosities at 40 and 100 degC, times density"
+            follows("viscosity", eta, "Pa s", note, "kinematic_viscosity_40")
+        if "temperature_viscosity" not in given:
+            follows("temperature_viscosity", beta, "1/K", "slope of the Walther line at the inlet temperature", "")
+    if viscosity is None or "pressure_viscosity" in given:
+        return found
+    index = given.get("roelands_index")
+    if index is not None:
+        alpha = pressure_viscosity_at(index, viscosity)
+        follows("pressure_viscosity", alpha, "1/Pa", "from Roelands' index", "roelands_index")
+    elif (
+        line is not None
+        and density is not None
+        and {"reference_pressure_viscosity", "reference_temperature"} <= given.keys()
+    ):
+        reference = given["reference_temperature"]
+        eta, _ = viscosities(line, reference, density_at(density, temperature, reference))
+        index = roelands_index(eta, given["reference_pressure_viscosity"])
+        note = "from that at the reference temperature, with Roelands' index constant"
+        alpha = pressure_viscosity_at(index, viscosity)
+        follows("pressure_viscosity", alpha, "1/Pa", note, "reference_pressure_viscosity")
+    return found
+
+
+def scaled_range(origin: Provenance | None, value: float) -> tuple[float, float] | None:
+    """The range of another value, in proportion.
+
+    Examples
+    --------
+    >>> scaled_range(Provenance(20.0, "1/GPa", "E", "", (16.0, 25.0)), 1.0)
+    (0.8, 1.25)
+    """
+    if origin is None or origin.range is None or not origin.value:
+        return None
+    low, high = (limit / origin.value * value for limit in origin.range)
+    return (min(low, value), max(high, value))

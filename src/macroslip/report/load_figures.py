@@ -1,0 +1,97 @@
+"""A load history in pictures: at the hub, on the main bearing, as a spectrum, and which rows it loads."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.report.style import BLACK, BLUE, GREEN, ORANGE, finish, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from macroslip.loads import BearingLoads
+
+#: Length of the pieces whose spectra are averaged [s].
+_SPECTRUM_PIECE = 100.0
+
+
+def plot_bearing_load(axes: Axes, loads: BearingLoads) -> Axes:
+    """Radial load and thrust on the main bearing [kN] over time."""
+    radial, thrust = np.hypot(loads.force[:, 0], loads.force[:, 1]), loads.force[:, 2]
+    axes.plot(loads.time, radial / 1e3, color=BLUE, linewidth=0.8, label="radial load")
+    axes.plot(loads.time, thrust / 1e3, color=ORANGE, linewidth=0.8, label="thrust")
+    axes.legend(frameon=False, fontsize=9, loc="upper right")
+    return finish(axes, "time [s]", "load [kN]", "load on the main bearing")
+
+
+def plot_shaft_speed(axes: Axes, loads: BearingLoads) -> Axes:
+    """Shaft speed [rpm] over time."""
+    axes.plot(loads.time, loads.shaft_speed * 30.0 / math.pi, color=BLACK, linewidth=0.8)
+    return finish(axes, "time [s]", "shaft speed [rpm]", "shaft speed")
+
+
+def plot_direction(axes: Axes, loads: BearingLoads) -> Axes:
+    """Radial load in the plane of the bearing [kN], looking downwind: X0 points to the left."""
+    axes.plot(loads.force[:, 0] / 1e3, loads.force[:, 1] / 1e3, color=BLUE, linewidth=0.4, alpha=0.6)
+    axes.plot(loads.force[:, 0].mean() / 1e3, loads.force[:, 1].mean() / 1e3, color=ORANGE, marker="o", label="mean")
+    axes.invert_xaxis()
+    axes.axhline(0.0, color=BLACK, linewidth=0.5)
+    axes.axvline(0.0, color=BLACK, linewidth=0.5)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.legend(frameon=False, fontsize=9)
+    return finish(axes, "F_X0 [kN], to the left", "F_Y0 [kN], up", "radial load, looking downwind")
+
+
+def plot_spectrum(axes: Axes, loads: BearingLoads) -> Axes:
+    """Spectral density of radial load and thrust [kN²/Hz], with the mean speed of the shaft and its third harmonic."""
+    from scipy.signal import welch
+
+    step = float(np.median(np.diff(loads.time)))
+    piece = min(loads.time.size, max(8, round(_SPECTRUM_PIECE / step)))
+    radial = np.hypot(loads.force[:, 0], loads.force[:, 1])
+    for values, color, name in ((radial, BLUE, "radial load"), (loads.force[:, 2], ORANGE, "thrust")):
+        frequency, density = welch(values / 1e3, 1.0 / step, nperseg=piece)
+        if np.any(density[1:] > 0.0):
+            axes.plot(frequency[1:], density[1:], color=color, linewidth=0.9, label=name)
+    turns = abs(float(loads.shaft_speed.mean())) / (2.0 * math.pi)
+    if turns > 0.0:
+        for multiple in (1, 3):
+            axes.axvline(multiple * turns, color=GREEN, linewidth=0.8, linestyle=":", label=f"{multiple}P")
+    if axes.lines:
+        axes.set(xscale="log", yscale="log")
+        axes.legend(frameon=False, fontsize=9)
+    return finish(axes, "frequency [Hz]", "density [kN²/Hz]", "spectrum")
+
+
+def plot_empty_row(axes: Axes, time: NDArray, carried: NDArray, share: float) -> Axes:
+    """Load that the rollers of the upwind row carry together [kN] over time; none while the row is empty."""
+    axes.fill_between(time, carried / 1e3, color=BLUE, alpha=0.5, linewidth=0.0)
+    axes.set_ylim(bottom=0.0)
+    return finish(axes, "time [s]", "sum of loads [kN]", f"upwind row: empty {100.0 * share:.3g} % of the time")
+
+
+def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
+    """All of it on one page.
+
+    Parameters
+    ----------
+    loads : BearingLoads
+    time, carried : ndarray, shape (m,)
+        Times [s] and the load that the upwind row's rollers carry together then [N].
+    """
+    figure, axes = new_figure(9.6, 9.6, 3, 2)
+    plot_bearing_load(axes[0], loads)
+    plot_shaft_speed(axes[1], loads)
+    plot_direction(axes[2], loads)
+    plot_spectrum(axes[3], loads)
+    plot_empty_row(axes[4], time, carried, float(np.mean(carried <= 0.0)))
+    radial = np.sort(np.hypot(loads.force[:, 0], loads.force[:, 1]))[::-1] / 1e3
+    axes[5].plot(np.linspace(0.0, 100.0, radial.size), radial, color=BLUE, linewidth=1.2)
+    finish(axes[5], "share of time [%]", "radial load exceeded [kN]", "load duration")
+    figure.suptitle(loads.source, fontsize=10, x=0.01, ha="left")
+    return figure

@@ -1,0 +1,152 @@
+"""Bladed output in the original layout, text and binary, and everything that can be wrong with it."""
+
+import numpy as np
+import pytest
+
+from macroslip.errors import InputError
+from macroslip.loads import HubLoads
+
+HUB = ["Mx", "My", "Mz", "Myz", "Fx", "Fy", "Fz", "Fyz"]
+
+
+def _group(folder, stem, number, title, names, units, columns, form, step=0.05, wrap=False):
+    """A group as Bladed writes it: header `.%nn` and data `.$nn`."""
+    columns = np.asarray(columns, dtype=np.float32)
+    quoted = [f"'{name}'" for name in names]
+    half = len(names) // 2
+    variables = "\n".join([" ".join(quoted[:half]), " ".join(quoted[half:])]) if wrap else " ".join(quoted)
+    mean = "   ".join(f"{value:.7E}" for value in columns.astype(float).mean(axis=0))
+    (folder / f"{stem}.%{number}").write_text(
+        f"FILE\t{stem}.${number}\nACCESS\tD\nFORM\t{form}\nRECL\t4\nFORMAT\tR*4\nCONTENT\t'POWPROD'\nCONFIG\t'STATIONARY'\n"
+        f"NDIMENS\t2\nDIMENS\t{columns.shape[1]}\t{columns.shape[0]}\nGENLAB\t'{title}'\nVARIAB\t{variables}\n"
+        f"VARUNIT\t{' '.join(units)}\nAXISLAB\t'Time'\nAXIUNIT\tT\nAXIMETH\t2\nMIN \t0.0000000E+000\n"
+        f"STEP\t{step:.7E}\nNVARS\t0\nULOADS   1.0000000E+000\n   2.0000000E+000\nMEAN   {mean}\n",
+        encoding="latin-1",
+    )
+    data = folder / f"{stem}.${number}"
+    if form == "U":
+        data.write_bytes(columns.astype("<f4").tobytes())
+    else:
+        np.savetxt(data, columns, fmt="%15.7E")
+    return folder / f"{stem}.%{number}"
+
+
+@pytest.fixture
+def truth(sample_outb):
+    return HubLoads.read(sample_outb)
+
+
+def _run(folder, truth, form="U", with_speed=True, **options):
+    mx, my, mz = truth.moment.T
+    fx, fy, fz = truth.force.T
+    columns = np.column_stack([mx, my, mz, np.hypot(my, mz), fx, fy, fz, np.hypot(fy, fz)])
+    names = [f"Stationary hub {name}" for name in HUB]
+    units = ["FL"] * 4 + ["F"] * 4
+    header = _group(folder, "demo", 23, "Hub loads: fixed frame GL coordinates", names, units, columns, form, **options)
+    if with_speed:
+        azimuth = np.cumsum(truth.shaft_speed) * 0.05
+        drive = np.column_stack([truth.shaft_speed, azimuth])
+        _group(
+            folder,
+            "demo",
+            "05",
+            "Drive train variables",
+            ["Rotor speed", "Rotor azimuth angle"],
+            ["A/T", "A"],
+            drive,
+            form,
+        )
+    return header
+
+
+def _message(path, **options):
+    with pytest.raises(InputError) as caught:
+        HubLoads.read(path, **options)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("form", ["U", "F"])
+@pytest.mark.parametrize("extension", [".%23", ".$23", ".%05"])
+@pytest.mark.parametrize("wrap", [False, True])
+def test_the_loads_come_back(tmp_path, truth, form, extension, wrap):
+    _run(tmp_path, truth, form, wrap=wrap)
+    read = HubLoads.read(tmp_path / f"demo{extension}")
+    np.testing.assert_allclose(read.force, truth.force, rtol=1e-6, atol=0.1)
+    np.testing.assert_allclose(read.moment, truth.moment, rtol=1e-6, atol=0.1)
+    np.testing.assert_allclose(read.shaft_speed, truth.shaft_speed, rtol=1e-6)
+    assert read.time == pytest.approx(truth.time - truth.time[0], abs=1e-4)
+    assert any("demo.%05" in line for line in read.reading)
+
+
+def test_the_speed_may_be_given(tmp_path, truth):
+    header = _run(tmp_path, truth, with_speed=False)
+    message = _message(header)
+    assert "no Rotor speed" in message
+    assert "loads.shaft_speed" in message
+    read = HubLoads.read(header, shaft_speed=2.1)
+    assert (read.shaft_speed == 2.1).all()
+
+
+def test_a_binary_that_is_cut_off(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    data = tmp_path / "demo.$23"
+    data.write_bytes(data.read_bytes()[:-4])
+    message = _message(header)
+    assert "cut off" in message
+    assert "demo.$23" in message
+
+
+def test_a_text_that_is_cut_off(tmp_path, truth):
+    header = _run(tmp_path, truth, "F")
+    data = tmp_path / "demo.$23"
+    data.write_text(data.read_text()[:-200])
+    assert "numbers, its header announces" in _message(header)
+
+
+def test_data_of_another_run(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    data = tmp_path / "demo.$23"
+    data.write_bytes((np.fromfile(data, "<f4") * 1.1).astype("<f4").tobytes())
+    message = _message(header)
+    assert "the header states" in message
+    assert "not of the same run" in message
+
+
+def test_data_without_headers(tmp_path, truth):
+    _run(tmp_path, truth)
+    (tmp_path / "demo.%23").unlink()
+    (tmp_path / "demo.%05").unlink()
+    assert "no header demo.%nn" in _message(tmp_path / "demo.$23")
+
+
+def test_a_run_without_hub_loads(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    header.unlink()
+    message = _message(tmp_path / "demo.%05")
+    assert "Stationary hub Fx" in message
+    assert "hub loads in the fixed frame" in message
+
+
+def test_units_that_are_not_si(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    header.write_text(header.read_text().replace("FL FL FL FL F F F F", "FL FL FL FL kF F F F"))
+    assert "unit code kF" in _message(header)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("DIMENS\t8", "DIMENS\tx"), ("DIMENS\t8", "DIMENS\t9"), ("FORMAT\tR*4", "FORMAT\tI*2"), ("VARIAB\t", "VARIAX\t")],
+)
+def test_a_damaged_header(tmp_path, truth, old, new):
+    header = _run(tmp_path, truth)
+    header.write_text(header.read_text().replace(old, new))
+    message = _message(header)
+    assert str(header) in message
+    assert "run Bladed again" in message
+
+
+def test_groups_with_different_steps(tmp_path, truth):
+    header = _run(tmp_path, truth)
+    drive = tmp_path / "demo.%05"
+    drive.write_text(drive.read_text().replace("STEP\t5.0000000E-02", "STEP\t4.0000000E-02"))
+    assert "different time steps" in _message(header)

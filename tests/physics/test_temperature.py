@@ -1,0 +1,27 @@
+"""Friction over temperature: loaded films thin, so that their friction falls."""
+
+import pytest
+
+from macroslip import Case, HubLoads, Laws, Lubricant, simulate
+
+OIL = Lubricant.read("vg460-pao")
+
+
+def downwind_energy(oil, rheology):
+    """Energy [J] of one roller of the loaded row in 30 s of turbulence."""
+    loads = HubLoads.bundled("12B").window(0.0, 30.0)
+    laws = Laws.physical().but(rheology=rheology)
+    result = simulate(Case(loads=loads, lubricant=oil, laws=laws, rollers=[0]))
+    return float(result.energy.sum("interface").sel(row="downwind").item())
+
+
+@pytest.mark.parametrize("rheology", ["limiting-shear", "eyring"])
+def test_friction_of_a_loaded_row_falls_with_temperature(rheology):
+    cold, own, warm = (downwind_energy(OIL.at(f"{celsius} degC"), rheology) for celsius in (20, 35, 50))
+    assert cold > 1.1 * own > 1.2 * warm
+
+
+def test_with_the_pressure_viscosity_coefficient_kept_it_would_rise():
+    # Kept, it makes Roelands' index rise: the fault that the constant index mends.
+    warm = OIL.at("50 degC").replace(pressure_viscosity=OIL.pressure_viscosity)
+    assert downwind_energy(warm, "limiting-shear") > downwind_energy(OIL, "limiting-shear")

@@ -1,0 +1,82 @@
+"""Heat balance of a bearing: exact cases, and what has no balance."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.special import lambertw
+
+from macroslip.errors import InputError
+from macroslip.torque.heat_balance import HOTTEST, balance_temperature, tabulated_power
+
+
+@given(st.floats(0.0, 3000.0), st.floats(40.0, 80.0), st.floats(250.0, 310.0))
+def test_constant_power_warms_by_power_over_conductance(power, conductance, ambient):
+    expected = ambient + power / conductance
+    assert balance_temperature(lambda _: power, conductance, ambient) == pytest.approx(expected, abs=1e-8)
+
+
+@given(st.floats(10.0, 3000.0), st.floats(0.0, 50.0), st.floats(250.0, 310.0))
+def test_power_that_falls_in_proportion(power, slope, ambient):
+    # P0 - s (T - Ta) = G (T - Ta)
+    found = balance_temperature(lambda t: max(power - slope * (t - ambient), 0.0), 60.0, ambient)
+    assert found == pytest.approx(ambient + power / (60.0 + slope), abs=1e-8)
+
+
+@pytest.mark.parametrize("beta", [0.01, 0.056, 0.2])
+def test_power_that_falls_exponentially(beta):
+    # x = (P0/G) exp(-beta x) is solved by x = W(beta P0/G)/beta, W being Lambert's function.
+    expected = 288.15 + lambertw(beta * 900.0 / 60.0).real / beta
+    found = balance_temperature(lambda t: 900.0 * math.exp(-beta * (t - 288.15)), 60.0, 288.15)
+    assert found == pytest.approx(expected, abs=1e-8)
+
+
+def test_a_better_cooled_bearing_is_colder_and_no_friction_leaves_it_at_ambient():
+    found = [balance_temperature(lambda t: 3e5 / t, conductance, 288.15) for conductance in (40.0, 60.0, 80.0)]
+    assert found[0] > found[1] > found[2] > 288.15
+    assert balance_temperature(lambda _: 0.0, 60.0, 288.15) == 288.15
+
+
+def test_no_balance_is_an_error():
+    with pytest.raises(InputError, match=f"^there is no heat balance up to {HOTTEST:g} K: .* by 3700 W. Allowed: "):
+        balance_temperature(lambda _: 10_000.0, 60.0, 288.15)
+    with pytest.raises(InputError, match="^there is no heat balance up to 320 K: .* by 89 W"):
+        balance_temperature(lambda _: 2000.0, 60.0, 288.15, hottest=320.0)
+
+
+@pytest.mark.parametrize("power", [math.nan, math.inf, -1.0])
+def test_a_power_that_is_none(power):
+    with pytest.raises(
+        InputError, match="^the friction power at 288.15 K is .* Allowed: a finite number, not negative"
+    ):
+        balance_temperature(lambda _: power, 60.0, 288.15)
+
+
+@pytest.mark.parametrize(("conductance", "ambient"), [(0.0, 290.0), (-1.0, 290.0), (math.nan, 290.0), (60.0, 400.0),
+                                                      (60.0, math.nan), (60.0, -5.0)])  # fmt: skip
+def test_a_conductance_or_ambient_that_is_none(conductance, ambient):
+    with pytest.raises(InputError, match="^the (conductance|ambient temperature) is .* Allowed: "):
+        balance_temperature(lambda _: 600.0, conductance, ambient)
+
+
+def test_a_table_is_met_at_its_points_and_stays_between_them():
+    at, powers = [283.15, 293.15, 308.15, 323.15], [1200.0, 800.0, 500.0, 350.0]
+    power = tabulated_power(at, powers)
+    assert [power(t) for t in at] == pytest.approx(powers, rel=1e-12)
+    fine = [power(t) for t in np.linspace(270.0, 340.0, 200)]
+    assert max(fine) == 1200.0 and min(fine) == 350.0 and (np.diff(fine) <= 0.0).all()
+    # A table of a straight line is the line.
+    line = tabulated_power([280.0, 300.0, 320.0], [1000.0, 800.0, 600.0])
+    assert balance_temperature(line, 60.0, 288.15) == pytest.approx((1000.0 + 10.0 * 280.0 + 60.0 * 288.15) / 70.0)
+
+
+@pytest.mark.parametrize(
+    ("temperatures", "powers"),
+    [([290.0], [1.0]), ([290.0, 300.0], [1.0]), ([300.0, 290.0], [1.0, 1.0]), ([290.0, 300.0], [1.0, -1.0]),
+     ([290.0, 300.0], [1.0, math.nan]), ([290.0, math.nan], [1.0, 1.0])],
+)  # fmt: skip
+def test_a_table_that_is_none(temperatures, powers):
+    with pytest.raises(InputError):
+        tabulated_power(temperatures, powers)
