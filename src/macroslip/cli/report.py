@@ -62,9 +62,10 @@ def _of_results(results: Path, title: str, weibull: tuple[float, float] | None) 
     if weibull:
         raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
     found = read_results(results)
+    page = results_page(found, title=title)
     failed = sum(int((one.status != 0).sum()) for one in found.values())
     rollers = sum(int(one.status.size) for one in found.values())
-    return results_page(found, title=title), f"{failed} of {rollers} rollers" if failed else ""
+    return page, f"{failed} of {rollers} rollers" if failed else ""
 
 
 def _of_study(results: Path, title: str, weibull: tuple[float, float] | None) -> tuple[str, str]:
