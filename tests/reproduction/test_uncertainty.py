@@ -57,7 +57,10 @@ def test_every_sample_is_a_run_of_its_own(made, sample):
 def test_values_carry_the_names_of_their_keys(made, sample):
     point = {one.key: one.value for one in made.variations[2]}
     found = dict(zip(sample.parameter.values.tolist(), sample.value.values[2].tolist(), strict=True))
-    assert found == {one.name: point[one.key] for one in VALUES}
+    assert found["hub to bearing"] == point["drivetrain.hub_to_bearing"]
+    assert found["roller diameter"] == pytest.approx(1e3 * point["bearing.roller_diameter"])
+    assert found["inlet temperature"] == pytest.approx(point["lubricant.at"] - 273.15)
+    assert all(one.low <= found[one.name] <= one.high for one in VALUES)
 
 
 def test_the_torque_is_work_over_angle(sample):

@@ -9,6 +9,7 @@ import xarray as xr
 from macroslip import BearingLoads, Case, InputError, MacroslipError, open_study, run_study, simulate
 from macroslip.study.reader import stored_results
 from macroslip.study.study_file import study_of
+from macroslip.study.summary import ALWAYS_KEPT
 
 
 def test_results_are_those_of_simulate(tmp_path, load_files, content):
@@ -42,9 +43,17 @@ def test_only_what_is_to_be_kept_is_stored(tmp_path, load_files, content):
     run_study(study_of(content | {"keep": ["energy"]}, load_files), tmp_path / "some")
     whole, some = open_study(tmp_path / "all"), open_study(tmp_path / "some")
     of_results = {name for name, one in some.data_vars.items() if "roller" in one.dims}
-    assert of_results == {"energy", "status"} and "orbit_energy" in whole
+    assert of_results == {"energy", *ALWAYS_KEPT} and "orbit_energy" in whole
     np.testing.assert_array_equal(some.energy, whole.energy)
     np.testing.assert_array_equal(some.peak_power_mean, whole.peak_power_mean)
+
+
+def test_a_failed_roller_is_told_whatever_is_kept(tmp_path, load_files, content):
+    failing = content | {"keep": ["energy"], "models": {"short": {"integrator.max_steps": 1}}}
+    ended = run_study(study_of(failing, load_files), tmp_path / "out")
+    assert ended.progress.failed == 4
+    assert {outcome for _, outcome, _ in ended.failures} == {"rollers failed"}
+    assert "2 of 2 rollers failed" in ended.failures[0][2]
 
 
 def test_results_one_by_one_are_whole(tmp_path, load_files, content):

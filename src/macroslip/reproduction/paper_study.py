@@ -72,7 +72,10 @@ def paper_study(directory: Path) -> xr.Dataset:
         parts, xr.DataArray(opened.loads.values.tolist(), dims="case", name="case"), combine_attrs="override"
     )
     # In an order of their own, whatever that of the files.
-    study = xr.Dataset(study.data_vars, {name: study[name] for name in _COORDINATES if name in study.coords})
+    study = xr.Dataset(
+        {name: one.variable for name, one in study.data_vars.items()},
+        {name: study[name].variable for name in _COORDINATES if name in study.coords},
+    )
     study = study.assign_coords(
         wind_speed=("case", opened.wind_speed.values, {"units": "m/s", "long_name": "mean wind speed"}),
         turbulence=("case", opened.turbulence.values.tolist(), {"units": "1", "long_name": "IEC turbulence class"}),

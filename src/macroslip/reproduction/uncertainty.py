@@ -56,7 +56,7 @@ def uncertainty(directory: Path) -> xr.Dataset:
         return {"units": units, "long_name": long_name}
 
     of_row = ("sample", "case", "row")
-    values = np.stack([parts[0][one.key].values for one in VALUES], axis=1)
+    values = np.stack([_in_unit(parts[0][one.key].values, one.unit) for one in VALUES], axis=1)
     flags = {
         "flag_values": np.arange(len(OUTCOMES), dtype=np.int8),
         "flag_meanings": " ".join(one.replace(" ", "_") for one in OUTCOMES),
@@ -93,11 +93,16 @@ def uncertainty(directory: Path) -> xr.Dataset:
             "row": study.row.values,
             "interface": list(_INTERFACES),
             "parameter": [one.name for one in VALUES],
-            "unit": ("parameter", [study[one.key].units for one in VALUES]),
+            "unit": ("parameter", [one.unit for one in VALUES]),
             "wind_speed": ("case", [float(part.wind_speed[0]) for part in parts], about("m/s", "mean wind speed")),
         },
         {"title": study.attrs["title"]},
     )
+
+
+def _in_unit(values: np.ndarray, unit: str) -> np.ndarray:
+    """Values of the study file, which are in SI units, in the unit of their range."""
+    return values - 273.15 if unit == "°C" else values / {"mm": 1e-3, "µm": 1e-6, "GPa": 1e9}.get(unit, 1.0)
 
 
 def _reason(names: list[str], runs: list[xr.Dataset]) -> tuple[int, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,6 +46,25 @@ CASE_VARIABLES = {
     "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
     "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
 }
+
+
+#: Variables that are stored whatever is to be kept: which rollers failed, and how.
+ALWAYS_KEPT = ("status", "end_time", "end_slip")
+
+
+def kept(result: xr.Dataset, names: Sequence[str] | None) -> xr.Dataset:
+    """What is stored of a result: some of its variables with all coordinates and attributes, or all of them.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        From `simulate`.
+    names : sequence of str, optional
+        Variables to keep beside `ALWAYS_KEPT`; None: all.
+    """
+    if names is None:
+        return result
+    return result.drop_vars([name for name in result.data_vars if name not in (*names, *ALWAYS_KEPT)])
 
 
 def row_values(result: xr.Dataset) -> dict[str, list[float]]:

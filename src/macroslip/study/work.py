@@ -18,7 +18,7 @@ from macroslip.study.key import case_key, program
 from macroslip.study.outcome import Outcome
 from macroslip.study.settings import RECORDS, Setting
 from macroslip.study.store import case_path, checksum, layout, read_manifest, to_bytes
-from macroslip.study.summary import case_values, row_values
+from macroslip.study.summary import case_values, kept, row_values
 
 
 class StoreError(MacroslipError):
@@ -152,9 +152,7 @@ def _computed(case: Case, options: dict[str, Any], threads: int | None) -> tuple
     seconds = time.perf_counter() - started
     values: dict[str, Any] = row_values(result) | case_values(result, case)
     values["simulate_seconds"] = seconds
-    if options["keep"] is not None:
-        # A roller that failed has to be found later, whatever is kept.
-        result = result.drop_vars([name for name in result.data_vars if name not in (*options["keep"], "status")])
+    result = kept(result, options["keep"])
     if options["cycles"]:
         from macroslip.study.cycles import counted
 
