@@ -11,9 +11,11 @@ import hashlib
 from pathlib import Path
 
 #: Parts of the package from which kernels are compiled.
-KERNEL_PARTS = ("compiled", "constants", "contact", "film", "integrate", "ring", "roller", "rolling", "traction")
+KERNEL_PARTS = (
+    "compiled", "constants", "contact", "film", "integrate", "lubricant", "ring", "roller", "rolling", "traction",
+)  # fmt: skip
 #: Parts on which the result of a case depends beside those.
-RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "lubricant", "mechanisms", "result")
+RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "mechanisms", "rating", "result")
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
     "__init__", "cli", "errors", "files", "fingerprint", "machine", "plugins", "report", "reproduction", "study", "torque",

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.files import check_new_file, new_file
 
 
 def init(
@@ -18,6 +18,6 @@ def init(
     """Write a case file with every key explained."""
     text = (resources.files("macroslip.cli") / "case_template.yaml").read_text(encoding="utf-8")
     check_new_file(path, force=force)
-    with new_file(path) as temporary:
+    with new_file(path, force=force) as temporary:
         temporary.write_text(text, encoding="utf-8")
     typer.echo(f"written: {path}\nrun it:  macroslip run {path} -o {path.with_suffix('.nc')}")

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.cli.new_file import check_new_file, new_file
 from macroslip.errors import InputError, MacroslipError
+from macroslip.files import check_new_file, new_file
 
 PAGE = "report.html"
 
@@ -43,9 +43,9 @@ def report(
         output = (results if results.is_dir() else results.parent) / PAGE
     make = _of_study if is_study(results) else _of_results
     if results.exists():
-        check_new_file(output, force=force)
+        check_new_file(output, force=force, inputs=[results] if results.is_file() else results.glob("*.nc"))
     page, failed = make(results, title, weibull)
-    with new_file(output) as temporary:
+    with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8")
     if not quiet:
         typer.echo(f"written: {output}")

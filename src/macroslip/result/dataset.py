@@ -44,7 +44,12 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "energy": (_INTERFACES, "J", "energy dissipated by friction in the window"),
     "orbit_energy": (_ORBITS, "J", "energy dissipated by friction in each complete orbit"),
     "peak_power": (_ORBITS, "W", "largest frictional power in each complete orbit"),
-    "min_spin_ratio": (_ROLLERS, "1", "smallest ratio of spin to spin in pure rolling in the window"),
+    "min_spin_ratio": (
+        _ROLLERS,
+        "1",
+        "smallest ratio of spin to spin in pure rolling in the window, where the shaft turns at a tenth or more of its "
+        "highest speed",
+    ),
     "outside_film_range": (
         _INTERFACES,
         "1",

@@ -1,4 +1,4 @@
-"""A whole campaign: from a study to a folder of results, in this process, in several, or on a cluster."""
+"""A study from its file to a folder of results, in this process, in several, or on a cluster."""
 
 from __future__ import annotations
 
@@ -10,12 +10,11 @@ from pathlib import Path
 
 from macroslip.bearing.frames import ROWS
 from macroslip.errors import InputError, MacroslipError
+from macroslip.files import make_folder
 from macroslip.machine import usable_processors
 from macroslip.study.build import template
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
-from macroslip.study.crew import Crew, ThisProcess, ThreadsHere
 from macroslip.study.cycles import check_installed as check_fatpack
-from macroslip.study.durable import make_folder
 from macroslip.study.lock import locked
 from macroslip.study.progress import Progress
 from macroslip.study.session import Ended, Session
@@ -24,6 +23,7 @@ from macroslip.study.store import check_folder
 from macroslip.study.study import Study
 from macroslip.study.study_file import read_study
 from macroslip.study.tables import write_summary
+from macroslip.study.workers import ThisProcess, ThreadsHere, Workers
 
 
 def run_study(
@@ -97,13 +97,13 @@ def run_study(
             session = Session(study, directory, progress)
             if workers is not None or scheduler is not None:
                 threads = threads_of_worker(workers) if threads is None else threads
-                crew = cluster(workers, scheduler, session.note)
+                pool = cluster(workers, scheduler, session.note)
                 note = f"runs are computed by {scheduler or f'{workers} workers on this machine'}"
             else:
                 runs, threads = _shared_out(study, threads or usable_processors())
-                crew = _here(runs)
+                pool = _here(runs)
                 note = f"runs are computed in this process, {runs} at once with {threads} threads each"
-            with session.opened(), crew as found:
+            with session.opened(), pool as found:
                 session.note(note)
                 session.go(found, threads, strict)
                 write_summary(directory, study)
@@ -121,7 +121,7 @@ def _shared_out(study: Study, threads: int) -> tuple[int, int]:
 
 
 @contextmanager
-def _here(runs: int) -> Iterator[Crew]:
+def _here(runs: int) -> Iterator[Workers]:
     if runs == 1:
         # In the main thread, where an interrupt waits for the rollers under way only.
         yield ThisProcess()
