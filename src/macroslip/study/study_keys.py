@@ -25,7 +25,7 @@ KINDS = ("hub", "main-bearing")
 class BaseCase(Form):
     """The keys of a case file; what stands under them is checked by the reader of case files."""
 
-    form = "the keys of a case file, of loads only start and end"
+    form = "the keys of a case file, of loads only start, end and shaft_speed"
 
     def read(self, value: Any, info: Any) -> dict[str, Any]:
         """Check that the loads are left to the study."""
@@ -38,10 +38,10 @@ class BaseCase(Form):
         problems = [
             detail_of(
                 ("loads", str(key)),
-                InputError(f"the key '{key}' cannot stand here", allowed="start, end", remedy=remedy),
+                InputError(f"the key '{key}' cannot stand here", allowed="start, end, shaft_speed", remedy=remedy),
             )
             for key in loads
-            if key not in ("start", "end")
+            if key not in ("start", "end", "shaft_speed")
         ]
         if problems:
             raise ValidationError.from_exception_data("case", problems)
@@ -198,7 +198,9 @@ class StudyFile:
     """The keys at the top of a study file."""
 
     title: Annotated[str, Text("what the study is about", may_be_empty=True)] = ""
-    case: Annotated[dict[str, Any], BaseCase("base case: the keys of a case file; of loads only start and end")] = None
+    case: Annotated[
+        dict[str, Any], BaseCase("base case: the keys of a case file; of loads only start, end and shaft_speed")
+    ] = None
     loads: StudyLoads
     bearings: Annotated[list[str], Texts("bearings: names of the catalogue, or paths of bearing files")] = None
     lubricants: Annotated[list[str], Texts("lubricants: names of the catalogue, or paths of lubricant files")] = None
