@@ -13,6 +13,7 @@ from macroslip.catalogue.input_section import MappingOf, detail_of, details_insi
 from macroslip.catalogue.problems import shown
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
+from macroslip.result.dataset import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Sample
 
@@ -120,6 +121,21 @@ class Values(Form):
         return {"type": "array", "minItems": 1, "uniqueItems": True}
 
 
+@dataclass(frozen=True)
+class Variables(Texts):
+    """Names of variables of a result."""
+
+    form = f"a list of variables of a result: {', '.join(VARIABLES)}"
+
+    def read(self, value: Any, info: Any) -> list[str]:
+        """Check every name."""
+        names = super().read(value, info)
+        wrong = [name for name in names if name not in VARIABLES]
+        if wrong:
+            raise InputError(f"it is {shown(wrong[0])}", allowed=self.form, remedy=f"It is the {self.about}.")
+        return names
+
+
 @input_section("grid", "values of one parameter")
 class Axis:
     """Values of one parameter."""
@@ -198,3 +214,4 @@ class StudyFile:
     ] = None
     variations: Variations = Variations()
     cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False
+    keep: Annotated[list[str] | None, Variables("variables of a result to store; all if left out")] = None
