@@ -131,6 +131,8 @@ class Case:
     rollers : "all" or sequence of int
         Numbers of the rollers to simulate in each row, from 0.
     traces : Traces, optional
+    rating : bool
+        Whether `macroslip run` and studies rate the bearing beside its slip; `simulate` never does.
 
     Raises
     ------
@@ -156,6 +158,7 @@ class Case:
     window: Window = field(default_factory=Window)
     rollers: str | Sequence[int] = "all"
     traces: Traces | None = None
+    rating: bool = True
 
     def __post_init__(self) -> None:
         for name, kinds in (
@@ -168,6 +171,7 @@ class Case:
             ("laws", (Laws,)),
             ("integrator", (Radau, ExplicitEuler, BackwardEuler)),
             ("window", (Window,)),
+            ("rating", (bool,)),
         ):
             value = getattr(self, name)
             allowed = " or ".join(kind.__name__ for kind in kinds)
@@ -222,6 +226,7 @@ class Case:
             "window": asdict(self.window),
             "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
             "traces": asdict(self.traces) if self.traces else None,
+            "rating": self.rating,
         }
 
 
