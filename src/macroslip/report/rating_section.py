@@ -9,6 +9,7 @@ import numpy as np
 from macroslip.report.page import Block, Paragraph, Pictures, Table
 from macroslip.report.pictures import picture
 from macroslip.report.style import BLACK, BLUE, ORANGE, finish
+from macroslip.study.rating_values import VARIABLES as RATING_VARIABLES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -100,6 +101,23 @@ def _raceways(result: xr.Dataset) -> list[tuple[str, ...]]:
     return rows
 
 
+def rating_summary(study: xr.Dataset) -> tuple[Block, ...]:
+    """Least, median and largest of the rating's numbers over the runs of a study; nothing where none was rated."""
+    if "static_safety" not in study or not bool(study.static_safety.notnull().any()):
+        return ()
+    rows = []
+    for name in RATING_VARIABLES:
+        values = study[name].dropna("case")
+        if values.size:
+            ends = (values.min(keep_attrs=True), values.median(keep_attrs=True), values.max(keep_attrs=True))
+            rows.append((str(study[name].attrs["long_name"]), *map(shown, ends)))
+    rated = int(study.static_safety.notnull().sum())
+    return (
+        Paragraph(f"Ratings of {rated} of {study.sizes['case']} runs, each as if its loads repeated for ever."),
+        Table(("", "least", "median of the runs", "largest"), tuple(rows)),
+    )
+
+
 def shown(value: xr.DataArray) -> str:
     """A number with its unit, as a reader wants it: kN, hours with years, per cent.
 
@@ -114,6 +132,8 @@ def shown(value: xr.DataArray) -> str:
         return "unlimited" if number > 0.0 else "–"
     if units == "N":
         return f"{1e-3 * number:.4g} kN"
+    if units == "Pa":
+        return f"{1e-9 * number:.3g} GPa"
     if units == "h":
         return f"{number:.3g} h ({number / _HOURS_A_YEAR:.3g} years)"
     if str(value.name).startswith("share"):

@@ -6,15 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from macroslip.errors import InputError
 from macroslip.report.page import Block, Paragraph, Pictures
 from macroslip.report.pictures import picture
 from macroslip.report.style import BLACK, BLUE, ORANGE, finish
 from macroslip.result.run_input import run_input
 from macroslip.result.surface_maps import energy_density, roller_energy_density
+from macroslip.study.surface import weighted_maps
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+
+    from macroslip.study.weights import Weights
 
 _PER_SQUARE_MILLIMETRE = 1e-6
 _SPLIT = ("slip_sign", "film_regime")
@@ -55,6 +59,20 @@ def surface_blocks(result: xr.Dataset) -> tuple[Block, ...]:
     )
 
 
+def lifetime_blocks(study: xr.Dataset, weights: Weights, years: float) -> tuple[Block, ...]:
+    """Maps of a study over a lifetime, weighted by wind speed, of its first group; nothing where its cases have none."""
+    if "surface_energy" not in study:
+        return ()
+    try:
+        maps = weighted_maps(study, weights, years=years).isel(group=0)
+    except InputError as problem:
+        return (Paragraph(f"There are no maps over the lifetime: {problem}"),)
+    labels = ", ".join(str(maps[name].item()) for name in ("bearing", "lubricant", "model") if name in maps.coords)
+    of = f"in {years:g} years, of the simulated rollers, {labels}"
+    note = Paragraph("Where the inner ring is when a case begins is by chance, so its maps are spread over the angle.")
+    return (note, *map_blocks(energy_density(maps), maps.surface_power_density, of))
+
+
 def map_blocks(energy: xr.DataArray, density: xr.DataArray, of: str) -> tuple[Block, ...]:
     """Maps of energy per area [J/m²] and largest power per area [W/m²] of every raceway."""
     found: list[Block] = [
@@ -90,7 +108,8 @@ def map_blocks(energy: xr.DataArray, density: xr.DataArray, of: str) -> tuple[Bl
 def plot_map(axes: Axes, values: xr.DataArray, units: str, title: str) -> Axes:
     """A raceway unrolled: place along the roller over the angle from the bottom, one map over (angle, station)."""
     degrees = np.degrees(values.angle.values)
-    order = np.argsort((degrees + 90.0) % 360.0)  # angles count from +X0, which is a quarter of a turn past the bottom
+    # Angles count from +X0, which is a quarter of a turn past the bottom; the bottom is in the middle of the map.
+    order = np.argsort((degrees + 270.0) % 360.0)
     picture_values = values.transpose("station", "angle").values[:, order]
     half = 0.5 * (values.station.values[1] - values.station.values[0])
     ends = 1e3 * (values.station.values[0] - half), 1e3 * (values.station.values[-1] + half)
@@ -101,11 +120,11 @@ def plot_map(axes: Axes, values: xr.DataArray, units: str, title: str) -> Axes:
         cmap="cividis",
         vmin=0.0,
         vmax=max(float(np.nanmax(picture_values, initial=0.0)), 1e-30),
-        extent=(0.0, 360.0, *ends),
+        extent=(-180.0, 180.0, *ends),
         interpolation="nearest",
         rasterized=True,
     )
-    axes.set_xticks([0, 90, 180, 270, 360])
+    axes.set_xticks([-180, -90, 0, 90, 180])
     scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
     scale.set_label(units)
     scale.ax.tick_params(labelsize=9)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -94,6 +95,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         if f"{noun}s" in values
     }
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
+    variations = attempt("variations", lambda: _with_ranges(variations, base, records)) or variations
     parameters = attempt("variations", lambda: _parameters(variations, models))
     if problems:
         raise together(problems)
@@ -121,6 +123,25 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     )
 
 
+def _with_ranges(variations: Variations, base: Any, records: Mapping[str, Any]) -> Variations:
+    """The variations with the ranges of the study's bearing and lubricant where the sample asks for them."""
+    sample = variations.sample
+    asked = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
+    if not asked or base is None:
+        return variations
+    found = {}
+    for noun in asked:
+        known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
+        if len(known) > 1:
+            raise InputError(
+                f"the sample takes ranges from the {noun}'s file, and the study has {len(known)} of them",
+                where="variations.sample.ranges",
+                remedy=f"Make a study of each {noun}, or give low, high and unit.",
+            )
+        found[noun] = known[0]
+    return replace(variations, sample=sample.with_ranges_of(found))
+
+
 def _name(case: Mapping[str, Any], noun: str, record: Record) -> str:
     """What the study calls the base case's bearing or lubricant."""
     return case.get(noun) or record.name
@@ -143,7 +164,7 @@ def _parameters(variations: Variations, models: Mapping[str, list[Setting]]) -> 
     places: dict[str, dict[str, str]] = {
         "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
         "list": {one.key: one.unit for item in variations.list or [] for one in item},
-        "sample": {key: one.unit for key, one in ranges.items()},
+        "sample": {key: one.unit for key, one in ranges.items() if one is not None},
         "models": {one.key: one.unit for settings in models.values() for one in settings},
     }
     found: dict[str, str] = {}
