@@ -16,6 +16,7 @@ _HOMES = {
     "BearingLoads": "macroslip.loads",
     "Drivetrain": "macroslip.loads",
     "main_bearing_load": "macroslip.loads",
+    "support_loads": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
     "Laws": "macroslip.mechanisms",
     "load_laws": "macroslip.plugins",
