@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
+from macroslip.cli.needs import FIGURES, require
 from macroslip.cli.new_file import check_new_file, new_file
-from macroslip.errors import MacroslipError
 
 PAGE = "report.html"
 
@@ -25,11 +25,7 @@ def report(
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
 ) -> None:
     """Make one self-contained HTML page on results."""
-    import importlib.util
-
-    for name in ("matplotlib", "jinja2"):
-        if importlib.util.find_spec(name) is None:
-            raise MacroslipError(f"a report needs {name}, which is not installed: pip install 'macroslip[figures]'")
+    require(FIGURES)
     from macroslip.report.read import read_results
     from macroslip.report.results_page import results_page
 
