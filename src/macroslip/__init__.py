@@ -25,6 +25,7 @@ _HOMES = {
     "Window": "macroslip.case.case",
     "Traces": "macroslip.case.case",
     "simulate": "macroslip.result.simulate",
+    "open_result": "macroslip.report.accessor",
     "read_study": "macroslip.study.study_file",
     "run_study": "macroslip.study.run",
     "open_study": "macroslip.study.reader",
@@ -37,6 +38,8 @@ __all__ = ["__version__", *_HOMES, *_FOLDERS]
 
 
 def __getattr__(name: str) -> Any:
+    if name == "simulate":
+        import_module("macroslip.report.accessor")  # gives results their `result.macroslip.plot`
     if name in _HOMES:
         value = getattr(import_module(_HOMES[name]), name)
     elif name in _FOLDERS:

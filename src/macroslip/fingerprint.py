@@ -16,7 +16,8 @@ KERNEL_PARTS = ("compiled", "constants", "contact", "film", "integrate", "ring",
 RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "lubricant", "mechanisms", "result")
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
-    "__init__", "cli", "errors", "files", "fingerprint", "machine", "plugins", "report", "reproduction", "study", "torque",
+    "__init__", "cli", "errors", "files", "fingerprint", "machine", "overview", "plugins", "report", "reproduction", "study",
+    "torque",
 )  # fmt: skip
 _ROOT = Path(__file__).parent
 

@@ -270,4 +270,4 @@ def test_page_or_script_names_no_machine(path):
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_says_what_it_is_and_how_to_run_it(path):
-    assert re.match(rf'""".+\n(.*\n)*? {{4}}python examples/{re.escape(path.name)}', path.read_text(encoding="utf-8"))
+    assert re.match(rf'""".+\n(.*\n)*? *python (examples/)?{re.escape(path.name)}', path.read_text(encoding="utf-8"))

@@ -50,7 +50,8 @@ def _catalogue(
             return
         if as_json:
             follows = [dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in derived(record)]
-            print_json(record.as_dict() | {"what follows from it": follows})
+            values = {key: origin._asdict() for key, origin in record.provenance.items()}
+            print_json({"name": record.name, "title": record.title, "values": values, "what follows from it": follows})
             return
         rows = [
             [key, _written(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]

@@ -25,10 +25,10 @@ class Example(StrEnum):
 #: Of each example its files: the first takes the name that the user gives, the others are written beside it.
 _FILES = {
     Example.CASE: ("macroslip.cli/case_template.yaml",),
-    Example.STUDY: ("macroslip.cli/examples/study.yaml",),
+    Example.STUDY: ("examples/study.yaml",),
     Example.BEARING: ("macroslip.bearing/catalogue/skf-240-600-bc.yaml",),
     Example.LUBRICANT: ("macroslip.lubricant/catalogue/vg460-pao.yaml",),
-    Example.LAWS: tuple(f"macroslip.cli/examples/{name}" for name in ("own_laws.yaml", "own_film.py", "own_law.py")),
+    Example.LAWS: ("examples/own_laws.yaml", "examples/own_film.py", "examples/own_law.py"),
 }
 _NEXT = {
     Example.CASE: "run it:     macroslip run {path} -o {stem}.nc",
@@ -64,4 +64,9 @@ def init(
 
 def _text(name: str) -> str:
     package, _, inside = name.partition("/")
-    return resources.files(package).joinpath(inside).read_text(encoding="utf-8")
+    if package != "examples":
+        return resources.files(package).joinpath(inside).read_text(encoding="utf-8")
+    # A wheel has the examples beside this module; a clone has them at its root, where people look for them.
+    here = Path(__file__)
+    folder = here.with_name("examples")
+    return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_text(encoding="utf-8")

@@ -31,7 +31,10 @@ def _length(help: str) -> Any:
 
 def inspect(
     file: Annotated[
-        Path, typer.Argument(help="Output of OpenFAST, Bladed or HAWC2, or a table (.parquet, .csv) of hub or bearing loads.")
+        Path,
+        typer.Argument(
+            help="Output of OpenFAST, Bladed or HAWC2, or a table (.parquet, .csv) of hub or bearing loads."
+        ),
     ],
     case: Annotated[
         Path | None, typer.Option(help="Case file whose drivetrain, bearing and lubricant are used; its loads are not.")
@@ -51,7 +54,7 @@ def inspect(
     as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
     """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
-    from macroslip.catalogue.units import ANGLE, ANGULAR_SPEED, LENGTH, MASS
+    from macroslip.catalogue.units import ANGLE, SPEED, LENGTH, MASS
     from macroslip.cli.printing import print_json
 
     if output is not None:
@@ -59,7 +62,7 @@ def inspect(
             raise InputError("this is no kind of picture", where=str(output), allowed=f"{', '.join(_PICTURES)}")
         require(PICTURE)
         check_new_file(output, force=force)
-    speed = _given("--shaft-speed", shaft_speed, ANGULAR_SPEED)
+    speed = _given("--shaft-speed", shaft_speed, SPEED)
     own = {
         "hub_to_bearing": _given("--hub-to-bearing", hub_to_bearing, LENGTH),
         "bearing_to_gearbox": _given("--bearing-to-gearbox", bearing_to_gearbox, LENGTH),
@@ -219,7 +222,9 @@ def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
 
 def _words(drivetrain: dict[str, Any]) -> str:
     mass = drivetrain["shaft_mass [kg]"]
-    shaft = f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub" if mass else "no shaft mass"
+    shaft = (
+        f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub" if mass else "no shaft mass"
+    )
     return (
         f"{'the default' if drivetrain['default'] else 'a'} drivetrain "
         f"({drivetrain['hub_to_bearing [m]']:g} m from hub to bearing, "

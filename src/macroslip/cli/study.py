@@ -27,7 +27,10 @@ _LINE_EVERY = 60.0
 
 
 def study(
-    study: Annotated[Path, typer.Argument(help="The study file; `macroslip init --example study` writes one with every key explained.")],
+    study: Annotated[
+        Path,
+        typer.Argument(help="The study file; `macroslip init --example study` writes one with every key explained."),
+    ],
     output: Annotated[Path | None, typer.Option("--output", "-o", help="The folder for the results.")] = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Start so many worker processes here.")] = None,
     scheduler: Annotated[str | None, typer.Option(help="Use the workers of this Dask scheduler.")] = None,
