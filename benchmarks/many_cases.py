@@ -1,6 +1,6 @@
-"""Measure campaigns on this machine: overhead, threads, workers, memory, and what a scheduler can do.
+"""Measure studies on this machine: overhead, threads, workers, memory, and what a scheduler can do.
 
-    python benchmarks/campaign.py [--quick] [--only speed] [-o campaign.json]
+    python benchmarks/many_cases.py [--quick] [--only speed] [-o many_cases.json]
 
 It takes about fifteen minutes (`--quick`: three) and wants a quiet machine. It prints every number and writes it to a
 JSON file. Ratios are the best of several rounds, taken in turn, beside what two processors were worth for plain hashing
@@ -44,8 +44,8 @@ def steady(marks: list[tuple[float, int]], skip: int) -> float:
     return (chosen[-1][1] - chosen[0][1]) / (chosen[-1][0] - chosen[0][0])
 
 
-def campaign(folder: Path, work, skip: int, **options) -> dict[str, float]:
-    """One campaign in a new folder: runs a second once all workers are at work, wall time, overhead."""
+def timed_study(folder: Path, work, skip: int, **options) -> dict[str, float]:
+    """One study in a new folder: runs a second once all workers are at work, wall time, overhead."""
     out = folder / "out"
     shutil.rmtree(out, ignore_errors=True)
     marks: list[tuple[float, int]] = []
@@ -70,7 +70,7 @@ def hashing(threads: int) -> float:
     """Wall time of work that has nothing to do with rollers."""
     started = time.perf_counter()
     with ThreadPoolExecutor(threads) as pool:
-        list(pool.map(lambda _: hashlib.pbkdf2_hmac("sha256", b"macroslip", b"campaign", 400_000), range(8)))
+        list(pool.map(lambda _: hashlib.pbkdf2_hmac("sha256", b"macroslip", b"study", 400_000), range(8)))
     return time.perf_counter() - started
 
 
@@ -87,7 +87,7 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
     for _ in range(1 if quick else ROUNDS):
         found["hashing"].append(hashing(1) / hashing(2))
         for name, given in options.items():
-            found.setdefault(name, []).append(campaign(folder, work, 4, **given))
+            found.setdefault(name, []).append(timed_study(folder, work, 4, **given))
     best = {name: max(one["rate"] for one in found[name]) for name in options}
     overheads = [one["overhead"] for one in found["one thread"]]
     return {
@@ -126,7 +126,7 @@ def peak_memory(code: str) -> dict:
 MEMORY = """
 import json, os, sys, tempfile
 sys.path.insert(0, ".")
-from campaign import high_water, study
+from many_cases import high_water, study
 from macroslip import run_study
 
 if __name__ == "__main__":
@@ -158,7 +158,7 @@ def high_water(process: int) -> int:
 
 
 def memory(quick: bool) -> dict[str, dict]:
-    """Peak memory after a tenth of a campaign and at its end: 3,000 short cases, and ten-minute ones."""
+    """Peak memory after a tenth of a study and at its end: 3,000 short cases, and ten-minute ones."""
     count, long = (400, 20) if quick else (3000, 60)
 
     def measured(runs: int, seconds: float | None, rollers: object, options: dict) -> dict:
@@ -195,20 +195,20 @@ def scheduler(quick: bool) -> dict[str, float]:
         with Client(local) as client:
             for bundle in (1, 10):
                 cluster.work_several = nothing
-                crew = cluster.Dask(client, lambda text: None)
-                crew._bundle = lambda bundle=bundle: bundle
+                pool = cluster.Dask(client, lambda text: None)
+                pool._bundle = lambda bundle=bundle: bundle
                 started, sent, done = time.perf_counter(), 0, 0
                 while done < count * bundle:
-                    room = min(max(4 * 64 - len(crew._flying), 0) * bundle, count * bundle - sent)
-                    crew.submit([task] * room)
-                    sent += room
-                    done += len(crew.wait())
+                    free = min(max(4 * 64 - len(pool._flying), 0) * bundle, count * bundle - sent)
+                    pool.submit([task] * free)
+                    sent += free
+                    done += len(pool.wait())
                 found[f"runs_per_second_bundles_of_{bundle}"] = done / (time.perf_counter() - started)
     return found
 
 
 def coordinator(folder: Path, quick: bool) -> dict[str, float]:
-    """What the campaign itself costs for each run: the journal, the counts, the log, the summary; without workers."""
+    """What the study itself costs for each run: the journal, the counts, the log, the summary; without workers."""
     from macroslip.study import run as module
     from macroslip.study.key import program
     from macroslip.study.tables import Latest
@@ -221,7 +221,7 @@ def coordinator(folder: Path, quick: bool) -> dict[str, float]:
         def __init__(self):
             self.tasks = []
 
-        def room(self):
+        def free_places(self):
             return 200 - len(self.tasks)
 
         def submit(self, tasks):
@@ -278,7 +278,7 @@ def main() -> None:
     """Measure everything, print it and write it."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("-o", "--output", type=Path, default=Path("campaign.json"))
+    parser.add_argument("-o", "--output", type=Path, default=Path("many_cases.json"))
     parser.add_argument("--only", choices=("speed", "scheduler", "memory", "coordinator"))
     given = parser.parse_args()
     check_installed()

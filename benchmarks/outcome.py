@@ -32,7 +32,7 @@ class Reference(NamedTuple):
     ring_speed: np.ndarray
 
 
-class Outcome(NamedTuple):
+class Measurement(NamedTuple):
     """One run: its setting, its errors [-], its CPU time [s] and force evaluations."""
 
     setting: Setting
@@ -60,7 +60,7 @@ def errors(solution: Solution, reference: Reference) -> tuple[float, float]:
     return tuple(float(e) if np.isfinite(e) else float("inf") for e in (energy, spin))
 
 
-def cheapest(outcomes: list[Outcome], asked: float = ASKED) -> tuple[Outcome, bool]:
+def cheapest(outcomes: list[Measurement], asked: float = ASKED) -> tuple[Measurement, bool]:
     """The outcome that reaches the accuracy for the least CPU time and True, or the most accurate one and False.
 
     Raises
@@ -70,7 +70,7 @@ def cheapest(outcomes: list[Outcome], asked: float = ASKED) -> tuple[Outcome, bo
 
     Examples
     --------
-    >>> runs = [Outcome({}, 1e-5, 1e-5, 3.0, 0), Outcome({}, 9e-5, 1e-6, 2.0, 0), Outcome({}, 1e-6, 2e-4, 1.0, 0)]
+    >>> runs = [Measurement({}, 1e-5, 1e-5, 3.0, 0), Measurement({}, 9e-5, 1e-6, 2.0, 0), Measurement({}, 1e-6, 2e-4, 1.0, 0)]
     >>> cheapest(runs)[0].seconds, cheapest(runs[2:])[1]
     (2.0, False)
     """

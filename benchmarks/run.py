@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import own
-from benchmarks.contest import Entry, as_plain, contest
+from benchmarks.comparison import Entry, as_plain, compare
 from benchmarks.evaluation import evaluation_times, quadrature_times
 from benchmarks.histories import History, fixed_histories, long_histories
 from benchmarks.mechanisms import mechanism_costs
@@ -88,7 +88,7 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
         histories = fixed_histories(quick=quick)
         references = [own.reference(history) for history in histories]
         verified = verify(histories, references)
-        results = contest(histories, references, quick=quick, report=report)
+        results = compare(histories, references, quick=quick, report=report)
         summary: dict[str, Any] = {
             "machine": machine(),
             "quick": quick,

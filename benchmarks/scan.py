@@ -6,7 +6,7 @@ import gc
 import time
 from collections.abc import Callable, Iterable
 
-from benchmarks.outcome import ASKED, Outcome, Reference, Setting, Solution, cheapest, errors
+from benchmarks.outcome import ASKED, Measurement, Reference, Setting, Solution, cheapest, errors
 
 #: How often a run is timed again: until it has been timed so often, or for so long [s].
 _REPEATS, _REPEAT_SECONDS = 20, 0.3
@@ -27,13 +27,13 @@ def timed(run: Callable[[], Solution]) -> tuple[Solution, float]:
             gc.enable()
 
 
-def measure(solve: Callable[..., Solution], setting: Setting, reference: Reference, **limit: float) -> Outcome:
+def measure(solve: Callable[..., Solution], setting: Setting, reference: Reference, **limit: float) -> Measurement:
     """Run `solve(**setting, **limit)` once and compare with the reference."""
     solution, seconds = timed(lambda: solve(**setting, **limit))
-    return Outcome(setting, *errors(solution, reference), seconds, solution.evaluations)
+    return Measurement(setting, *errors(solution, reference), seconds, solution.evaluations)
 
 
-def timed_again(solve: Callable[..., Solution], outcome: Outcome) -> Outcome:
+def timed_again(solve: Callable[..., Solution], outcome: Measurement) -> Measurement:
     """The outcome with the shortest of several times."""
     seconds, spent = outcome.seconds, outcome.seconds
     for _ in range(_REPEATS - 1):
@@ -46,7 +46,7 @@ def timed_again(solve: Callable[..., Solution], outcome: Outcome) -> Outcome:
 
 def scan(
     solve: Callable[..., Solution], settings: Iterable[Setting], reference: Reference, *, budget: float, prune: bool
-) -> list[Outcome]:
+) -> list[Measurement]:
     """Try settings on one history; the cheapest accurate one, or else the most accurate one, is timed again.
 
     Parameters
@@ -65,10 +65,10 @@ def scan(
 
     Returns
     -------
-    list of Outcome
+    list of Measurement
         The one that counts first.
     """
-    tried: list[Outcome] = []
+    tried: list[Measurement] = []
     hits: list[Setting] = []
     most, spent = float("inf"), 0.0
     for setting in settings:

@@ -6,7 +6,7 @@ import math
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from benchmarks.contest import Entry
+from benchmarks.comparison import Entry
 from benchmarks.histories import History
 from benchmarks.outcome import ASKED
 from macroslip.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, finish

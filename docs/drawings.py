@@ -1,4 +1,4 @@
-"""Draws the three pictures of frames.md, as SVG, into the folder of this file: python docs/drawings.py
+"""Draws the pictures of frames.md and bearings.md, as SVG, into the folder of this file: python docs/drawings.py
 
 The axial view is to scale, and its roller loads are computed with the program.
 """
@@ -16,6 +16,7 @@ from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon, Rectangle,
 
 from macroslip import Bearing, BearingLoads, Case, Traces, simulate
 from macroslip.bearing import geometry
+from macroslip.report.bearing_drawing import draw_bearing
 
 SHAFT, BEARING, FORCE, MOTION, PALE = "#1f5a96", "#b3261e", "#7a4b00", "#1b7a3d", "#e6e6e6"
 
@@ -316,7 +317,17 @@ def one_roller() -> Figure:
     return figure
 
 
-PICTURES = {"frames-side.svg": side_view, "frames-axial.svg": axial_view, "frames-roller.svg": one_roller}
+def bearing_section() -> Figure:
+    """Section of the base bearing with the name of every dimension, to scale."""
+    return draw_bearing(Bearing.read("skf-240-600-bc"))
+
+
+PICTURES = {
+    "frames-side.svg": side_view,
+    "frames-axial.svg": axial_view,
+    "frames-roller.svg": one_roller,
+    "bearing.svg": bearing_section,
+}
 
 
 def main(folder: Path) -> None:

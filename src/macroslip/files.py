@@ -1,14 +1,189 @@
-"""Files that appear together: written aside, moved into place at the end."""
+"""Output files, written aside and then renamed: each is whole or not there, and none replaces what a user still needs."""
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
-from collections.abc import Iterator
+import uuid
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from macroslip.errors import InputError
+
+#: End of the names of files under way; what bears it was never finished.
+UNFINISHED = ".part"
+
+
+def write_durably(path: Path, content: bytes) -> None:
+    """Write a file in one step: when this returns it is on the disk, and until then what stood there stands.
+
+    The content goes to a temporary file in the same folder, is flushed to the disk (fsync), takes its name, and the
+    folder, which holds the name, is flushed as well. The folder is made if need be.
+
+    Parameters
+    ----------
+    path : Path
+    content : bytes
+
+    Raises
+    ------
+    OSError
+        If the system refuses, the disk being full, for example; nothing is left behind then.
+    """
+    make_folder(path.parent)
+    temporary = unfinished(path)
+    try:
+        with temporary.open("xb") as file:
+            file.write(content)
+            flush(file.fileno())
+        temporary.replace(path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        raise
+    flush_folder(path.parent)
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder with its parents, so that a power cut does not undo it."""
+    if folder.is_dir():
+        return
+    make_folder(folder.parent)
+    with contextlib.suppress(FileExistsError):
+        folder.mkdir()
+    flush_folder(folder.parent)
+
+
+def flush(descriptor: int) -> None:
+    """Have the system put a file's content on the disk before it goes on."""
+    os.fsync(descriptor)
+
+
+def flush_folder(folder: Path) -> None:
+    """The same for the names in a folder; systems without such a thing, as Windows, keep them by themselves."""
+    if os.name != "posix":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> None:
+    """Refuse a file that cannot be made, before anything is computed for it.
+
+    Parameters
+    ----------
+    path : Path
+        The file to make.
+    force : bool
+        Whether it may replace a file.
+    inputs : iterable of Path
+        Files that the output is made from, which it never replaces; those that do not exist are passed over.
+
+    Raises
+    ------
+    InputError
+        If it is an input, no regular file, exists and `force` is not set, or its folder is missing or cannot be written
+        to.
+    """
+    folder, where = path.parent, str(path)
+    check_no_zero_byte(where)
+    if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
+        what = "this is a file that the output is made from"
+        raise InputError(what, where=where, remedy="Choose another name; it would be lost.")
+    if path.is_dir():
+        raise InputError("this is a folder", where=where, allowed="a file", remedy="Add the name of a file to it.")
+    if path.exists() and not path.is_file():
+        what = "this is a pipe, a socket or a device"
+        raise InputError(what, where=where, allowed="a file", remedy="Choose another name.")
+    if path.exists() and not force:
+        raise InputError("the file exists", where=where, remedy="Choose another name, or replace it with --force.")
+    if not folder.is_dir():
+        remedy = "Make that folder first, or choose another one."
+        raise InputError(f"there is no folder '{folder}'", where=where, remedy=remedy)
+    try:
+        temporary = unfinished(path)
+        temporary.touch()
+        temporary.unlink()
+    except OSError as error:
+        remedy = "Choose another folder, or ask for the right to write there."
+        raise InputError(f"nothing can be written there ({error.strerror})", where=where, remedy=remedy) from None
+
+
+@contextmanager
+def new_file(path: Path, *, force: bool) -> Iterator[Path]:
+    """Give a temporary path to write to; it takes its proper name when the block is left without an error.
+
+    Parameters
+    ----------
+    path : Path
+        The file to make.
+    force : bool
+        Whether it may replace a file; otherwise one that has appeared meanwhile is kept.
+
+    Yields
+    ------
+    Path
+        In the same folder, so that the change of name is one step. What stands there is removed if the block fails.
+
+    Raises
+    ------
+    InputError
+        If the file has appeared meanwhile, or the system refuses to write, the disk being full, for example.
+    """
+    temporary = unfinished(path)
+    try:
+        yield temporary
+        if force:
+            os.replace(temporary, path)
+        else:
+            _take_name(temporary, path)
+    except FileExistsError:
+        raise InputError(
+            "the file has appeared since this command began, and is kept",
+            where=str(path),
+            remedy="Another command has the same output. Choose another name and run again.",
+        ) from None
+    except OSError as error:
+        raise InputError(
+            f"the file was not written ({error.strerror or error})",
+            where=str(path),
+            remedy="Make room there or choose another folder; nothing partial was left behind.",
+        ) from error
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _take_name(temporary: Path, path: Path) -> None:
+    """Give a file its name unless the name is taken, in one step where the file system has hard links."""
+    try:
+        os.link(temporary, path)
+    except FileExistsError:
+        raise
+    except OSError:
+        if path.exists():
+            raise FileExistsError from None
+        os.replace(temporary, path)
+
+
+def unfinished(path: Path) -> Path:
+    """A name in the same folder for a file that is being written; no other command has it."""
+    return path.with_name(f".{path.name}.{uuid.uuid4().hex}{UNFINISHED}")
+
+
+def check_no_zero_byte(name: str) -> None:
+    """Refuse a character that no path may contain, before anything is computed for it.
+
+    Raises
+    ------
+    InputError
+    """
+    if "\0" in name:
+        raise InputError(f"{name!r} holds a zero byte", allowed="text without it", remedy="Write the name anew.")
 
 
 @contextmanager

@@ -11,9 +11,11 @@ import hashlib
 from pathlib import Path
 
 #: Parts of the package from which kernels are compiled.
-KERNEL_PARTS = ("compiled", "constants", "contact", "film", "integrate", "ring", "roller", "traction")
+KERNEL_PARTS = (
+    "compiled", "constants", "contact", "film", "integrate", "lubricant", "ring", "roller", "rolling", "traction",
+)  # fmt: skip
 #: Parts on which the result of a case depends beside those.
-RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "lubricant", "mechanisms", "result")
+RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "mechanisms", "rating", "result")
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
     "__init__", "cli", "errors", "files", "fingerprint", "machine", "overview", "plugins", "report", "reproduction", "study",
@@ -23,7 +25,7 @@ _ROOT = Path(__file__).parent
 
 
 def sources_of(*parts: str) -> list[Path]:
-    """Source files of parts of the package.
+    """Source files of parts of the package, and the tables that go with them.
 
     Parameters
     ----------
@@ -45,7 +47,7 @@ def sources_of(*parts: str) -> list[Path]:
         folder, module = _ROOT / part, _ROOT / f"{part}.py"
         if not folder.is_dir() and not module.is_file():
             raise FileNotFoundError(f"macroslip has no part {part!r}")
-        found += folder.rglob("*.py") if folder.is_dir() else [module]
+        found += [*folder.rglob("*.py"), *folder.rglob("*.csv")] if folder.is_dir() else [module]
     return sorted(found)
 
 

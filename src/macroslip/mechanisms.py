@@ -115,8 +115,8 @@ class Laws:
         InputError
             For any other name.
         """
-        if name not in MODELS:
-            raise InputError(f"'{name}' does not exist", where="laws.model", allowed=", ".join(MODELS))
+        if name not in NAMED_SETS:
+            raise InputError(f"'{name}' does not exist", where="laws.model", allowed=", ".join(NAMED_SETS))
         return cls.paper() if name == "paper" else cls.physical()
 
     def but(self, **changes: Any) -> Laws:
@@ -127,7 +127,7 @@ class Laws:
     def name(self) -> str:
         """The set's name, or the one it is nearest to with what differs."""
         best = None
-        for model in MODELS:
+        for model in NAMED_SETS:
             other = Laws.named(model)
             names = [one.name for one in fields(self) if getattr(self, one.name) != getattr(other, one.name)]
             off = [f"{name} {_word(getattr(self, name))}" for name in names]
@@ -145,7 +145,7 @@ class Laws:
 _REPLACED = ("viscosity", "rheology", "heating", "microslip")
 _DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
 #: Named sets.
-MODELS = ("paper", "physical")
+NAMED_SETS = ("paper", "physical")
 
 
 def viscosities() -> list[str]:

@@ -63,6 +63,16 @@ def test_numpy_numbers_are_welcome(base):
     assert base.replace(rollers_per_row=27.0).rollers_per_row == 27
 
 
+def test_a_copy_with_other_values_is_checked(base):
+    assert base.model_copy() == base and base.model_copy(deep=True) == base
+    other = base.model_copy(update={"diametral_clearance": 1e-4})
+    assert other == base.replace(diametral_clearance=1e-4)
+    with pytest.raises(InputError, match="^34 rollers do not fit"):
+        base.model_copy(update={"rollers_per_row": 34})
+    with pytest.raises(InputError, match="^roller_diameter is -1.0 m"):
+        base.model_copy(update={"roller_diameter": -1.0})
+
+
 def test_values_cannot_be_set(base):
     with pytest.raises(InputError, match=r"mass cannot be set.*replace\(mass=\.\.\.\)"):
         base.mass = 1.0
@@ -73,7 +83,7 @@ def test_values_cannot_be_set(base):
 # The ends of each range, in SI.
 RANGES = {
     "bore_diameter": (0, 10), "outside_diameter": (0, 10), "width": (0, 5), "dynamic_load_rating": (0, 1e9),
-    "static_load_rating": (0, 1e9), "axial_factor_e": (0, 5), "axial_factor_y1": (0, 100), "axial_factor_y2": (0, 100),
+    "static_load_rating": (0, 1e9), "fatigue_load_limit": (0, 1e9), "axial_factor_e": (0, 5), "axial_factor_y1": (0, 100), "axial_factor_y2": (0, 100),
     "axial_factor_y0": (0, 100), "mass": (0, 1e6), "rollers_per_row": (2, 501), "roller_diameter": (0, 1),
     "roller_length": (0, 2), "contact_angle": (-1e-9, math.pi / 4), "pitch_radius": (0, 5),
     "outer_raceway_radius": (0, 10), "row_offset": (-1e-9, 5), "osculation_inner": (0.9, 1),
@@ -107,14 +117,14 @@ def test_rollers_have_to_fit(base):
         base.replace(rollers_per_row=34)
 
 
-@given(st.integers(3, 60), st.floats(0.02, 0.2))
+@given(st.integers(3, 60), st.floats(0.02, 0.15))
 @settings(max_examples=50, deadline=None)
 def test_the_largest_number_of_rollers_is_told_right(count, diameter):
-    base = Bearing.read("skf-240-600-bc")
+    base = Bearing.read("skf-240-600-bc").replace(bore_diameter=None, outside_diameter=None, width=None)
     centre = 0.38
-    sphere = dict(outer_raceway_radius=centre + diameter / 2, pitch_radius=centre * math.cos(base.contact_angle),
-                  row_offset=centre * math.sin(base.contact_angle), roller_diameter=diameter,
-                  roller_length=1.5 * diameter)  # fmt: skip
+    sphere = {"outer_raceway_radius": centre + diameter / 2, "pitch_radius": centre * math.cos(base.contact_angle),
+              "row_offset": centre * math.sin(base.contact_angle), "roller_diameter": diameter,
+              "roller_length": 0.6 * diameter}  # fmt: skip
     try:
         base.replace(rollers_per_row=count, **sphere)
     except InputError as error:
@@ -132,8 +142,6 @@ def test_roller_centres_have_to_lie_on_the_sphere(base):
         with pytest.raises(InputError, match=told):
             base.replace(**{key: 1.015 * value})
         assert getattr(base.replace(**{key: 1.006 * value}), key) == 1.006 * value
-    radial = base.replace(contact_angle=0, row_offset=0, pitch_radius=0.3799)
-    assert radial.row_offset == 0
 
 
 def test_roller_and_ring_proportions_have_to_be_sane(base):
@@ -143,7 +151,6 @@ def test_roller_and_ring_proportions_have_to_be_sane(base):
         base.replace(roller_length=0.03)
     with pytest.raises(InputError, match="^bore_diameter is 0.9 m. Allowed: less than outside_diameter, 0.87 m."):
         base.replace(bore_diameter=0.9)
-    assert base.replace(bore_diameter=0.9, outside_diameter=None).bore_diameter == 0.9
 
 
 def test_thermal_data_may_be_left_out_and_are_asked_for_by_name(base):

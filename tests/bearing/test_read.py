@@ -49,7 +49,7 @@ def told(tmp_path, monkeypatch):
 def test_base_bearing_has_the_specified_values_in_si(base):
     expected = {
         "name": NAME, "bore_diameter": 0.6, "outside_diameter": 0.87, "width": 0.272, "dynamic_load_rating": 8502e3,
-        "static_load_rating": 16300e3, "axial_factor_e": 0.3, "axial_factor_y1": 2.3, "axial_factor_y2": 3.4,
+        "static_load_rating": 16300e3, "fatigue_load_limit": 1100e3, "axial_factor_e": 0.3, "axial_factor_y1": 2.3, "axial_factor_y2": 3.4,
         "axial_factor_y0": 2.2, "mass": 519.0, "rollers_per_row": 28, "roller_diameter": 0.07, "roller_length": 0.106,
         "contact_angle": pytest.approx(np.radians(11.2), rel=1e-15), "pitch_radius": 0.3727,
         "outer_raceway_radius": 0.4149, "row_offset": 0.074,

@@ -20,7 +20,7 @@ def short(monkeypatch):
         if rival.key in names
     ]
     few = [one._replace(load=lambda: None) if one.key == "lsoda" else one for one in few]
-    monkeypatch.setattr("benchmarks.contest.RIVALS", tuple(few))
+    monkeypatch.setattr("benchmarks.comparison.RIVALS", tuple(few))
     monkeypatch.setattr(room, "QUICK", (("24A",), 100.0, 2.0))
     monkeypatch.setattr(run, "long_histories", lambda quick: room.histories_of("24A", 100.0, 102.0, [0]))
     monkeypatch.setattr(

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from benchmarks.contest import Entry, _euler_entry, spread
-from benchmarks.outcome import ASKED, Outcome, Reference, Solution, cheapest, errors
+from benchmarks.comparison import Entry, _euler_entry, spread
+from benchmarks.outcome import ASKED, Measurement, Reference, Solution, cheapest, errors
 from benchmarks.rivals import RIVALS
 from benchmarks.scan import scan
 from benchmarks.work_precision import least_cost
@@ -16,7 +16,7 @@ REFERENCE = Reference(1.0, np.array([-0.2, -1e-5]), np.array([0.4, 0.4]))
 
 
 def outcome(energy, spin, seconds):
-    return Outcome({}, energy, spin, seconds, 10.0)
+    return Measurement({}, energy, spin, seconds, 10.0)
 
 
 def test_the_cheapest_accurate_run_counts():
@@ -83,7 +83,7 @@ def first_order(step, tolerance):
 
 @pytest.mark.parametrize(("budget", "extrapolated"), [(math.inf, False), (0.0, True)])
 def test_backward_euler_gets_the_step_that_is_just_short_enough(budget, extrapolated):
-    tried = [Outcome({"step": 1e-2, "tolerance": 1e-13}, 2e-3, 0.0, 1.0, 100.0)]
+    tried = [Measurement({"step": 1e-2, "tolerance": 1e-13}, 2e-3, 0.0, 1.0, 100.0)]
     entry = _euler_entry(first_order, tried, REFERENCE, budget)
     assert (entry.reached, entry.extrapolated) == (True, extrapolated)
     assert entry.best.setting["step"] == pytest.approx(4.5e-4)

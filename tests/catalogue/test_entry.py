@@ -53,7 +53,7 @@ def test_text_and_mapping_give_the_same(value):
         ("7.5.1 mm", LENGTH, "bore is '7.5.1 mm', which is not a quantity."),
         ("7 5 mm", LENGTH, "bore has the unit '5 mm'."),
         ("nan mm", LENGTH, "bore is 'nan mm', which is not a quantity."),
-        ("1e400 kg", MASS, "bore is '1e400 kg', too large for a number"),
+        ("1e400 kg", MASS, "bore is '1e400 kg', which is too large for a number"),
         ("0.98 mm", NUMBER, "bore has the unit 'mm'. Allowed: a number. Write the number alone."),
         (75, LENGTH, "bore is 75, which does not give its unit. Allowed: bore: {value: a number, .* form: bore: 1 m."),
         (True, NUMBER, "bore is True, which is no quantity. Allowed: bore: {value"),

@@ -55,7 +55,7 @@ def test_a_name_that_does_not_exist(folder, macroslip):
     assert (done.code, done.out) == (2, "")
     assert done.err == (
         "error: no bearing can be read from 'skf' (No such file or directory). Allowed: the path of a YAML file, or a "
-        f"catalogue name: skf-240-600-bc. Relative paths start at {folder}.\n"
+        f"catalogue name: {', '.join(Bearing.catalogue())}. Relative paths start at {folder}.\n"
     )
 
 
@@ -66,6 +66,51 @@ def test_show_as_a_file_that_can_be_read_again(folder, macroslip, noun, kind):
         assert (done.code, done.err) == (0, "")
         (folder / "mine.yaml").write_text(done.out, encoding="utf-8")
         assert kind.read(folder / "mine.yaml") == kind.read(name)
+
+
+PAGE = ["--bore", "630 mm", "--outside", "920 mm", "--width", "290 mm", "--c0", "17600 kN", "--e", "0.30"]
+
+
+def test_a_bearing_from_its_makers_page(folder, macroslip):
+    done = macroslip("bearing", "estimate", *PAGE, "--shoulder", "828 mm", "--groove", "5.65e-2 m", "-o", "mine.yaml")
+    assert (done.code, done.err) == (0, "")
+    assert "not the maker's drawing" in done.out and "written: mine.yaml" in done.out
+    assert "C by ISO 281" not in done.out  # C is not published: there is nothing to compare with
+    mine, shipped = Bearing.read("mine.yaml"), Bearing.read("skf-240-630-bc")
+    assert mine.name == "mine"
+    for key in ("rollers_per_row", "roller_diameter", "roller_length", "contact_angle", "outer_raceway_radius"):
+        assert getattr(mine, key) == getattr(shipped, key)
+        low, high = mine.provenance[key].range
+        assert low < mine.provenance[key].value < high
+    assert macroslip("bearing", "estimate", *PAGE, "-o", "mine.yaml").code == 2  # it exists
+    done = macroslip("bearing", "estimate", *PAGE, "--c", "9307 kN", "-o", "mine.yaml", "--force")
+    assert done.code == 0 and "C by ISO 281 from these dimensions is 0.8" in done.out
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--shoulder", "828"], "--shoulder is '828', which does not give its unit"),
+        (["--shoulder", "928 mm"], "shoulder is 928 mm. Allowed: between bore and outside diameter"),
+        (["--bpfo", "13.2"], "only one overrolling frequency is given"),
+        (["--bpfo", "13.2", "--bpfi", "16.2"], "together 29.4. Allowed: a sum that is the whole number of rollers"),
+        (["--c", "0 kN"], "dynamic_load_rating is 0.0. Allowed: a finite number above 0"),
+    ],
+)
+def test_a_page_that_contradicts_itself(folder, macroslip, options, told):
+    done = macroslip("bearing", "estimate", *PAGE, *options, "-o", "mine.yaml")
+    assert (done.code, done.out) == (2, "") and told in done.err
+    assert not list(folder.iterdir())
+
+
+def test_a_bearing_file_to_start_from(folder, macroslip):
+    assert macroslip("bearing", "init").code == 0
+    assert Bearing.read("bearing.yaml").name == "bearing"
+    assert Bearing.read("bearing.yaml").model_dump(exclude={"name", "title"}) == Bearing.read(
+        "skf-240-600-bc"
+    ).model_dump(exclude={"name", "title"})
+    assert macroslip("bearing", "init").code == 2
+    assert macroslip("bearing", "init", "--force").code == 0
 
 
 def test_estimate_a_lubricant_that_can_be_read_and_shown(folder, macroslip):
@@ -94,3 +139,12 @@ def test_estimate_refuses_what_is_no_lubricant(folder, macroslip, v40, v100, bas
     done = macroslip("lubricant", "estimate", "--v40", v40, "--v100", v100, "--base", base, "-o", "mine.yaml")
     assert done.code == 2 and done.err.startswith(message) and done.err.count("\n") == 1
     assert not (folder / "mine.yaml").exists()
+
+
+def test_a_drawing(folder, macroslip):
+    done = macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.svg")
+    assert (done.code, done.out, done.err) == (0, "written: drawing.svg\n", "")
+    assert "<svg" in (folder / "drawing.svg").read_text(encoding="utf-8")
+    done = macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.txt")
+    assert done.code == 2 and "ends with .svg, .pdf or .png" in done.err
+    assert macroslip("bearing", "draw", "skf-240-630-bc", "-o", "drawing.svg").code == 2

@@ -11,15 +11,16 @@ from pathlib import Path
 import pytest
 
 from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
-from macroslip.case.form import Choice
-from macroslip.case.keys import CASE
-from macroslip.case.section import Section, Variants
+from macroslip.case.keys import INTEGRATORS, CaseFile, LawsKeys
+from macroslip.catalogue.forms import Choice
+from macroslip.catalogue.input_section import fields_of, form_of, keys_of
 from macroslip.integrate.status import Status
 from macroslip.study.export import tables
 from macroslip.study.outcome import Outcome
 from macroslip.study.study_file import study_of
-from macroslip.study.study_keys import KINDS, METHODS, SCALES, STUDY
+from macroslip.study.study_keys import KINDS, StudyFile
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
+from macroslip.study.variation import METHODS, SCALES
 from macroslip.study.weights import Weibull
 
 ROOT = Path(__file__).parents[2]
@@ -132,42 +133,30 @@ def test_index_names_every_page_and_every_example():
     assert missing == []
 
 
-def keys(kind, prefix: str = "") -> list[str]:
-    """Full names of all keys of a section of the case file, as `loads.hub.force`."""
-    sections = kind.sections.values() if isinstance(kind, Variants) else [kind]
-    found = []
-    for section in sections:
-        for key, inner in section.keys.items():
-            found.append(prefix + key)
-            if isinstance(inner, (Section, Variants)):
-                found += keys(inner, f"{prefix}{key}.")
-    return found
-
-
 def test_input_page_names_every_key_of_a_case():
     quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
     sections = {"drivetrain", "forces", "laws", "integrator", "window"}
-    names = [key for key in keys(CASE) if key not in sections]
+    names = [key for key, _ in keys_of(CaseFile) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
     names = [key.removeprefix("loads.hub.").removeprefix("loads.main_bearing.") for key in names]
     assert [name for name in names if name not in quoted] == []
 
 
-def test_campaigns_page_names_every_key_of_a_study():
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8"))
-    names = [key for key in keys(STUDY) if key != "variations"]
+def test_studies_page_names_every_key_of_a_study():
+    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"))
+    names = [key for key, _ in keys_of(StudyFile) if key != "variations"]
     assert [name for name in names if name not in quoted] == []
     choices = [*METHODS, *SCALES, *KINDS, "values", "low", "high", "unit", "scale"]
     assert [name for name in choices if name not in quoted] == []
 
 
-def test_campaigns_page_has_the_sentence_of_every_outcome():
-    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+def test_studies_page_has_the_sentence_of_every_outcome():
+    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     assert [outcome for outcome in Outcome if f"| `{outcome}` | {outcome.sentence} |" not in text] == []
 
 
-def test_campaigns_page_names_every_file_every_table_and_every_variable(tmp_path):
-    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+def test_studies_page_names_every_file_every_table_and_every_variable(tmp_path):
+    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     study = {"case": {"rollers": [0], "loads": {"end": "8 s"}}, "loads": {"bundled": ["14B"]}, "cycles": True}
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
@@ -178,8 +167,8 @@ def test_campaigns_page_names_every_file_every_table_and_every_variable(tmp_path
     assert [name for name in names if f"`{name}`" not in text] == []
 
 
-def test_campaigns_page_gives_the_units_of_the_summary():
-    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8"), re.MULTILINE)
+def test_studies_page_gives_the_units_of_the_summary():
+    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"), re.MULTILINE)
     cells = [[cell.strip() for cell in row.split("|")] for row in rows]
     for name, (units, _) in (ROW_VARIABLES | CASE_VARIABLES).items():
         assert any(units in re.split(", ", row[1]) for row in cells if f"`{name}`" in row[0]), name
@@ -187,7 +176,7 @@ def test_campaigns_page_gives_the_units_of_the_summary():
 
 def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     assert len(read_study(ROOT / "examples" / "study.yaml")) == 96
-    text = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
     (tmp_path / "dlc12").mkdir()
     shutil.copy(SAMPLE, tmp_path / "dlc12" / "14mps_seed1.outb")
@@ -198,9 +187,9 @@ def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
 
 def test_input_page_names_every_law_and_method():
     text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
-    laws, integrator = CASE.keys["laws"].keys, CASE.keys["integrator"].sections
-    choices = [name for choice in laws.values() if isinstance(choice, Choice) for name in choice.names()]
-    names = [*choices, *integrator, bundled_cases()[0], bundled_cases()[-1]]
+    laws = [form_of(field) for field in fields_of(LawsKeys).values()]
+    choices = [name for choice in laws if isinstance(choice, Choice) for name in choice.names()]
+    names = [*choices, *INTEGRATORS, bundled_cases()[0], bundled_cases()[-1]]
     missing = [name for name in names if f"`{name}`" not in text]
     assert missing == []
 

@@ -93,8 +93,8 @@ def test_a_study_over_cases(result):
         xr.DataArray(["a<b", "c"], dims="case", name="case"),
         combine_attrs="override",
     )
-    page = results_page({"campaign": two})
-    assert "campaign, a&lt;b" in page and "Energy of a roller by case and row" in page
+    page = results_page({"study": two})
+    assert "study, a&lt;b" in page and "Energy of a roller by case and row" in page
     assert "All 16 rollers completed." in page
 
 

@@ -283,15 +283,6 @@ def test_truncated_contact_is_an_error_with_time_and_limit(bearing, model, lubri
     assert f"{limit / 1e3:.4g}" == "203.2"
 
 
-def test_thrust_on_a_bearing_without_contact_angle_is_an_input_error(bearing, lubricant):
-    flat = bearing.replace(contact_angle=0.0, row_offset=0.0, pitch_radius=0.4149 - 0.035)
-    model = roller_model(flat, lubricant, 1, tilt=0.0)
-    with pytest.raises(InputError, match="a test, t = 0.01 s: .*axial load .*contact angle"):
-        ring_motion(history([[0.0, -3e5, 0.0], [0.0, -3e5, 5.0], [0.0, -3e5, 0.0]]), flat, model, 1e9)
-    _, largest = ring_motion(history([0.0, -3e5, 0.0]), flat, model, 1e9)
-    assert largest > 0.0
-
-
 def test_coarse_loads_are_balanced_in_between(bearing, model, lubricant):
     limit = truncation_load(bearing, lubricant)
     speed, end = 2.0, 6.0

@@ -13,7 +13,7 @@ from macroslip.study.journal import records
 from macroslip.study.run import run_study
 from macroslip.study.store import JOURNAL, case_path, checksum
 
-#: Runs a campaign from a file of its arguments, and writes a line for every run that is reported done.
+#: Runs a study from a file of its arguments, and writes a line for every run that is reported done.
 SCRIPT = """
 import json, sys
 from macroslip import run_study
@@ -65,7 +65,7 @@ def long_content():
 
 @pytest.fixture
 def begin(tmp_path):
-    """Start a campaign in a process of its own."""
+    """Start a study in a process of its own."""
     started = []
 
     def start(content, directory, folder=tmp_path, **options):

@@ -66,9 +66,7 @@ def test_workers_started_here_listen_on_the_loopback_only_and_find_what_one_proc
         np.testing.assert_array_equal(several[name].values, one[name].values)
 
 
-def test_workers_end_with_the_campaign_that_started_them(
-    tmp_path, begin, slow_content, wait_for, done, counted, resumed
-):
+def test_workers_end_with_the_study_that_started_them(tmp_path, begin, slow_content, wait_for, done, counted, resumed):
     out = tmp_path / "out"
     process = begin(slow_content, out, workers=2)
     reported = int(process.stdout.readline().split()[0])
@@ -149,10 +147,10 @@ def dask(tmp_path):
 
 
 @pytest.fixture
-def campaign(tmp_path, slow_content):
-    """A campaign in a thread of this process, with what it reports."""
+def under_way(tmp_path, slow_content):
+    """A study in a thread of this process, with what it reports."""
 
-    class Campaign:
+    class UnderWay:
         out, done, ended, error = tmp_path / "out", 0, None, None
 
         def start(self, address, **options):
@@ -178,44 +176,44 @@ def campaign(tmp_path, slow_content):
         def log(self):
             return (self.out / "log.txt").read_text()
 
-    return Campaign()
+    return UnderWay()
 
 
-def test_a_worker_joins_late_and_another_is_killed(dask, campaign, wait_for, done, journal):
-    campaign.start(dask.address)
-    wait_for(lambda: (campaign.out / "log.txt").exists() and "no worker has joined yet" in campaign.log)
+def test_a_worker_joins_late_and_another_is_killed(dask, under_way, wait_for, done, journal):
+    under_way.start(dask.address)
+    wait_for(lambda: (under_way.out / "log.txt").exists() and "no worker has joined yet" in under_way.log)
     first = dask.worker()
-    wait_for(lambda: campaign.done >= 3)
+    wait_for(lambda: under_way.done >= 3)
     first.send_signal(signal.SIGSTOP)  # with what it has under way
     second = dask.worker()
     with Client(dask.address, set_as_default=False) as client:
         client.wait_for_workers(2, timeout=120)
-    before = done(campaign.out)
+    before = done(under_way.out)
     assert 3 <= len(before) < 40
     first.kill()
-    campaign.join()
-    assert campaign.error is None and second.poll() is None
-    assert (campaign.ended.progress.computed, campaign.ended.progress.failed) == (40, 0)
-    assert before <= done(campaign.out)
+    under_way.join()
+    assert under_way.error is None and second.poll() is None
+    assert (under_way.ended.progress.computed, under_way.ended.progress.failed) == (40, 0)
+    assert before <= done(under_way.out)
     # Nothing that was reported done was computed again: the journal has one line a run.
-    runs = [record["run"] for record in journal(campaign.out)]
+    runs = [record["run"] for record in journal(under_way.out)]
     assert len(runs) == len(set(runs)) == 40
-    assert "has joined" in campaign.log and "is gone; others take over" in campaign.log
-    study = open_study(campaign.out)
+    assert "has joined" in under_way.log and "is gone; others take over" in under_way.log
+    study = open_study(under_way.out)
     assert (study.outcome == "completed").all() and study.energy.notnull().all()
 
 
-def test_a_scheduler_that_dies_loses_nothing(dask, campaign, wait_for, done, slow_content, tmp_path, counted, resumed):
+def test_a_scheduler_that_dies_loses_nothing(dask, under_way, wait_for, done, slow_content, tmp_path, counted, resumed):
     dask.worker()
-    campaign.start(dask.address)
-    wait_for(lambda: campaign.done >= 3)
-    reported = campaign.done
+    under_way.start(dask.address)
+    wait_for(lambda: under_way.done >= 3)
+    reported = under_way.done
     dask.scheduler.kill()
-    campaign.join()
-    assert isinstance(campaign.error, MacroslipError) and "--resume" in str(campaign.error)
-    keys = done(campaign.out)
+    under_way.join()
+    assert isinstance(under_way.error, MacroslipError) and "--resume" in str(under_way.error)
+    keys = done(under_way.out)
     assert reported <= len(keys) < 40
-    ended, simulated = resumed(study_of(slow_content, tmp_path), campaign.out, counted)
+    ended, simulated = resumed(study_of(slow_content, tmp_path), under_way.out, counted)
     assert (simulated, ended.progress.unchanged) == (40 - len(keys), len(keys))
 
 
@@ -316,8 +314,8 @@ class Threads:
 def test_short_runs_travel_together_so_that_the_scheduler_keeps_up(threads, seconds, bundle):
     from macroslip.study.cluster import Dask
 
-    crew = Dask(Threads(threads), lambda text: None)
-    crew._learn([{"values": {"simulate_seconds": seconds, "other_seconds": 0.0}}])
-    assert crew._bundle() == bundle
+    pool = Dask(Threads(threads), lambda text: None)
+    pool._learn([{"values": {"simulate_seconds": seconds, "other_seconds": 0.0}}])
+    assert pool._bundle() == bundle
     # At most a hundred tasks a second, and a bounded number of runs in flight.
-    assert threads / (seconds * bundle) <= 100.0 * 1.01 and crew.room() == 2 * threads * bundle
+    assert threads / (seconds * bundle) <= 100.0 * 1.01 and pool.free_places() == 2 * threads * bundle

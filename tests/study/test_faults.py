@@ -9,8 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from macroslip import InputError, MacroslipError, open_study, run_study
-from macroslip.study import durable
+from macroslip import InputError, MacroslipError, files, open_study, run_study
 from macroslip.study import journal as journal_module
 from macroslip.study import tables as tables_module
 from macroslip.study.study_file import study_of
@@ -52,7 +51,7 @@ def test_a_disk_that_is_full_at_any_moment(
 ):
     """Every flush to the disk fails once (two before, two a run, one at the end); a run then goes on."""
     study, out, calls = study_of(content, load_files), tmp_path / "out", []
-    real = durable.flush
+    real = files.flush
 
     def flush(descriptor):
         calls.append(descriptor)
@@ -60,7 +59,7 @@ def test_a_disk_that_is_full_at_any_moment(
             raise OSError(errno.ENOSPC, "No space left on device")
         real(descriptor)
 
-    for module in (durable, journal_module, tables_module):
+    for module in (files, journal_module, tables_module):
         monkeypatch.setattr(module, "flush", flush)
     reported = []
     with pytest.raises(MacroslipError, match="No space left on device.*--resume"):

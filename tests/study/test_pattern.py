@@ -51,3 +51,10 @@ def test_files_are_found_in_folders_and_above(tmp_path):
 def test_wrong_fields_are_refused(text):
     with pytest.raises(InputError, match="is no field"):
         Pattern(text)
+
+
+@pytest.mark.parametrize("text", [".", "/", "runs", "./runs", "runs/.."])
+def test_a_folder_is_no_pattern(tmp_path, text):
+    (tmp_path / "runs").mkdir()
+    with pytest.raises(InputError, match="is a folder.*Name the files in it"):
+        Pattern(text).files(tmp_path)

@@ -1,4 +1,4 @@
-"""A whole campaign in this process: what it stores, what it computes again, and what it does about bad cases."""
+"""A whole study in this process: what it stores, what it computes again, and what it does about bad cases."""
 
 import json
 
@@ -253,7 +253,7 @@ def test_no_pickle_is_read_from_a_study(tmp_path, load_files, content, monkeypat
     run_study(study_of(content, load_files), out, resume=True)
 
 
-def test_a_manifest_of_another_campaign_stops_the_workers(tmp_path, load_files, content):
+def test_a_manifest_of_another_study_stops_the_workers(tmp_path, load_files, content):
     from macroslip.study.work import StoreError, work
 
     out = tmp_path / "out"
@@ -262,7 +262,7 @@ def test_a_manifest_of_another_campaign_stops_the_workers(tmp_path, load_files, 
         work({"directory": str(out), "setup": "0" * 64, "run": "0" * 32})
 
 
-def test_a_worker_of_another_version_stops_the_campaign(tmp_path, load_files, content, monkeypatch):
+def test_a_worker_of_another_version_stops_the_study(tmp_path, load_files, content, monkeypatch):
     monkeypatch.setattr("macroslip.study.work.program", lambda: "older")
     with pytest.raises(MacroslipError, match="another version of macroslip"):
         run_study(study_of(content, load_files), tmp_path / "out")

@@ -3,8 +3,7 @@
 import pytest
 
 from macroslip import InputError, Lubricant
-from macroslip.case.form import Place
-from macroslip.catalogue.source import Source
+from macroslip.catalogue.source import Place, Source
 from macroslip.study.build import template
 from macroslip.study.settings import Setting, replaced
 

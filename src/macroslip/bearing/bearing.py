@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
+from macroslip.bearing.assembly import misfits
 from macroslip.catalogue import Record
 from macroslip.catalogue.source import Source
 from macroslip.catalogue.units import (
@@ -22,9 +23,6 @@ from macroslip.catalogue.units import (
     SPECIFIC_HEAT,
 )
 from macroslip.errors import InputError
-
-SPHERE_TOLERANCE = 0.01
-"""Relative difference allowed between given and computed positions of the roller centre: drawings round."""
 
 
 class Bearing(Record):
@@ -64,6 +62,9 @@ class Bearing(Record):
     ] = None
     static_load_rating: Annotated[
         float | None, FORCE, Field(gt=0, le=1e9, description="basic static radial load rating C0")
+    ] = None
+    fatigue_load_limit: Annotated[
+        float | None, FORCE, Field(gt=0, le=1e9, description="fatigue load limit C_u, in some catalogues P_u")
     ] = None
     axial_factor_e: Annotated[
         float | None, NUMBER, Field(gt=0, le=5, description="ratio e of axial to radial load between Y1 and Y2")
@@ -126,42 +127,4 @@ class Bearing(Record):
     ] = None
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
-        # Centres of neighbouring rollers are a chord of the pitch circle apart.
-        spacing = 2 * self.pitch_radius * math.sin(math.pi / self.rollers_per_row)
-        if spacing <= self.roller_diameter:
-            most = math.floor(math.pi / math.asin(min(1.0, self.roller_diameter / (2 * self.pitch_radius))))
-            yield InputError(
-                f"{self.rollers_per_row} rollers do not fit round the circumference: roller_diameter is "
-                f"{self._written('roller_diameter')}, centres are {self._written('roller_diameter', spacing)} apart",
-                where=source.where("rollers_per_row", "value"),
-                allowed=f"2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter, here at most {most} rollers",
-                remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row counts one row only.",
-            )
-        centre = self.outer_raceway_radius - self.roller_diameter / 2
-        for key, expected, formula in (
-            ("pitch_radius", centre * math.cos(self.contact_angle), "cos(contact_angle)"),
-            ("row_offset", centre * math.sin(self.contact_angle), "sin(contact_angle)"),
-        ):
-            if abs(getattr(self, key) - expected) > SPHERE_TOLERANCE * abs(expected):
-                yield InputError(
-                    f"{key} is {self._written(key)}, but rollers that touch the outer raceway sphere have "
-                    f"(outer_raceway_radius - roller_diameter/2) {formula} = {self._written(key, expected)}",
-                    where=source.where(key, "value"),
-                    allowed=f"agreement within {SPHERE_TOLERANCE:.0%}",
-                    remedy="Check pitch_radius, row_offset, outer_raceway_radius, roller_diameter and contact_angle.",
-                )
-        slenderness = self.roller_length / self.roller_diameter
-        if not 0.5 <= slenderness <= 4:
-            yield InputError(
-                f"roller_length is {self._written('roller_length')}, which is {slenderness:.3g} times roller_diameter",
-                where=source.where("roller_length", "value"),
-                allowed="0.5 to 4 times roller_diameter",
-                remedy="Check roller_length and roller_diameter.",
-            )
-        if None not in (self.bore_diameter, self.outside_diameter) and self.bore_diameter >= self.outside_diameter:
-            yield InputError(
-                f"bore_diameter is {self._written('bore_diameter')}",
-                where=source.where("bore_diameter", "value"),
-                allowed=f"less than outside_diameter, {self._written('bore_diameter', self.outside_diameter)}",
-                remedy="Check both diameters.",
-            )
+        return misfits(self, source)

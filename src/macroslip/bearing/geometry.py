@@ -138,3 +138,57 @@ def cage_curvatures(bearing: Bearing) -> Curvatures:
     (0.571429, 0.049188)
     """
     return Curvatures((1 - bearing.osculation_outer) / roller_radius(bearing), outer_curvatures(bearing).lateral)
+
+
+def roller_end_radius(bearing: Bearing) -> float:
+    """Radius of the barrel roller at its ends [m], r less the sagitta of its contour; 0 where the contour meets the axis.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> round(roller_end_radius(Bearing.read("skf-240-600-bc")), 6)
+    0.031531
+    """
+    contour, half = roller_contour_radius(bearing), bearing.roller_length / 2
+    drop = contour - math.sqrt(contour**2 - half**2) if half < contour else contour
+    return max(0.0, roller_radius(bearing) - drop)
+
+
+class Envelope(NamedTuple):
+    """Space that a row's rollers need, from the corners of their ends.
+
+    Parameters
+    ----------
+    nearest, farthest : float
+        Axial distance from the bearing's mid-plane [m]; a row that crosses the mid-plane has a negative `nearest`.
+    raceway_start : float
+        Axial distance from the mid-plane at which the outer raceway contact can begin [m].
+    inside : float
+        Distance from the bearing axis, at the end that is farther from the mid-plane [m].
+    """
+
+    nearest: float
+    farthest: float
+    raceway_start: float
+    inside: float
+
+
+def envelope(bearing: Bearing) -> Envelope:
+    """Space that a row's rollers need.
+
+    The roller's axis leans by the contact angle, towards the bearing axis with growing distance from the mid-plane.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> [round(place, 4) for place in envelope(Bearing.read("skf-240-600-bc"))]
+    [0.0159, 0.1321, 0.0281, 0.3315]
+    """
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    half, end = bearing.roller_length / 2, roller_end_radius(bearing)
+    return Envelope(
+        nearest=bearing.row_offset - half * cosine - end * sine,
+        farthest=bearing.row_offset + half * cosine + end * sine,
+        raceway_start=bearing.row_offset - half * cosine + end * sine,
+        inside=bearing.pitch_radius - half * sine - end * cosine,
+    )

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import hashlib
-import math
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any
+from numbers import Integral
+from typing import Annotated, Any
 
 from macroslip.bearing import Bearing
+from macroslip.catalogue.forms import Quantity, Whole
+from macroslip.catalogue.input_section import input_section
+from macroslip.catalogue.problems import shown
+from macroslip.catalogue.units import NUMBER, TIME
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.overview import html_overview
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 
 def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") -> None:
@@ -23,11 +25,10 @@ def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") ->
         raise InputError(what, where=where, allowed=allowed, remedy=remedy)
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+_Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0, name="step")]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@input_section("integrator", "error-controlled, implicit, in the slip")
 class Radau:
     """The production integrator: Radau IIA in the slip, L-stable, order 5, error-controlled.
 
@@ -39,45 +40,24 @@ class Radau:
         Steps and rejections after which a roller counts as failed.
     """
 
-    tolerance: float = 2e-4
-    max_steps: int = 100_000_000
-
-    def __post_init__(self) -> None:
-        _check(
-            _is_number(self.tolerance) and 1e-10 <= self.tolerance <= 1e-2,
-            f"the tolerance is {self.tolerance!r}",
-            "integrator.tolerance",
-            "1e-10 to 1e-2",
-            "2e-4 gives energies and spin to 1e-4 and peak power to 1 %",
-        )
-        _check(
-            isinstance(self.max_steps, int) and self.max_steps > 0,
-            f"max_steps is {self.max_steps!r}",
-            "integrator.max_steps",
-            "a whole number above 0",
-        )
+    tolerance: Annotated[
+        float,
+        Quantity(
+            "relative tolerance per step", NUMBER, 1e-10, 1e-2, name="tolerance",
+            remedy="2e-4 gives energies and spin to 1e-4 and peak power to 1 %",
+        ),
+    ] = 2e-4  # fmt: skip
+    max_steps: Annotated[int, Whole("steps after which a roller counts as failed", 1)] = 100_000_000
 
 
-def _check_step(step: Any) -> None:
-    _check(
-        _is_number(step) and 1e-7 <= step <= 1.0,
-        f"the step is {step!r} s",
-        "integrator.step",
-        "1e-7 to 1 s",
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
+@input_section("integrator", "fixed step, explicit, on the spin")
 class ExplicitEuler:
     """Explicit Euler on the spin at a fixed step [s], as in the paper's Appendix A; unstable in the load zone."""
 
-    step: float
-
-    def __post_init__(self) -> None:
-        _check_step(self.step)
+    step: _Step
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@input_section("integrator", "fixed step, implicit, on the spin")
 class BackwardEuler:
     """Backward Euler on the spin at a fixed step, the paper's method.
 
@@ -89,20 +69,14 @@ class BackwardEuler:
         Relative change of spin at which the nonlinear iteration stops, 1e-16 to 1e-2.
     """
 
-    step: float
-    tolerance: float = 1e-12
-
-    def __post_init__(self) -> None:
-        _check_step(self.step)
-        _check(
-            _is_number(self.tolerance) and 1e-16 <= self.tolerance <= 1e-2,
-            f"the tolerance is {self.tolerance!r}",
-            "integrator.tolerance",
-            "1e-16 to 1e-2",
-        )
+    step: _Step
+    tolerance: Annotated[
+        float,
+        Quantity("relative change of spin at which the iteration stops", NUMBER, 1e-16, 1e-2, name="tolerance"),
+    ] = 1e-12
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@input_section("window", "part of the time over which energies and peaks are taken")
 class Window:
     """Part of the history over which energies and peaks are taken; the simulation always starts with the history.
 
@@ -115,11 +89,13 @@ class Window:
         [s]; None: the last sample.
     """
 
-    start: float | None = None
-    end: float | None = None
+    start: Annotated[
+        float | None, Quantity("start; auto: when the rollers have completed one orbit", TIME, words=("auto",))
+    ] = None
+    end: Annotated[float | None, Quantity("end; without it, the end of the loads", TIME)] = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@input_section("traces", "series to keep for every simulated roller")
 class Traces:
     """Series to be kept for every simulated roller.
 
@@ -131,17 +107,9 @@ class Traces:
         First and last time [s] on the loads' time axis; None: first and last sample of the loads.
     """
 
-    step: float
-    start: float | None = None
-    end: float | None = None
-
-    def __post_init__(self) -> None:
-        _check(
-            _is_number(self.step) and self.step > 0.0,
-            f"the step is {self.step!r} s",
-            "traces.step",
-            "a number above 0 s",
-        )
+    step: Annotated[float, Quantity("time between samples", TIME, 0.0, above=True, name="step")]
+    start: Annotated[float | None, Quantity("first time", TIME)] = None
+    end: Annotated[float | None, Quantity("last time", TIME)] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -205,24 +173,12 @@ class Case:
             value = getattr(self, name)
             allowed = " or ".join(kind.__name__ for kind in kinds)
             _check(isinstance(value, kinds), f"it is {type(value).__name__}", name, allowed)
-        count = self.bearing.rollers_per_row
-        if self.rollers != "all":
-            rollers = tuple(self.rollers) if not isinstance(self.rollers, str) else ()
-            good = len(rollers) > 0 and all(
-                isinstance(number, int) and not isinstance(number, bool) and 0 <= number < count for number in rollers
-            )
-            _check(
-                good and len(set(rollers)) == len(rollers),
-                f"rollers is {self.rollers!r}",
-                "rollers",
-                f"all, or a list of different numbers from 0 to {count - 1}",
-            )
-            object.__setattr__(self, "rollers", rollers)
+        object.__setattr__(self, "rollers", _rollers(self.rollers, self.bearing.rollers_per_row))
         first, last = float(self.loads.time[0]), float(self.loads.time[-1])
         start = first if self.window.start is None else self.window.start
         end = last if self.window.end is None else self.window.end
         _check(
-            _is_number(start) and _is_number(end) and first <= start < end <= last,
+            first <= start < end <= last,
             f"the window runs from {start!r} s to {end!r} s",
             "window",
             f"start before end, both within the loads' {first:g} s to {last:g} s",
@@ -231,7 +187,7 @@ class Case:
             start = first if self.traces.start is None else self.traces.start
             end = last if self.traces.end is None else self.traces.end
             _check(
-                _is_number(start) and _is_number(end) and first <= start <= end <= last,
+                first <= start <= end <= last,
                 f"the traces run from {start!r} s to {end!r} s",
                 "traces",
                 f"times within the loads' {first:g} s to {last:g} s",
@@ -290,3 +246,17 @@ class Case:
             ("rollers", count),
             ("traces", "no traces" if self.traces is None else f"traces every {self.traces.step:g} s"),
         ]
+
+def _rollers(given: str | Iterable[int], count: int) -> str | tuple[int, ...]:
+    """Numbers of the rollers as plain integers: NumPy's are welcome."""
+    if isinstance(given, str) and given == "all":
+        return "all"
+    numbers = () if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
+    whole = all(isinstance(number, Integral) and not isinstance(number, bool) for number in numbers)
+    _check(
+        whole and 0 < len(set(numbers)) == len(numbers) and 0 <= min(numbers) and max(numbers) < count,
+        f"rollers is {shown(given)}",
+        "rollers",
+        f"all, or a list of different numbers from 0 to {count - 1}",
+    )
+    return tuple(int(number) for number in numbers)

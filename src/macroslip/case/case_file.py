@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from macroslip.bearing import Bearing
-from macroslip.case.case import BackwardEuler, Case, ExplicitEuler, Radau, Traces, Window
-from macroslip.case.form import Place
-from macroslip.case.keys import CASE
+from macroslip.case.case import Case
+from macroslip.case.keys import LOAD_SOURCES, CaseFile, LawsKeys, LoadsKeys
 from macroslip.catalogue import Record
+from macroslip.catalogue.input_section import json_schema, read_fields
 from macroslip.catalogue.problems import shown, together
-from macroslip.catalogue.source import Source, parse, read_text
+from macroslip.catalogue.source import Place, Source, parse, read_text
 from macroslip.errors import InputError
-from macroslip.loads import BearingLoads, Drivetrain, HubLoads
-from macroslip.loads.statics import allowed_range
+from macroslip.loads import BearingLoads, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 
-_INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
 # Advice for programs, in the words of a case file.
 _ADVICE = {
     "read it with BearingLoads.read": "name it under bearing_file",
@@ -54,7 +53,19 @@ def read_case(path: str | PathLike[str]) -> Case:
     remedy = "Write a case file that runs with: macroslip init"
     text = read_text(path, "the case file cannot be read", where=str(path), remedy=remedy)
     data, source = parse(text, str(path), remedy)
-    return _Builder(data, source, path.parent).case()
+    return CaseBuilder(data, source, path.parent).case()
+
+
+def files_named_in(path: Path) -> list[Path]:
+    """Files that a case file names: bearing, lubricant and loads. None of a file that cannot be read."""
+    try:
+        data, _ = parse(read_text(path, "the case file cannot be read"), str(path))
+    except InputError:
+        return []  # whoever reads the case says what is wrong with it
+    loads = data.get("loads")
+    named = [data.get("bearing"), data.get("lubricant")]
+    named += [loads.get("file"), loads.get("bearing_file")] if isinstance(loads, Mapping) else []
+    return [path.parent / name for name in named if isinstance(name, str) and "\0" not in name]
 
 
 def case_schema() -> dict[str, Any]:
@@ -62,49 +73,38 @@ def case_schema() -> dict[str, Any]:
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "case of macroslip",
-        **CASE.schema(),
+        **json_schema(CaseFile),
     }
 
 
-class _Builder:
+class CaseBuilder:
     """Turns the content of a case file into the parts of a case, and remembers every problem on the way."""
 
     def __init__(self, data: Mapping[str, Any], source: Source, folder: Path):
-        self.data, self.place, self.folder = data, Place(source), folder
-        self.problems: list[InputError] = []
-        self.values = CASE.read(data, self.place, self.problems)
+        self.place, self.folder = Place(source), folder
+        self.values, self.problems = read_fields(CaseFile, data, self.place)
+        self.is_bearing_wrong = "bearing" in data and "bearing" not in self.values
 
     def case(self) -> Case:
-        """Build the case, or tell all problems."""
-        values, parts = self.values, {}
-        for key, build in (
-            ("bearing", lambda name: self.record(Bearing, name)),
-            ("lubricant", lambda name: self.record(Lubricant, name)),
-            ("loads", self.loads),
-            ("drivetrain", self.drivetrain),
-            ("laws", self.laws),
-            ("integrator", lambda given: _INTEGRATORS[given.pop("method")](**given)),
-            ("window", lambda given: Window(**given)),
-            ("rollers", lambda given: given),
-            ("traces", lambda given: Traces(**given)),
-        ):
-            if values.get(key) is not None:  # left out, wrong, or switched off by a word
+        """Build the case, or raise all problems."""
+        parts: dict[str, Any] = {}
+        for key, build in _PARTS.items():
+            if self.values.get(key) is not None:  # left out, wrong, or switched off by a word
                 try:
-                    parts[key] = build(values[key])
+                    parts |= {key: self.values[key]} if build is None else build(self, self.values[key])
                 except InputError as problem:
                     self.problems.append(self.located(problem, key))
         self.check_against_loads(parts)
         if self.problems:
             raise together(self.problems)
-        case = Case(**parts, **values.get("forces", {}))
+        case = Case(**parts)
         self.check_lubricant(case)
         return case
 
-    @staticmethod
-    def laws(given: Mapping[str, Any]) -> Laws:
+    def laws(self, given: LawsKeys) -> dict[str, Any]:
         """The named set with what differs from it."""
-        differs = {key: value for key, value in given.items() if key != "model"}
-        return Laws.named(given.get("model", "paper")).but(**differs)
+        differs = {key: value for key, value in asdict(given).items() if key != "model" and value is not None}
+        return {"laws": Laws.named(given.model).but(**differs)}
 
     def check_lubricant(self, case: Case) -> None:
         """Find out now, not after the loads are computed, whether the lubricant has what the mechanisms need."""
@@ -123,7 +123,7 @@ class _Builder:
 
     def check_against_loads(self, parts: Mapping[str, Any]) -> None:
         """Check one by one what depends on bearing and loads: a case by itself stops at its first problem."""
-        if "loads" not in parts or ("bearing" in self.data and "bearing" not in parts):
+        if "loads" not in parts or self.is_bearing_wrong or (self.values.get("bearing") and "bearing" not in parts):
             return
         common = {key: parts[key] for key in ("loads", "bearing") if key in parts}
         for key in ("rollers", "window", "traces"):
@@ -152,11 +152,11 @@ class _Builder:
     def start_of_paths(self) -> str:
         return f"Relative paths start at {self.folder.resolve()}."
 
-    def loads(self, given: Mapping[str, Any]) -> HubLoads | BearingLoads:
+    def loads(self, given: LoadsKeys) -> HubLoads | BearingLoads:
         """Read or make the loads."""
-        cut = {key: given[key] for key in ("start", "end") if key in given}
-        (source,) = given.keys() - cut.keys()
-        value, place = given[source], self.place.inside("loads", source)
+        (source,) = (key for key in LOAD_SOURCES if getattr(given, key) is not None)
+        cut = {key: getattr(given, key) for key in ("start", "end") if getattr(given, key) is not None}
+        value, place = getattr(given, source), self.place.inside("loads", source)
         try:
             if source in ("hub", "main_bearing"):
                 if cut:
@@ -164,7 +164,7 @@ class _Builder:
                         f"{' and '.join(cut)} would cut a series, but these loads are constant",
                         remedy=f"Remove them; loads.{source}.duration says how long.",
                     )
-                return (HubLoads if source == "hub" else BearingLoads).constant(**value)
+                return (HubLoads if source == "hub" else BearingLoads).constant(**asdict(value))
             if source == "bundled":
                 return HubLoads.bundled(value).window(cut.get("start"), cut.get("end"))
             path = self.folder / value
@@ -176,18 +176,17 @@ class _Builder:
                 problem.remedy = problem.remedy.replace(programs_words, words)
             raise place.blamed(problem) from None
 
-    def drivetrain(self, given: Mapping[str, float]) -> Drivetrain:
-        """Check the drivetrain value by value: by itself it stops at its first problem, and knows no units."""
-        place, good = self.place.inside("drivetrain"), dict(given)
-        while True:
-            try:
-                return Drivetrain(**good)
-            except InputError as problem:
-                key = problem.what.partition(" ")[0]
-                written = self.data["drivetrain"][key]
-                names = "hub_to_bearing", "bearing_to_gearbox"
-                lengths = {name: good.get(name, getattr(Drivetrain(), name)) for name in names}
-                allowed = allowed_range(key, **lengths).text(CASE.keys["drivetrain"].keys[key].unit(written))
-                self.problems.append(place.inside(key).problem(f"it is {written}", allowed, "Check value and unit."))
-                # Where the shaft's mass may be depends on the lengths.
-                good = {other: good[other] for other in good if other not in (key, "shaft_mass_station")}
+
+#: How each key of a case file becomes parts of a case; None: its value is the part.
+_PARTS: dict[str, Callable[[CaseBuilder, Any], dict[str, Any]] | None] = {
+    "bearing": lambda builder, name: {"bearing": builder.record(Bearing, name)},
+    "lubricant": lambda builder, name: {"lubricant": builder.record(Lubricant, name)},
+    "loads": lambda builder, given: {"loads": builder.loads(given)},
+    "drivetrain": None,
+    "forces": lambda builder, given: asdict(given),
+    "laws": CaseBuilder.laws,
+    "integrator": None,
+    "window": None,
+    "rollers": None,
+    "traces": None,
+}

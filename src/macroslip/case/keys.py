@@ -1,17 +1,32 @@
-"""The keys of a case file, with what may stand under each: the one description that reader and schema share."""
+"""The keys of a case file: the one description that reader, messages and JSON Schema share.
+
+To add a key, add a field to its section: `name: Annotated[type, Quantity("what it is", LENGTH, 0.0, 1.0)] = default`.
+Keys of `Radau`, `Window`, `Traces` and `Drivetrain` are the fields of these classes themselves; a new section is a class
+with `@input_section` here and a line in `CaseFile` and in `case_file._PARTS`.
+"""
 
 from __future__ import annotations
 
-from macroslip.case.form import Choice, Numbers, Plain, Quantity, Vector
-from macroslip.case.section import Section, Variants
-from macroslip.catalogue.units import ANGLE, FORCE, LENGTH, MASS, MOMENT, SPEED, TIME
-from macroslip.loads import bundled_cases
-from macroslip.mechanisms import MECHANISMS, MODELS, asperity_laws, rheologies, viscosities
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from macroslip.case.case import BackwardEuler, ExplicitEuler, Radau, Traces, Window
+from macroslip.catalogue.forms import Choice, Flag, Form, Quantity, Text, Vector
+from macroslip.catalogue.input_section import OrWord, Variants, input_section
+from macroslip.catalogue.problems import shown
+from macroslip.catalogue.units import FORCE, MOMENT, SPEED, TIME
+from macroslip.errors import InputError
+from macroslip.loads import Drivetrain, bundled_cases
+from macroslip.mechanisms import MECHANISMS, NAMED_SETS, asperity_laws, rheologies, viscosities
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
-
-
+INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
 _OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
+
+_Force = Annotated[list[float], Vector("three components of the force", FORCE)]
+_Moment = Annotated[list[float], Vector("three components of the moment", MOMENT)]
+_Speed = Annotated[float, Quantity("shaft speed", SPEED)]
+_Duration = Annotated[float, Quantity("time for which the loads act", TIME)]
 
 
 def _film_laws() -> list[str]:
@@ -26,110 +41,97 @@ def _traction_laws() -> list[str]:
     return [MECHANISMS, *law.names()]
 
 
-_constant = {
-    "force": Vector("three components of the force", Quantity("one component", FORCE)),
-    "shaft_speed": Quantity("shaft speed", SPEED),
-    "duration": Quantity("time for which the loads act", TIME),
-}
-_hub = _constant | {"moment": Vector("three components of the moment", Quantity("one component", MOMENT))}
-_step = Quantity("fixed time step", TIME)
+@input_section("loads.hub", "constant hub loads")
+class ConstantHubLoads:
+    """Arguments of `HubLoads.constant`."""
 
-CASE = Section(
-    "case",
-    {
-        "bearing": Plain("bearing: a name of the catalogue, or the path of a bearing file", str),
-        "lubricant": Plain("lubricant: a name of the catalogue, or the path of a lubricant file", str),
-        "loads": Section(
-            "loads, from exactly one source",
-            {
-                "bundled": Choice("load case that comes with the package", bundled_cases),
-                "file": Plain("hub loads: OpenFAST output (.outb, .out) or a table (.parquet, .csv)", str),
-                "bearing_file": Plain("main-bearing loads: a table (.parquet, .csv)", str),
-                "hub": Section("constant hub loads", _hub, required=tuple(_hub)),
-                "main_bearing": Section("constant main-bearing load", _constant, required=tuple(_constant)),
-                "start": Quantity("first time to read", TIME),
-                "end": Quantity("last time to read", TIME),
-            },
-            one_of=LOAD_SOURCES,
-        ),
-        "drivetrain": Section(
-            "supports and mass of the shaft",
-            {
-                "hub_to_bearing": Quantity("distance from hub centre to main bearing", LENGTH),
-                "bearing_to_gearbox": Quantity("distance from main bearing to gearbox support", LENGTH),
-                "tilt": Quantity("shaft tilt, positive with the hub end up", ANGLE),
-                "shaft_mass": Quantity("mass of the shaft without rotor", MASS),
-                "shaft_mass_station": Quantity("distance of that mass behind the hub centre", LENGTH),
-            },
-        ),
-        "forces": Section(
-            "forces on the rollers that can be switched off",
-            {"gravity": Plain("weight of the rollers", bool), "drag": Plain("drag of the lubricant", bool)},
-        ),
-        "laws": Section(
-            "physics in the contacts: a named set, and mechanisms that differ from it",
-            {
-                "model": Choice("named set of mechanisms", lambda: list(MODELS)),
-                "film": Choice("film thickness", _film_laws, _OWN_LAW),
-                "starvation": Plain("film thinned by the lubricant's starvation factor", bool),
-                "inlet_heating": Plain("film thinned by shear heating in the inlet", bool),
-                "viscosity": Choice("how viscosity rises with pressure", viscosities),
-                "rheology": Choice("how the film's stress falls behind the Newtonian one", rheologies),
-                "heating": Plain("shear heating of the film", bool),
-                "microslip": Plain("slip that varies along the roller", bool),
-                "asperities": Choice("share of the load that asperities carry", asperity_laws),
-                "traction": Choice(
-                    "mechanisms, or a traction law of your own in their place", _traction_laws, _OWN_LAW
-                ),
-            },
-        ),
-        "integrator": Variants(
-            "method of integration in time",
-            key="method",
-            default="radau",
-            sections={
-                "radau": Section(
-                    "error-controlled, implicit, in the slip",
-                    {
-                        "method": Plain("name of the method", str),
-                        "tolerance": Plain("relative tolerance per step", float),
-                        "max_steps": Plain("steps after which a roller counts as failed", int),
-                    },
-                ),
-                "backward-euler": Section(
-                    "fixed step, implicit, on the spin",
-                    {
-                        "method": Plain("name of the method", str),
-                        "step": _step,
-                        "tolerance": Plain("relative change of spin at which the iteration stops", float),
-                    },
-                    required=("step",),
-                ),
-                "explicit-euler": Section(
-                    "fixed step, explicit, on the spin",
-                    {"method": Plain("name of the method", str), "step": _step},
-                    required=("step",),
-                ),
-            },
-        ),
-        "window": Section(
-            "part of the time over which energies and peaks are taken",
-            {
-                "start": Quantity("start; auto: when the rollers have completed one orbit", TIME, words=("auto",)),
-                "end": Quantity("end; without it, the end of the loads", TIME),
-            },
-        ),
-        "rollers": Numbers("numbers of the rollers to simulate in each row, from 0", "all"),
-        "traces": Section(
-            "series to keep for every simulated roller",
-            {
-                "step": Quantity("time between samples", TIME),
-                "start": Quantity("first time", TIME),
-                "end": Quantity("last time", TIME),
-            },
-            required=("step",),
-            word="none",
-        ),
-    },
-    required=("loads",),
-)
+    force: _Force
+    shaft_speed: _Speed
+    duration: _Duration
+    moment: _Moment
+
+
+@input_section("loads.main_bearing", "constant main-bearing load")
+class ConstantBearingLoads:
+    """Arguments of `BearingLoads.constant`."""
+
+    force: _Force
+    shaft_speed: _Speed
+    duration: _Duration
+
+
+@input_section("loads", "loads, from exactly one source", one_of=LOAD_SOURCES)
+class LoadsKeys:
+    """Where the loads come from, and what to read of them."""
+
+    bundled: Annotated[str | None, Choice("load case that comes with the package", bundled_cases)] = None
+    file: Annotated[str | None, Text("hub loads: OpenFAST output (.outb, .out) or a table (.parquet, .csv)")] = None
+    bearing_file: Annotated[str | None, Text("main-bearing loads: a table (.parquet, .csv)")] = None
+    hub: ConstantHubLoads | None = None
+    main_bearing: ConstantBearingLoads | None = None
+    start: Annotated[float | None, Quantity("first time to read", TIME)] = None
+    end: Annotated[float | None, Quantity("last time to read", TIME)] = None
+
+
+@input_section("forces", "forces on the rollers that can be switched off")
+class Forces:
+    """Forces on the rollers."""
+
+    gravity: Annotated[bool, Flag("weight of the rollers")] = True
+    drag: Annotated[bool, Flag("drag of the lubricant")] = True
+
+
+@input_section("laws", "physics in the contacts: a named set, and mechanisms that differ from it")
+class LawsKeys:
+    """Choices of `Laws`; None leaves one as the named set has it."""
+
+    model: Annotated[str, Choice("named set of mechanisms", lambda: NAMED_SETS)] = "paper"
+    film: Annotated[str | None, Choice("film thickness", _film_laws, _OWN_LAW)] = None
+    starvation: Annotated[bool | None, Flag("film thinned by the lubricant's starvation factor")] = None
+    inlet_heating: Annotated[bool | None, Flag("film thinned by shear heating in the inlet")] = None
+    viscosity: Annotated[str | None, Choice("how viscosity rises with pressure", viscosities)] = None
+    rheology: Annotated[str | None, Choice("how the film's stress falls behind the Newtonian one", rheologies)] = None
+    heating: Annotated[bool | None, Flag("shear heating of the film")] = None
+    microslip: Annotated[bool | None, Flag("slip that varies along the roller")] = None
+    asperities: Annotated[str | None, Choice("share of the load that asperities carry", asperity_laws)] = None
+    traction: Annotated[
+        str | None,
+        Choice("mechanisms, or a traction law of your own in their place", _traction_laws, _OWN_LAW),
+    ] = None
+
+
+@dataclass(frozen=True)
+class RollerNumbers(Form):
+    """A list of whole numbers, or all; whether a number exists is checked with the bearing."""
+
+    form = "all, or a list of whole numbers such as [0, 7]"
+
+    def read(self, value: Any, info: Any) -> str | list[int]:
+        """Check that each is a whole number."""
+        if value != "all" and not (isinstance(value, list) and all(type(item) is int for item in value)):
+            raise InputError(f"it is {shown(value)}", allowed=self.form)
+        return value
+
+    def json(self) -> dict[str, Any]:
+        """A list of integers, or the word."""
+        numbers = {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 1, "uniqueItems": True}
+        return {"anyOf": [{"const": "all"}, numbers]}
+
+
+@input_section("case", "everything one simulation needs")
+class CaseFile:
+    """The keys at the top of a case file."""
+
+    bearing: Annotated[str | None, Text("bearing: a name of the catalogue, or the path of a bearing file")] = None
+    lubricant: Annotated[str | None, Text("lubricant: a name of the catalogue, or the path of a lubricant file")] = None
+    loads: LoadsKeys
+    drivetrain: Drivetrain = Drivetrain()
+    forces: Forces = Forces()
+    laws: LawsKeys = LawsKeys()
+    integrator: Annotated[
+        Radau | BackwardEuler | ExplicitEuler,
+        Variants("method of integration in time", "method", "radau", INTEGRATORS),
+    ] = Radau()
+    window: Window = Window()
+    rollers: Annotated[str | list[int], RollerNumbers("numbers of the rollers to simulate in each row, from 0")] = "all"
+    traces: Annotated[Traces | None, OrWord("none")] = None

@@ -61,8 +61,26 @@ def together(problems: Sequence[InputError]) -> InputError:
     >>> print(together([InputError("a is 1", allowed="0"), InputError("b is 2", allowed="0")]))
     2 problems: (1) a is 1. Allowed: 0. (2) b is 2. Allowed: 0.
     """
+    problems = [part for problem in problems for part in getattr(problem, "parts", [problem])]
     if len(problems) == 1:
         return problems[0]
-    listed = " ".join(f"({n}) {p}" for n, p in enumerate(problems[:MOST_PROBLEMS], 1))
-    rest = len(problems) - MOST_PROBLEMS
-    return InputError(f"{len(problems)} problems: {listed}" + (f" And {rest} more." if rest > 0 else ""))
+    return Problems(problems)
+
+
+class Problems(InputError):
+    """Several problems as one error.
+
+    Attributes
+    ----------
+    parts : list of InputError
+        The problems one by one.
+    """
+
+    def __init__(self, parts: Sequence[InputError]):
+        self.parts = list(parts)
+        listed = " ".join(f"({n}) {part}" for n, part in enumerate(parts[:MOST_PROBLEMS], 1))
+        rest = len(parts) - MOST_PROBLEMS
+        super().__init__(f"{len(parts)} problems: {listed}" + (f" And {rest} more." if rest > 0 else ""))
+
+    def __reduce__(self) -> tuple[type[Problems], tuple[list[InputError]]]:
+        return Problems, (self.parts,)

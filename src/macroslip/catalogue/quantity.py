@@ -13,7 +13,7 @@ NUMBER_PATTERN = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
 """Regular expression of a decimal number."""
 
 
-def parse_quantity(text: str, dimension: Dimension, what: str = "it", where: str = "") -> tuple[float, str]:
+def parse_quantity(text: str, dimension: Dimension, what: str = "", where: str = "") -> tuple[float, str]:
     """Split text into number and unit, and check both.
 
     Parameters
@@ -23,7 +23,7 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "it", where: str
     dimension : Dimension
         Units that are allowed.
     what : str
-        Name of the quantity, for messages.
+        Name of the quantity, for messages that do not begin with the text itself.
     where : str
         File and line, for messages.
 
@@ -43,7 +43,7 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "it", where: str
     >>> parse_quantity("75 mm", LENGTH), parse_quantity("0.98", NUMBER)
     ((75, 'mm'), (0.98, '1'))
     """
-    pure = dimension is NUMBER
+    pure, subject = dimension is NUMBER, f"{what} is {shown(text)}, which" if what else shown(text)
     allowed = "a number" if pure else f"a number with its unit, {dimension.choices}"
     # What follows the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
     match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,]|$)\s*(?P<unit>.*?)\s*", text)
@@ -51,23 +51,22 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "it", where: str
         decimal = re.match(r"\s*[+-]?\d+,\d", text)
         example = "1" if pure else f"1 {dimension.si_unit}"
         remedy = "Use a decimal point, not a comma." if decimal else f"Write {example}, for example."
-        raise InputError(
-            f"{what} is {shown(text)}, which is not a quantity", where=where, allowed=allowed, remedy=remedy
-        )
+        raise InputError(f"{subject} is not a quantity", where=where, allowed=allowed, remedy=remedy)
     number, unit = match["number"], match["unit"] or ("1" if pure else None)
     if unit is None:
+        example = shown(f"{number} {dimension.si_unit}")
+        remedy = f"Write {example if what else example[1:-1]}, for example."
         raise InputError(
-            f"{what} is {shown(text)}, which does not give its unit",
-            where=where,
-            allowed=allowed,
-            remedy=f"Write {shown(f'{number} {dimension.si_unit}')}, for example.",
+            f"{subject} {'does not give its' if what else 'has no'} unit", where=where, allowed=allowed, remedy=remedy
         )
     if unit not in dimension.units:
         remedy = "Write the number alone." if pure else "Convert it to one of these units."
-        raise InputError(f"{what} has the unit {shown(unit)}", where=where, allowed=allowed, remedy=remedy)
+        raise InputError(
+            f"{what or shown(text)} has the unit {shown(unit)}", where=where, allowed=allowed, remedy=remedy
+        )
     value = float(number)
     if not math.isfinite(value) or not math.isfinite(dimension.to_si(value, unit)):
-        raise InputError(f"{what} is {shown(text)}, too large for a number", where=where, allowed=allowed)
+        raise InputError(f"{subject} is too large for a number", where=where, allowed=allowed)
     return (int(value) if re.fullmatch(r"[+-]?\d{1,15}", number) else value), unit
 
 

@@ -152,7 +152,7 @@ class Record(BaseModel):
         """Yield what is wrong with values that are each within their range."""
         yield from ()
 
-    def _written(self, key: str, si_value: float | None = None) -> str:
+    def written(self, key: str, si_value: float | None = None) -> str:
         """Write a quantity, or another value for it, in the unit in which the quantity was given."""
         value = getattr(self, key) if si_value is None else si_value
         return dimensions(type(self))[key].text(value, self.provenance[key].unit)
@@ -343,6 +343,16 @@ class Record(BaseModel):
         record = type(self).__new__(type(self))
         record._fill(given | values, kept, Source())
         return record
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy the record; with `update` as `replace`, which checks the new values.
+
+        Raises
+        ------
+        InputError
+            As the constructor.
+        """
+        return self.replace(**update) if update else super().model_copy(deep=deep)
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:

@@ -37,6 +37,47 @@ class Source:
         return ", ".join([part for part in (self.file, f"line {line}" if line else "") if part])
 
 
+@dataclass(frozen=True)
+class Place:
+    """Where a value stands in a file.
+
+    Parameters
+    ----------
+    source : Source
+        File and line numbers.
+    keys : tuple of str
+        Keys from the outermost inwards.
+    """
+
+    source: Source
+    keys: tuple[str, ...] = ()
+
+    def inside(self, *keys: str) -> Place:
+        """The place of a value further in."""
+        return Place(self.source, self.keys + keys)
+
+    @property
+    def key(self) -> str:
+        """The keys as messages write them: `loads.hub.force`."""
+        return ".".join(self.keys)
+
+    @property
+    def where(self) -> str:
+        """File, line and key: `case.yaml, line 7, loads.hub.force`."""
+        return ", ".join(part for part in (self.source.where(*self.keys), self.key) if part)
+
+    def problem(self, what: str, allowed: str = "", remedy: str = "") -> InputError:
+        """An error that stands here."""
+        return InputError(what, where=self.where, allowed=allowed, remedy=remedy)
+
+    def blamed(self, problem: InputError) -> InputError:
+        """The same error, raised by what read the value, with this place in front."""
+        # What was given the value without its file can name the key only.
+        inner = "" if problem.where == self.key else problem.where
+        what = f"{inner}: {problem.what}" if inner else problem.what
+        return self.problem(what, problem.allowed, problem.remedy)
+
+
 def read_text(path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> str:
     """Read a YAML file that somebody has named, whatever the name leads to.
 

@@ -88,7 +88,7 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
     from macroslip.cli.printing import number, table
-    from macroslip.study.printable import printable
+    from macroslip.study.safe_text import safe_text
 
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
     title = f"energy of a roller in {years:g} years, mean over the row"
@@ -97,7 +97,7 @@ def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
         shown = lifetime.sort_values("lifetime_energy [J]", ascending=False, kind="stable").head(_MOST_LINES)
         title += f"; the {_MOST_LINES} highest of {len(lifetime)}, all of them are in the table lifetime"
     rows = [
-        [number(value) if name in numbers else printable(value) for name, value in zip(shown, line, strict=True)]
+        [number(value) if name in numbers else safe_text(value) for name, value in zip(shown, line, strict=True)]
         for line in shown.itertuples(index=False)
     ]
     table(title, [(name, name in numbers) for name in shown], rows)

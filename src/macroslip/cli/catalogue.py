@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from macroslip.cli.bearing import add_commands
 from macroslip.cli.failure import command
-from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -127,11 +128,12 @@ def estimate(
         typer.echo(oil.as_yaml(), nl=False)
         return
     check_new_file(output, force=force)
-    with new_file(output) as temporary:
+    with new_file(output, force=force) as temporary:
         temporary.write_text(oil.as_yaml(), encoding="utf-8")
     typer.echo(f"written: {output}\nshow it: macroslip lubricant show {output}")
 
 
 bearing = _catalogue("bearing", _bearing_class, _of_bearing)
+add_commands(bearing)
 lubricant = _catalogue("lubricant", _lubricant_class, lambda lubricant: [])
 command(lubricant, estimate)

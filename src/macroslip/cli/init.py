@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.files import check_new_file, new_file
 
 
 class Example(StrEnum):
@@ -55,7 +55,7 @@ def init(
     for one in texts:
         check_new_file(one, force=force)
     for one, text in texts.items():
-        with new_file(one) as temporary:
+        with new_file(one, force=force) as temporary:
             temporary.write_text(text, encoding="utf-8")
         typer.echo(f"written:    {one}")
     folder = "" if path.parent == Path() else f"{path.parent}/"

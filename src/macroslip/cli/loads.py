@@ -10,10 +10,11 @@ import typer
 
 from macroslip.cli.failure import command
 from macroslip.cli.needs import PICTURE, require
-from macroslip.cli.new_file import check_new_file, new_file
 from macroslip.errors import InputError
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from macroslip.case.case import Case
@@ -61,7 +62,7 @@ def inspect(
         if output.suffix not in _PICTURES:
             raise InputError("this is no kind of picture", where=str(output), allowed=f"{', '.join(_PICTURES)}")
         require(PICTURE)
-        check_new_file(output, force=force)
+        check_new_file(output, force=force, inputs=[file, *([case] if case else [])])
     speed = _given("--shaft-speed", shaft_speed, SPEED)
     own = {
         "hub_to_bearing": _given("--hub-to-bearing", hub_to_bearing, LENGTH),
@@ -78,7 +79,9 @@ def inspect(
     else:
         _print(found)
     if output is not None:
-        _picture(bearing, base, drivetrain, output)
+        figure = _picture(bearing, base, drivetrain)
+        with new_file(output, force=force) as temporary:
+            figure.savefig(temporary, format=output.suffix[1:])
         if not as_json:
             typer.echo(f"\nwritten: {output}")
 
@@ -232,8 +235,8 @@ def _words(drivetrain: dict[str, Any]) -> str:
     )
 
 
-def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain, output: Path) -> None:
-    """Write the picture of the loads, with the load that the upwind row carries in the case's bearing."""
+def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:
+    """The picture of the loads, with the load that the upwind row carries in the case's bearing."""
     from macroslip.bearing.frames import ROWS
     from macroslip.case.case import Case
     from macroslip.report.load_figures import load_figure
@@ -242,6 +245,4 @@ def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain, o
     parts = {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws} if base else {}
     case = Case(loads=bearing, drivetrain=drivetrain, **parts)
     time, rollers = roller_load_series(case, float(bearing.time[0]), float(bearing.time[-1]))
-    figure = load_figure(bearing, time, rollers[:, ROWS.index("upwind")].sum(axis=-1))
-    with new_file(output) as temporary:
-        figure.savefig(temporary, format=output.suffix[1:])
+    return load_figure(bearing, time, rollers[:, ROWS.index("upwind")].sum(axis=-1))

@@ -29,6 +29,7 @@ COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
         "macroslip report": (FIGURES,),
         "macroslip reproduce": (FIGURES,),
         "macroslip loads inspect -o": (PICTURE,),
+        "macroslip bearing draw": (PICTURE,),
         "macroslip study --workers": (WORKERS,),
         "macroslip study, with cycles: true": (CYCLES,),
     }

@@ -30,7 +30,8 @@ def progress_bar(
         To be called as `report(label, done, total)`; None if nothing is shown.
     """
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
 
     console = Console(stderr=True)
     if quiet or not console.is_terminal:
@@ -43,7 +44,7 @@ def progress_bar(
         TimeRemainingColumn(),
         TextColumn("left"),
     )
-    bar = Progress(*columns, console=console, transient=True, speed_estimate_period=600.0)
+    bar = Bar(*columns, console=console, transient=True, speed_estimate_period=600.0)
     task = bar.add_task("preparing (the first run of all compiles)", total=None)
 
     def report(label: str, done: int, total: int) -> None:

@@ -9,7 +9,7 @@ import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
 from macroslip.cli.needs import FIGURES, require
-from macroslip.cli.new_file import check_new_file, new_file
+from macroslip.files import check_new_file, new_file
 
 PAGE = "report.html"
 
@@ -32,9 +32,9 @@ def report(
     if output is None:
         output = (results if results.is_dir() else results.parent) / PAGE
     found = read_results(results)
-    check_new_file(output, force=force)
+    check_new_file(output, force=force, inputs=[results] if results.is_file() else results.glob("*.nc"))
     page = results_page(found, title=title)
-    with new_file(output) as temporary:
+    with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8")
     if not quiet:
         typer.echo(f"written: {output}")

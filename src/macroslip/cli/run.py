@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.cli.new_file import check_new_file, new_file
 from macroslip.cli.progress import progress_bar
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,9 +28,9 @@ def run(
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only, each error on one line.")] = False,
 ) -> None:
     """Compute the slip of a case's rollers, as netCDF."""
-    from macroslip.case.case_file import read_case
+    from macroslip.case.case_file import files_named_in, read_case
 
-    check_new_file(output, force=force)
+    check_new_file(output, force=force, inputs=[case, *(laws or ()), *files_named_in(case)])
     for path in laws or ():
         from macroslip.plugins import load_laws
 
@@ -43,7 +43,7 @@ def run(
         dataset = simulate(checked, threads=threads, progress=progress)
     # In memory first: the HDF5 library may bring the whole process down when the disk is full.
     content = dataset.to_netcdf(engine="h5netcdf")
-    with new_file(output) as temporary:
+    with new_file(output, force=force) as temporary:
         temporary.write_bytes(content)
     if as_json:
         from macroslip.cli.printing import print_json

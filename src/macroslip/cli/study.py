@@ -83,8 +83,8 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
     from macroslip.cli.printing import print_json, table
     from macroslip.result.simulate import usable_processors
     from macroslip.study.estimate import estimate
-    from macroslip.study.printable import printable
     from macroslip.study.progress import duration
+    from macroslip.study.safe_text import safe_text
 
     found = estimate(checked)
     parts = [
@@ -112,14 +112,14 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
             [f"time here, on {processors} processors", duration(found.seconds / processors)],
             ["disk", size(found.bytes)],
         ]
-    table(printable(checked.title) or "study", [("", False), ("", True)], rows)
+    table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
     typer.echo(
         f"Time and disk are estimated from {found.looked_at} runs of the study, begun here and now."
         if found.looked_at
         else "Time and disk cannot be estimated."
     )
     for problem in found.problems:
-        tell(f"note: {printable(problem)}")
+        tell(f"note: {safe_text(problem)}")
 
 
 def size(count: float) -> str:
@@ -201,14 +201,14 @@ def _failures(ended: Ended, output: Path) -> None:
     from rich.table import Table
 
     from macroslip.cli.printing import PIPE_WIDTH
-    from macroslip.study.printable import printable
+    from macroslip.study.safe_text import safe_text
 
     shown = Table(box=None, padding=(0, 2, 0, 0))
     for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):
         shown.add_column(heading, overflow="fold")
     for labels, outcome, reason in ended.failures[:_LISTED]:
         shown.add_row(
-            *(printable(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split())))
+            *(safe_text(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split())))
         )
     out = Console(stderr=True, markup=False, highlight=False)
     (out if out.is_terminal else Console(stderr=True, markup=False, highlight=False, width=PIPE_WIDTH)).print(shown)

@@ -85,7 +85,10 @@ class BearingLoads:
         """
         time = series.uniform_time(duration, step)
         return cls(
-            time, np.full(time.size, shaft_speed), series.constant_vector("force", force, time.size), "constant load"
+            time,
+            series.constant_value("shaft_speed", shaft_speed, time.size),
+            series.constant_vector("force", force, time.size),
+            "constant load",
         )
 
     @classmethod

@@ -116,7 +116,7 @@ class HubLoads:
         time = series.uniform_time(duration, step)
         return cls(
             time,
-            np.full(time.size, shaft_speed),
+            series.constant_value("shaft_speed", shaft_speed, time.size),
             series.constant_vector("force", force, time.size),
             series.constant_vector("moment", moment, time.size),
             "constant load",

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from macroslip.catalogue.entry import is_finite_number
 from macroslip.errors import InputError
 from macroslip.overview import html_overview
 
@@ -26,6 +27,9 @@ the limit. 1e8 N is the weight of 10 000 t, about ten times the heaviest rotor, 
 extreme bending moment of a 20 MW rotor. Values below the limits can still carry a wrong unit; only the certain cases
 are refused.
 """
+
+#: Samples of a constant load beyond which only a mistaken duration is left as an explanation.
+_MOST_SAMPLES = 20_000_000
 
 
 def validate(record: Any, vectors: Mapping[str, Sequence[str]]) -> None:
@@ -134,9 +138,22 @@ def html_summary(kind: str, record: Any, forces: Mapping[str, NDArray]) -> str:
 def uniform_time(duration: float, step: float) -> NDArray[np.float64]:
     """Time stamps from 0 to exactly `duration` [s], equally spaced by at most `step` [s]."""
     for name, value in (("duration", duration), ("step", step)):
-        if not (math.isfinite(value) and value > 0):
+        if not (is_finite_number(value) and value > 0):
             raise InputError(f"the {name} of a constant load is {value} s", allowed="a finite number above 0 s")
+    if duration / step > _MOST_SAMPLES:
+        raise InputError(
+            f"the duration of a constant load is {duration:g} s, {duration / step:.3g} samples",
+            allowed=f"up to {_MOST_SAMPLES * step:g} s at a step of {step:g} s",
+            remedy="A load that does not change needs no longer time: its energy per orbit stays the same.",
+        )
     return np.linspace(0.0, duration, max(2, math.ceil(duration / step * (1 - 1e-12)) + 1))
+
+
+def constant_value(name: str, value: float, n: int) -> NDArray[np.float64]:
+    """One number repeated for `n` samples, shape (n,)."""
+    if not is_finite_number(value):
+        raise InputError(f"the {name} is {value!r}", where="constant load", allowed="a finite number")
+    return np.full(n, float(value))
 
 
 def constant_vector(name: str, value: ArrayLike, n: int) -> NDArray[np.float64]:
@@ -149,7 +166,10 @@ def constant_vector(name: str, value: ArrayLike, n: int) -> NDArray[np.float64]:
 
 def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
     try:
-        array = np.array(values, dtype=np.float64, order="C")
+        given = np.asarray(values)
+        if given.dtype.kind not in "iuf":  # text that looks like a number is not one
+            raise TypeError(f"it holds {given.dtype}")
+        array = np.array(given, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
         raise InputError(
             f"{name} does not convert to an array of numbers ({error})", where=source, allowed="real numbers"

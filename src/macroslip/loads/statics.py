@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-import numbers
-from dataclasses import dataclass, fields
-from typing import NamedTuple
+from typing import Annotated
 
 import numpy as np
 
-from macroslip.catalogue.units import ANGLE, LENGTH, MASS, Dimension
+from macroslip.catalogue.forms import Quantity
+from macroslip.catalogue.input_section import input_section
+from macroslip.catalogue.units import ANGLE, LENGTH, MASS
 from macroslip.constants import GRAVITY
-from macroslip.errors import InputError
 from macroslip.loads.bearing_loads import BearingLoads
 from macroslip.loads.hub_loads import HubLoads
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@input_section("drivetrain", "supports and mass of the shaft")
 class Drivetrain:
     """Where the shaft is supported and what it weighs.
 
@@ -44,71 +43,22 @@ class Drivetrain:
         A value outside its range.
     """
 
-    hub_to_bearing: float = 1.26
-    bearing_to_gearbox: float = 2.2
-    tilt: float = math.radians(5.0)
-    shaft_mass: float = 0.0
-    shaft_mass_station: float = 0.0
-
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
-                raise InputError(f"{field.name} is {value!r}", where="drivetrain", allowed="a finite number")
-        for name, reminder in _REMINDERS.items():
-            value, allowed = getattr(self, name), allowed_range(name, self.hub_to_bearing, self.bearing_to_gearbox)
-            if not allowed.holds(value):
-                raise InputError(
-                    f"{name} is {value!r}", where="drivetrain", allowed=allowed.text(), remedy=f"Note that {reminder}."
-                )
-
-
-_LENGTH = "lengths are in metres"
-_REMINDERS = {
-    "hub_to_bearing": _LENGTH,
-    "bearing_to_gearbox": _LENGTH,
-    "tilt": "angles are in radians: math.radians(5.0) for 5 degrees",
-    "shaft_mass": "the mass is in kilograms",
-    "shaft_mass_station": _LENGTH,
-}
-
-
-class Range(NamedTuple):
-    """Values a quantity of the drivetrain may have, in SI units; `above` leaves the lowest one out."""
-
-    lowest: float
-    highest: float
-    dimension: Dimension
-    above: bool = False
-    note: str = ""
-
-    def holds(self, value: float) -> bool:
-        """Whether a value is inside."""
-        return (self.lowest < value if self.above else self.lowest <= value) and value <= self.highest
-
-    def text(self, unit: str | None = None) -> str:
-        """The range in words, in a unit of the dimension; in SI if none is named."""
-        low, high = (self.dimension.text(end, unit or self.dimension.si_unit) for end in (self.lowest, self.highest))
-        low, high = low.partition(" ")[0], high.replace("e+0", "e")
-        return f"above {low}, up to {high}{self.note}" if self.above else f"{low} to {high}{self.note}"
-
-
-def allowed_range(name: str, hub_to_bearing: float, bearing_to_gearbox: float) -> Range:
-    """Range of a quantity of the drivetrain; where the shaft's mass may be depends on the lengths [m].
-
-    Examples
-    --------
-    >>> allowed_range("tilt", 1.26, 2.2).text("deg")
-    '-17.1887 to 17.1887 deg'
-    """
-    station = Range(0.0, hub_to_bearing + bearing_to_gearbox, LENGTH, note=", from the hub to the gearbox's support")
-    return {
-        "hub_to_bearing": Range(0.0, 20.0, LENGTH),
-        "bearing_to_gearbox": Range(0.0, 20.0, LENGTH, above=True),
-        "tilt": Range(-0.3, 0.3, ANGLE),
-        "shaft_mass": Range(0.0, 1e6, MASS),
-        "shaft_mass_station": station,
-    }[name]
+    hub_to_bearing: Annotated[float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)] = 1.26
+    bearing_to_gearbox: Annotated[
+        float, Quantity("distance from main bearing to gearbox support", LENGTH, 0.0, 20.0, above=True)
+    ] = 2.2
+    tilt: Annotated[float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)] = math.radians(5.0)
+    shaft_mass: Annotated[float, Quantity("mass of the shaft without rotor", MASS, 0.0, 1e6)] = 0.0
+    shaft_mass_station: Annotated[
+        float,
+        Quantity(
+            "distance of that mass behind the hub centre",
+            LENGTH,
+            0.0,
+            lambda given: given["hub_to_bearing"] + given["bearing_to_gearbox"],
+            note=", from the hub to the gearbox's support",
+        ),
+    ] = 0.0
 
 
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:

@@ -11,6 +11,7 @@ import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.case.case import BackwardEuler, Case, Radau
+from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.radau import integrate_radau
@@ -27,6 +28,9 @@ from macroslip.roller.model import RollerModel, highest_load, interfaces, roller
 
 if TYPE_CHECKING:
     import xarray as xr
+
+#: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
+_MOST_SAMPLES = 10_000_000
 
 
 def simulate(
@@ -162,5 +166,13 @@ def _trace_times(case: Case, motion: Motion, window_end: float) -> np.ndarray:
         return np.empty(0)
     start = motion.time[0] if case.traces.start is None else case.traces.start
     end = window_end if case.traces.end is None else min(case.traces.end, window_end)
-    count = int(np.floor((end - start) / case.traces.step * (1.0 + 1e-12))) + 1
+    samples = (end - start) / case.traces.step * (1.0 + 1e-12)
+    if samples > _MOST_SAMPLES:
+        raise InputError(
+            f"a step of {case.traces.step:g} s makes {samples:.3g} samples",
+            where="traces",
+            allowed=f"up to {_MOST_SAMPLES:,} samples for each roller",
+            remedy="Take a longer step, or traces of a shorter time.",
+        )
+    count = int(np.floor(samples)) + 1
     return np.minimum(start + case.traces.step * np.arange(max(count, 0)), end)

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from macroslip.case.case import Case
-from macroslip.case.case_file import _Builder
+from macroslip.case.case_file import CaseBuilder
+from macroslip.case.keys import LoadsKeys
 from macroslip.catalogue import Record
 from macroslip.catalogue.source import Source
 from macroslip.errors import InputError
@@ -21,7 +22,7 @@ from macroslip.study.settings import Setting, replaced, with_settings
 _ANY_LOADS = BearingLoads(np.array([-1e10, 1e10]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
 
 
-class _TemplateBuilder(_Builder):
+class _TemplateBuilder(CaseBuilder):
     """Builds a case without reading its loads, and with bearing and lubricant that have been read already."""
 
     def __init__(self, mapping: Mapping[str, Any], source: Source, folder: Path, records: Mapping[str, Record]):
@@ -36,9 +37,9 @@ class _TemplateBuilder(_Builder):
         """Take what is given, or read it."""
         return self.records.get(kind.noun) or super().record(kind, name)
 
-    def loads(self, given: Mapping[str, Any]) -> BearingLoads:
+    def loads(self, given: LoadsKeys) -> BearingLoads:
         """Keep what to cut out of the loads, and leave the rest open."""
-        self.cut = {key: given[key] for key in ("start", "end") if key in given}
+        self.cut = {key: getattr(given, key) for key in ("start", "end") if getattr(given, key) is not None}
         return _ANY_LOADS
 
 

@@ -1,6 +1,6 @@
 """Workers of a Dask cluster: one that is started here, on the loopback interface, or one that runs elsewhere.
 
-A bounded number of tasks is in flight, whatever the size of the campaign, so that the scheduler and this process need
+A bounded number of tasks is in flight, whatever the size of the study, so that the scheduler and this process need
 bounded memory. Where cases are short and workers many, several runs travel together.
 """
 
@@ -19,9 +19,9 @@ from typing import Any
 
 from macroslip.errors import InputError, MacroslipError
 from macroslip.result.simulate import usable_processors
-from macroslip.study.crew import Done
 from macroslip.study.outcome import Outcome
 from macroslip.study.work import work_several
+from macroslip.study.workers import Done
 
 #: The only interface on which a cluster listens that is started here.
 LOOPBACK = "127.0.0.1"
@@ -48,7 +48,7 @@ def check_installed() -> None:
 
 @contextmanager
 def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], None]) -> Iterator[Dask]:
-    """A crew of Dask workers for the length of the block.
+    """Dask workers for the length of the block.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
     import dask
     from distributed import Client, LocalCluster
 
-    # What matters of Dask's own messages is told by the campaign itself.
+    # What matters of Dask's own messages is told by the study itself.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     # Profiles of workers are looked at by a dashboard only, and there is none.
     with dask.config.set({"distributed.worker.profile.enabled": False}):
@@ -159,7 +159,7 @@ class Dask:
         if not self._look():
             note("no worker has joined yet; waiting for one")
 
-    def room(self) -> int:
+    def free_places(self) -> int:
         """Fills a window of two tasks for each thread of all workers that are there."""
         tasks = max(_AHEAD * self._look(), 2) - len(self._flying)
         return max(tasks, 0) * self._bundle()
@@ -184,7 +184,7 @@ class Dask:
                 _, tasks = self._flying.pop(future.key)
                 if future.status == "finished":
                     self._learn(result)
-                    done += zip(tasks, result, strict=False)  # shorter only where the campaign has to stop
+                    done += zip(tasks, result, strict=False)  # shorter only where the study has to stop
                 else:
                     done += self._lost(future, result, tasks)
         return done

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.errors import MacroslipError
+from macroslip.rating.spectrum import rainflow_ranges
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 COMPONENTS = ("radial", "axial")
 #: Classes of ranges, 40 a decade from 1 N to 1e8 N: every load that is accepted, to 6 %.
 RANGE_EDGES = np.logspace(0.0, 8.0, 321)
-#: Levels between smallest and largest load at which reversals are told apart.
-_LEVELS = 256
 
 
 def counted(loads: BearingLoads) -> xr.Dataset:
@@ -93,12 +92,6 @@ def check_installed() -> None:
 
 
 def _histogram(series: np.ndarray) -> np.ndarray:
-    import fatpack
-
     if np.ptp(series) < RANGE_EDGES[0]:
         return np.zeros(RANGE_EDGES.size - 1)
-    try:
-        ranges = fatpack.find_rainflow_ranges(series, k=_LEVELS)
-    except (ValueError, IndexError):  # fewer reversals than it can count: repeated, the history is one cycle
-        ranges = np.array([np.ptp(series)])
-    return np.histogram(ranges, RANGE_EDGES)[0].astype(float)
+    return np.histogram(rainflow_ranges(series), RANGE_EDGES)[0].astype(float)

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.study.durable import write_durably
+from macroslip.files import write_durably
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
 from macroslip.study.outcome import Outcome
-from macroslip.study.printable import cell
+from macroslip.study.safe_text import cell
 from macroslip.study.weights import Weights
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def tables(
     width: float = 2.0,
     by: Sequence[str] = (),
 ) -> dict[str, pd.DataFrame]:
-    """All tables of a study by name; docs/campaigns.md tells their columns.
+    """All tables of a study by name; docs/studies.md tells their columns.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from macroslip.study.durable import flush, flush_folder
+from macroslip.files import flush, flush_folder
 
 _DIGITS = 16
 

@@ -7,18 +7,23 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from macroslip.errors import InputError
 from macroslip.loads import bundled_cases
 from macroslip.study.pattern import Pattern
-from macroslip.study.printable import printable
+from macroslip.study.safe_text import safe_text
+
+if TYPE_CHECKING:
+    from macroslip.study.study_keys import StudyLoads
 
 #: Names that labels of the user's own would hide.
 RESERVED = (
     "case", "row", "roller", "interface", "orbit", "sample", "time", "run", "key", "loads", "file", "bearing",
     "lubricant", "model", "outcome", "reason",
 )  # fmt: skip
+#: Largest whole number that a float holds exactly; larger ones would change on the way into a result.
+_LARGEST = 2**53
 _BUNDLED_UNITS = {"wind_speed": "m/s", "turbulence": "1"}
 
 
@@ -59,12 +64,12 @@ class LoadList:
     remarks: Sequence[str] = ()
 
 
-def load_list(given: Mapping[str, Any], folder: Path) -> LoadList:
+def load_list(given: StudyLoads, folder: Path) -> LoadList:
     """The load histories that the section `loads` of a study file names.
 
     Parameters
     ----------
-    given : mapping
+    given : StudyLoads
         The section, as read.
     folder : Path
         Where relative paths start.
@@ -72,29 +77,37 @@ def load_list(given: Mapping[str, Any], folder: Path) -> LoadList:
     Raises
     ------
     InputError
-        If there is none, a table cannot be read, or a field has a name that stands for something else.
+        If there is none, a table cannot be read, or a field has a name that is taken or a value that cannot be stored.
     """
-    source = "bearing_file" if given.get("kind") == "main-bearing" else "file"
+    source = "bearing_file" if given.kind == "main-bearing" else "file"
     remarks: list[str] = []
-    if "bundled" in given:
-        source, loads = "bundled", _bundled(given["bundled"])
-    elif "table" in given:
-        loads = _from_table(folder / given["table"])
+    if given.bundled:
+        source, loads = "bundled", _bundled(given.bundled)
+    elif given.table:
+        loads = _from_table(folder / given.table)
     else:
-        loads, remarks = _from_patterns([Pattern(text) for text in given["files"]], folder)
+        loads, remarks = _from_patterns([Pattern(text) for text in given.files], folder)
     names = list(dict.fromkeys(name for load in loads for name in load.fields))
     for name in names:
         if name in RESERVED or not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             raise InputError(
-                f"a field is called '{printable(name)}'",
+                f"a field is called '{safe_text(name)}'",
                 allowed=f"letters, digits and _, and none of {', '.join(RESERVED)}",
                 remedy="Give it another name.",
             )
-    unknown = [name for name in given.get("units", {}) if name not in names]
+    for load in loads:
+        for name, value in load.fields.items():
+            if type(value) is int and abs(value) > _LARGEST:
+                what = f"the field {name} of {safe_text(load.name)} is {value}"
+                raise InputError(
+                    what, allowed=f"whole numbers up to {_LARGEST}", remedy=f"Read it as text: {{{name}}}."
+                )
+    units = given.units or {}
+    unknown = [name for name in units if name not in names]
     if unknown:
         what = f"units names {', '.join(unknown)}"
         raise InputError(what, allowed=f"fields: {', '.join(names) or 'there are none'}")
-    units = {name: given.get("units", {}).get(name, _BUNDLED_UNITS.get(name, "1")) for name in names}
+    units = {name: units.get(name, _BUNDLED_UNITS.get(name, "1")) for name in names}
     return LoadList(source, loads, units, remarks)
 
 
@@ -102,7 +115,7 @@ def _bundled(names: Sequence[str]) -> list[Load]:
     known = bundled_cases()
     wrong = [name for name in names if name not in known and name != "all"]
     if wrong:
-        raise InputError(f"there is no bundled case '{printable(wrong[0])}'", allowed=f"all, or {', '.join(known)}")
+        raise InputError(f"there is no bundled case '{safe_text(wrong[0])}'", allowed=f"all, or {', '.join(known)}")
     chosen = known if "all" in names else names
     return [Load(name, {"wind_speed": float(name[:-1]), "turbulence": name[-1]}) for name in chosen]
 
@@ -124,7 +137,7 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
                 f"no file fits the pattern '{pattern.text}'",
                 remedy=f"Relative paths start at {folder.resolve()}."
                 + (
-                    f" The fields of {len(unread)} files could not be read, {printable(unread[0])} first."
+                    f" The fields of {len(unread)} files could not be read, {safe_text(unread[0])} first."
                     if unread
                     else ""
                 ),
@@ -133,7 +146,7 @@ def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load
         if unread:
             remarks.append(
                 f"{len(unread)} files fit the pattern '{pattern.text}' but for their fields and are left out, "
-                f"{printable(unread[0])} first"
+                f"{safe_text(unread[0])} first"
             )
     return list(loads.values()), remarks
 
@@ -172,5 +185,5 @@ def _from_table(path: Path) -> list[Load]:
     loads = [Load(row["file"], {name: value for name, value in row.items() if name != "file"}) for row in rows]
     name, times = Counter(load.name for load in loads).most_common(1)[0]
     if times > 1:
-        raise InputError(f"the file {printable(name)} stands {times} times", where=where, remedy="Keep one row of it.")
+        raise InputError(f"the file {safe_text(name)} stands {times} times", where=where, remedy="Keep one row of it.")
     return loads

@@ -1,4 +1,4 @@
-"""The log of a campaign: a text file that grows, one line an event, to be read during the run and afterwards."""
+"""The log of a study: a text file that grows, one line an event, to be read during the run and afterwards."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import contextlib
 import time
 from pathlib import Path
 
-from macroslip.study.printable import printable
+from macroslip.study.safe_text import safe_text
 
 
 class Log:
@@ -24,7 +24,7 @@ class Log:
         """Add a line; further lines of the text are indented below it."""
         first, *others = text.splitlines() or [""]
         stamp = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
-        lines = [f"{stamp} {printable(first)}", *(f"    {printable(other)}" for other in others)]
+        lines = [f"{stamp} {safe_text(first)}", *(f"    {safe_text(other)}" for other in others)]
         # A full disk is found out, and told, where results are stored.
         with contextlib.suppress(OSError):
             self._file.write("\n".join(lines) + "\n")

@@ -86,12 +86,23 @@ class Pattern:
             Sorted by path; relative if the pattern is.
         list of str
             Files that the wildcards find but whose fields cannot be read, as `{seed:d}` from a name with `seedA`.
+
+        Raises
+        ------
+        InputError
+            If the pattern names a folder.
         """
         pieces = (piece if piece in _WILDCARDS else piece.replace("[", "[[]") for piece in _PIECES.findall(self.text))
         pure = PurePosixPath(_FIELD.sub("*", "".join(pieces)))
         start = Path(pure.anchor) if pure.is_absolute() else folder
         base = Path(pure.anchor) if pure.is_absolute() else Path()
         parts = [part for part in pure.parts if part != pure.anchor]
+        if not parts or (start / pure).is_dir():
+            raise InputError(
+                f"'{self.text}' is a folder",
+                allowed="the path of load files, with fields and wildcards",
+                remedy="Name the files in it: runs/*.outb, for example.",
+            )
         # What stands before the first wildcard is a plain folder, which may lead upwards ("../runs").
         while len(parts) > 1 and not re.search(r"[*?\[]", parts[0]):
             base, start = base / parts[0], start / parts[0]

@@ -1,4 +1,4 @@
-"""How far a campaign is: rate, time left, failures."""
+"""How far a study is: rate, time left, failures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _SPAN = 600.0
 
 @dataclass
 class Progress:
-    """Counts of a campaign under way; times are of a clock that only runs forward.
+    """Counts of a study under way; times are of a clock that only runs forward.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class Progress:
     def rate(self) -> float:
         """Runs computed a second, over the last ten minutes; 0 before the first.
 
-        Runs whose results were there already take next to no time and come before all others where a campaign is
+        Runs whose results were there already take next to no time and come before all others where a study is
         resumed: with them the rate would tell nothing of the rest.
         """
         now = time.monotonic()

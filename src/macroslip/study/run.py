@@ -1,4 +1,4 @@
-"""A whole campaign: from a study to a folder of results, in this process, in several, or on a cluster."""
+"""A study from its file to a folder of results, in this process, in several, or on a cluster."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from os import PathLike
 from pathlib import Path
 
 from macroslip.errors import InputError, MacroslipError
+from macroslip.files import make_folder
 from macroslip.result.simulate import usable_processors
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
-from macroslip.study.crew import Crew, ThisProcess
 from macroslip.study.cycles import check_installed as check_fatpack
-from macroslip.study.durable import make_folder
 from macroslip.study.lock import locked
 from macroslip.study.progress import Progress
 from macroslip.study.session import Ended, Session
@@ -20,6 +19,7 @@ from macroslip.study.store import check_folder
 from macroslip.study.study import Study
 from macroslip.study.study_file import read_study
 from macroslip.study.tables import write_summary
+from macroslip.study.workers import ThisProcess, Workers
 
 
 def run_study(
@@ -91,10 +91,10 @@ def run_study(
         check_folder(directory, resume=resume)  # again, now that nobody else can begin here
         try:
             session = Session(study, directory, progress)
-            with session.opened(), _crew(workers, scheduler, session.note) as crew:
-                if threads is None and not isinstance(crew, ThisProcess):
+            with session.opened(), _workers(workers, scheduler, session.note) as pool:
+                if threads is None and not isinstance(pool, ThisProcess):
                     threads = threads_of_worker(workers)
-                session.go(crew, threads, strict)
+                session.go(pool, threads, strict)
                 write_summary(directory, study)
             return session.ended
         except OSError as error:
@@ -102,14 +102,14 @@ def run_study(
 
 
 @contextmanager
-def _crew(workers: int | None, scheduler: str | None, note: Callable[[str], None]) -> Iterator[Crew]:
+def _workers(workers: int | None, scheduler: str | None, note: Callable[[str], None]) -> Iterator[Workers]:
     if workers is None and scheduler is None:
         note(f"runs are computed in this process, which may use {usable_processors()} processors")
         yield ThisProcess()
         return
-    with cluster(workers, scheduler, note) as crew:
+    with cluster(workers, scheduler, note) as pool:
         note(f"runs are computed by {scheduler or f'{workers} workers on this machine'}")
-        yield crew
+        yield pool
 
 
 def _cannot_store(error: OSError, directory: Path) -> MacroslipError:

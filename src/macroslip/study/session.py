@@ -1,4 +1,4 @@
-"""One session of a campaign: runs are handed out, and what comes back is recorded before it is counted."""
+"""One session of a study: runs are handed out, and what comes back is recorded before it is counted."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from typing import Any
 
 import macroslip
 from macroslip.errors import MacroslipError
-from macroslip.study.crew import Crew
-from macroslip.study.durable import make_folder
+from macroslip.files import make_folder
 from macroslip.study.journal import Journal
 from macroslip.study.key import program
 from macroslip.study.log import Log
@@ -24,6 +23,7 @@ from macroslip.study.settings import RECORDS
 from macroslip.study.store import CASES, JOURNAL, LOG, remove_unfinished, write_manifest
 from macroslip.study.study import Run, Study
 from macroslip.study.tables import Latest, write_runs
+from macroslip.study.workers import Workers
 
 #: Failures that are kept to be told at the end; the log and the summary have all.
 _TOLD = 1000
@@ -33,7 +33,7 @@ _LOG_EVERY = 60.0
 
 @dataclass
 class Ended:
-    """How a campaign ended.
+    """How a study ended.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Ended:
 
 
 class Session:
-    """A campaign under way."""
+    """A study under way."""
 
     def __init__(self, study: Study, directory: Path, progress: Callable[[Progress], None] | None):
         self.study, self.directory, self._report = study, directory, progress
@@ -103,19 +103,19 @@ class Session:
             self.note(f"{self._latest.damaged} lines of the journal are damaged; their runs are computed again")
         self.note(f"{len(self._latest.stored)} results are there already")
 
-    def go(self, crew: Crew, threads: int | None, strict: bool) -> None:
+    def go(self, pool: Workers, threads: int | None, strict: bool) -> None:
         """Hand out the runs and record what comes back."""
         runs, again = self.study.mixed_runs(), deque()
         self._open: dict[str, Run] = {}
         self._logged = self._progress.started
         while True:
-            tasks = [again.popleft() for _ in range(min(crew.room(), len(again)))]
-            while len(tasks) < crew.room() and (run := next(runs, None)) is not None:
+            tasks = [again.popleft() for _ in range(min(pool.free_places(), len(again)))]
+            while len(tasks) < pool.free_places() and (run := next(runs, None)) is not None:
                 self._open[run.name] = run
                 tasks.append(self._task(run, threads))
             if tasks:
-                crew.submit(tasks)
-            done = crew.wait()
+                pool.submit(tasks)
+            done = pool.wait()
             if not done and not again:
                 return
             entries = []
@@ -134,7 +134,7 @@ class Session:
         return {
             "directory": str(self.directory),
             "setup": self._setup,
-            "campaign": self._id,
+            "session": self._id,
             "run": run.name,
             "load": name if self.study.loads.source == "bundled" else str(self.study.folder / name),
             **{noun: getattr(run, noun) for noun in RECORDS},
@@ -144,7 +144,7 @@ class Session:
         }
 
     def _check(self, result: dict[str, Any]) -> None:
-        """What concerns the campaign and not the run."""
+        """What concerns the study and not the run."""
         if "stop" in result:
             raise MacroslipError(
                 f"{result['stop']} Nothing that was reported done is lost. Mend it, and go on with --resume."

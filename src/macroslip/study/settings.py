@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from macroslip.bearing import Bearing
-from macroslip.case.form import Place, Quantity
-from macroslip.case.keys import CASE
-from macroslip.case.section import Section, Variants
+from macroslip.case.keys import CaseFile
 from macroslip.catalogue import Record
 from macroslip.catalogue.entry import is_finite_number, read_entry
 from macroslip.catalogue.fields import dimensions
+from macroslip.catalogue.forms import FORM_ONLY, Quantity
+from macroslip.catalogue.input_section import form_of, keys_of, read_value, word_of
 from macroslip.catalogue.problems import shown, unknown_key
-from macroslip.catalogue.source import Source
+from macroslip.catalogue.quantity import NUMBER_PATTERN
+from macroslip.catalogue.source import Place, Source
+from macroslip.catalogue.units import NUMBER
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
 
 #: What has values of its own, each of which can be replaced.
 RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
 #: Keys of a case that have a place of their own in a study.
 _ELSEWHERE = {"loads": "loads", "bearing": "bearings", "lubricant": "lubricants"}
-_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s.,].*?)\s*")
+_QUANTITY = re.compile(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,])\s*(?P<unit>\S.*?)\s*")
 
 
 @dataclass(frozen=True)
@@ -48,7 +54,7 @@ class Setting:
     def written(cls, key: str, value: Any) -> Setting:
         """From a value as a case file has it: `0.2 mm` becomes number and unit."""
         match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
-        return cls(key, value) if match is None else cls(key, float(match[1]), match[2])
+        return cls(key, value) if match is None else cls(key, float(match["number"]), match["unit"])
 
     @property
     def text(self) -> Any:
@@ -74,25 +80,28 @@ class Setting:
         if head in _ELSEWHERE:
             remedy = f"It has its own key in a study: {_ELSEWHERE[head]}."
             raise place.problem(f"the key '{self.key}' cannot be varied here", remedy=remedy)
-        kinds = _kinds(CASE, [head, *rest])
-        if not kinds:
-            others = (key for key in _leaves(CASE) if key.partition(".")[0] not in _ELSEWHERE)
+        fields = _settable().get(self.key, [])
+        if not fields:
+            others = (key for key in _settable() if key.partition(".")[0] not in _ELSEWHERE)
             records = (f"{noun}.{key}" for noun, record in RECORDS.items() for key in dimensions(record))
             raise unknown_key(self.key, [*others, *records], where=place.where)
         problems = []
-        for kind in kinds:
-            if self.unit and not isinstance(kind, Quantity):
-                problems.append(
-                    place.problem(f"it has the unit '{self.unit}'", "a value without unit", "Remove the unit.")
-                )
-                continue
+        for field in fields:
             try:
-                kind.read(self.text, place)
+                self._check_against(field, place)
             except InputError as problem:
                 problems.append(problem)
             else:
                 return
         raise problems[0]
+
+    def _check_against(self, field: FieldInfo, place: Place) -> None:
+        form, word = form_of(field), word_of(field)
+        if self.unit and not (isinstance(form, Quantity) and form.dimension is not NUMBER):
+            raise place.problem(f"it has the unit '{self.unit}'", "a value without unit", "Remove the unit.")
+        if form is None and self.value != word:
+            raise place.problem(f"it is {shown(self.value)}", word)
+        read_value(field, self.text, place, FORM_ONLY)
 
     def _check_entry(self, record: type[Record], key: str, place: Place) -> None:
         if key not in dimensions(record):
@@ -141,32 +150,11 @@ def replaced(record: Record, settings: list[Setting]) -> Record:
     return type(record).from_dict(record.as_dict() | entries) if entries else record
 
 
-def _kinds(kind: Any, keys: list[str]) -> list[Any]:
-    """What may stand under the keys; several where it depends on a name that stands beside."""
-    if isinstance(kind, Variants):
-        return [found for section in kind.sections.values() for found in _kinds(section, keys)]
-    if not keys:
-        return (
-            [] if isinstance(kind, Section) and not kind.word else [_Word(kind) if isinstance(kind, Section) else kind]
-        )
-    return _kinds(kind.keys[keys[0]], keys[1:]) if isinstance(kind, Section) and keys[0] in kind.keys else []
-
-
-@dataclass(frozen=True)
-class _Word:
-    """The word that switches a section off."""
-
-    section: Section
-
-    def read(self, value: Any, place: Place) -> None:
-        """Accept the word only."""
-        if value != self.section.word:
-            raise place.problem(f"it is {shown(value)}", self.section.word)
-
-
-def _leaves(kind: Any, prefix: str = "") -> list[str]:
-    if isinstance(kind, Variants):
-        return [key for section in kind.sections.values() for key in _leaves(section, prefix)]
-    if isinstance(kind, Section):
-        return [leaf for key, inner in kind.keys.items() for leaf in _leaves(inner, f"{prefix}{key}.")]
-    return [prefix.rstrip(".")]
+@functools.cache
+def _settable() -> dict[str, list[FieldInfo]]:
+    """Fields by the full name of a key, `drivetrain.tilt`; several where sections exclude each other."""
+    found: dict[str, list[FieldInfo]] = {}
+    for key, field in keys_of(CaseFile):
+        if form_of(field) or word_of(field):
+            found.setdefault(key, []).append(field)
+    return found

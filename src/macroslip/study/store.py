@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from macroslip.errors import InputError
-from macroslip.study.durable import UNFINISHED, write_durably
+from macroslip.files import UNFINISHED, write_durably
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -7,19 +7,19 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from macroslip.case.form import Place
 from macroslip.catalogue import Record
+from macroslip.catalogue.input_section import read_fields
 from macroslip.catalogue.problems import together
-from macroslip.catalogue.source import Source, parse, read_text
+from macroslip.catalogue.source import Place, Source, parse, read_text
 from macroslip.errors import InputError
 from macroslip.study.build import template
 from macroslip.study.loads_list import load_list
 from macroslip.study.settings import RECORDS, Setting
 from macroslip.study.study import Study
-from macroslip.study.study_keys import STUDY, sample_of
+from macroslip.study.study_keys import StudyFile, Variations
 from macroslip.study.variation import grid
 
-_REMEDY = "docs/campaigns.md has a study file that runs."
+_REMEDY = "docs/studies.md has a study file that runs."
 
 
 def read_study(path: str | PathLike[str]) -> Study:
@@ -30,7 +30,7 @@ def read_study(path: str | PathLike[str]) -> Study:
     Parameters
     ----------
     path : path
-        YAML file; docs/campaigns.md explains every key. Relative paths in it start at its own folder.
+        YAML file; docs/studies.md explains every key. Relative paths in it start at its own folder.
 
     Returns
     -------
@@ -73,45 +73,46 @@ def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> S
 
 
 def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
-    place, problems = Place(source), []
-    values = STUDY.read(data, place, problems) or {}
+    place = Place(source)
+    values, problems = read_fields(StudyFile, data, place)
 
     def attempt(key: str, build: Any) -> Any:
         try:
             return build()
         except InputError as problem:
-            located = problem.where.startswith(f"{source.file}, ") if source.file else False
-            problems.append(problem if located else place.inside(key).blamed(problem))
+            for part in getattr(problem, "parts", [problem]):
+                located = part.where.startswith(f"{source.file}, ") if source.file else False
+                problems.append(part if located else place.inside(key).blamed(part))
             return None
 
-    base, cut = attempt("case", lambda: _base(values.get("case", {}), source, folder)) or (None, {})
+    mapping = values.get("case", {})
+    base, cut = attempt("case", lambda: _base(mapping, source, folder)) or (None, {})
     loads = attempt("loads", lambda: load_list(values["loads"], folder)) if "loads" in values else None
     records = {
         noun: attempt(f"{noun}s", lambda noun=noun: _records(RECORDS[noun], values[f"{noun}s"], folder))
         for noun in RECORDS
         if f"{noun}s" in values
     }
-    variations = values.get("variations", {})
-    sample = attempt("variations", lambda: sample_of(variations.get("sample"), place.inside("variations", "sample")))
-    parameters = attempt("variations", lambda: _parameters(variations, values.get("models", {})))
+    variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
+    parameters = attempt("variations", lambda: _parameters(variations, models))
     if problems:
         raise together(problems)
     combinations = [
         [*first, *second, *third]
-        for first in grid(variations.get("grid", {}))
-        for second in variations.get("list", [[]])
-        for third in (sample.points() if sample else [[]])
+        for first in grid(variations.grid or {})
+        for second in variations.list or [[]]
+        for third in (variations.sample.points() if variations.sample else [[]])
     ]
-    own = {noun: {_name(values.get("case", {}), noun, getattr(base, noun)): getattr(base, noun)} for noun in RECORDS}
+    own = {noun: {_name(mapping, noun, getattr(base, noun)): getattr(base, noun)} for noun in RECORDS}
     return Study(
         title=values.get("title", ""),
         folder=folder.absolute(),
-        case={key: value for key, value in values.get("case", {}).items() if key not in RECORDS},
+        case={key: value for key, value in mapping.items() if key not in RECORDS},
         cut=cut,
         loads=loads,
         bearings=records.get("bearing", own["bearing"]),
         lubricants=records.get("lubricant", own["lubricant"]),
-        models=values.get("models") or {"base": []},
+        models=models,
         variations=combinations,
         parameters=parameters,
         cycles=values.get("cycles", False),
@@ -135,12 +136,13 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
     return {name: kind.read(name if name in catalogue else folder / name) for name in names}
 
 
-def _parameters(variations: Mapping[str, Any], models: Mapping[str, list[Setting]]) -> dict[str, str]:
+def _parameters(variations: Variations, models: Mapping[str, list[Setting]]) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
+    ranges = variations.sample.ranges if variations.sample else {}
     places: dict[str, dict[str, str]] = {
-        "grid": {key: settings[0].unit for key, settings in variations.get("grid", {}).items()},
-        "list": {one.key: one.unit for item in variations.get("list", []) for one in item},
-        "sample": {key: one.unit for key, one in (variations.get("sample") or {}).get("ranges", {}).items()},
+        "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
+        "list": {one.key: one.unit for item in variations.list or [] for one in item},
+        "sample": {key: one.unit for key, one in ranges.items()},
         "models": {one.key: one.unit for settings in models.values() for one in settings},
     }
     found: dict[str, str] = {}

@@ -1,255 +1,198 @@
-"""The keys of a study file, with what may stand under each."""
+"""The keys of a study file: the one description that reader and messages share."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
-from macroslip.case.form import Choice, Place, Plain
-from macroslip.case.section import Section
-from macroslip.catalogue.entry import is_finite_number
-from macroslip.catalogue.problems import shown, together, unknown_key
+from pydantic import ValidationError
+
+from macroslip.catalogue.forms import Choice, Flag, Form, Text, Texts
+from macroslip.catalogue.input_section import MappingOf, detail_of, details_inside, input_section
+from macroslip.catalogue.problems import shown
+from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 from macroslip.study.settings import Setting
-from macroslip.study.variation import Range, Sample
+from macroslip.study.variation import Sample
 
 LOAD_SOURCES = ("files", "table", "bundled")
-METHODS = ("latin-hypercube", "sobol")
-SCALES = ("linear", "log")
 KINDS = ("hub", "main-bearing")
 
 
 @dataclass(frozen=True)
-class Texts:
-    """A text, or a list of different texts."""
-
-    about: str
-
-    @property
-    def form(self) -> str:
-        """What is accepted, in words."""
-        return "text, or a list of different texts"
-
-    def read(self, value: Any, place: Place) -> list[str]:
-        """A list in any case."""
-        texts = value if isinstance(value, list) else [value]
-        if not texts or not all(isinstance(text, str) and text for text in texts) or len(set(texts)) != len(texts):
-            raise place.problem(f"it is {shown(value)}", self.form, f"It is the {self.about}.")
-        return texts
-
-
-@dataclass(frozen=True)
-class Named:
-    """A mapping of names of the user's own to values of one kind."""
-
-    about: str
-    kind: Any
-
-    @property
-    def form(self) -> str:
-        """What is accepted, in words."""
-        return "a section whose keys are names of your own"
-
-    def read(self, value: Any, place: Place) -> dict[str, Any]:
-        """Read every value; what is wrong is told together."""
-        if not isinstance(value, Mapping) or not all(isinstance(name, str) and name for name in value):
-            raise place.problem(f"it is {shown(value)}", self.form, f"It is the {self.about}.")
-        return _each(value, place, lambda name, item, inner: self.kind.read(item, inner))
-
-
-@dataclass(frozen=True)
-class BaseCase:
+class BaseCase(Form):
     """The keys of a case file; what stands under them is checked by the reader of case files."""
 
-    about: str
+    form = "the keys of a case file, of loads only start and end"
 
-    @property
-    def form(self) -> str:
-        """What is accepted, in words."""
-        return "the keys of a case file, of loads only start and end"
-
-    def read(self, value: Any, place: Place) -> dict[str, Any]:
+    def read(self, value: Any, info: Any) -> dict[str, Any]:
         """Check that the loads are left to the study."""
         if value is None:  # every key of the section is commented out
             return {}
         loads = value.get("loads", {}) if isinstance(value, Mapping) else None
         if not isinstance(loads, Mapping):
-            raise place.problem(f"it is {shown(value)}", self.form)
-        for key in loads:
-            if key not in ("start", "end"):
-                remedy = "The study's own section loads says where the loads come from."
-                raise place.inside("loads", key).problem(f"the key '{key}' cannot stand here", "start, end", remedy)
+            raise InputError(f"it is {shown(value)}", allowed=self.form)
+        remedy = "The study's own section loads names where the loads come from."
+        problems = [
+            detail_of(
+                ("loads", str(key)),
+                InputError(f"the key '{key}' cannot stand here", allowed="start, end", remedy=remedy),
+            )
+            for key in loads
+            if key not in ("start", "end")
+        ]
+        if problems:
+            raise ValidationError.from_exception_data("case", problems)
         return dict(value)
 
+    def json(self) -> dict[str, Any]:
+        """An object; its keys have a schema of their own."""
+        return {"type": "object"}
+
 
 @dataclass(frozen=True)
-class Settings:
+class Settings(Form):
     """Values in place of the base case's: keys with dots, values as in a case file."""
 
-    about: str
-    form: str = "a section such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
+    form = "a section such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
-    def read(self, value: Any, place: Place) -> list[Setting]:
-        """Check every key and value."""
-        if value is None or value == {}:  # the base case itself
+    def read(self, value: Any, info: Any) -> list[Setting]:
+        """Check every key and value; nothing is the base case itself."""
+        if value is None or value == {}:
             return []
-        return list(_each(_mapping(value, place, self.form), place, self._setting).values())
+        return list(MappingOf(self.about, self.form, Any, _written).read(value, info).values())
 
-    @staticmethod
-    def _setting(key: str, value: Any, place: Place) -> Setting:
-        setting = Setting.written(key, value)
-        setting.check(place)
-        return setting
+    def json(self) -> dict[str, Any]:
+        """An object with any keys."""
+        return {"type": "object"}
 
 
 @dataclass(frozen=True)
-class SettingsList:
+class SettingsList(Form):
     """A list of settings that belong together."""
 
-    about: str
-    form: str = "a list of sections such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
+    form = "a list of sections such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
-    def read(self, value: Any, place: Place) -> list[list[Setting]]:
+    def read(self, value: Any, info: Any) -> list[list[Setting]]:
         """Check every item; a key has one unit throughout, so that its values can stand in one column."""
         if not isinstance(value, list) or not value:
-            raise place.problem(f"it is {shown(value)}", self.form)
-        items = [Settings(self.about).read(item, place) for item in value]
+            raise InputError(f"it is {shown(value)}", allowed=self.form)
+        items, problems = [], []
+        for number, item in enumerate(value):
+            try:
+                items.append(Settings(self.about).read(item, info))
+            except InputError as problem:
+                problems.append(detail_of((number,), problem))
+            except ValidationError as failure:
+                problems += details_inside(number, failure)
+        if problems:
+            raise ValidationError.from_exception_data("list", problems)
         units: dict[str, str] = {}
         for setting in (setting for item in items for setting in item):
             if units.setdefault(setting.key, setting.unit) != setting.unit:
                 both = f"{setting.unit or 'no unit'} and in {units[setting.key] or 'no unit'}"
-                what = f"{setting.key} stands there in {both}"
-                raise place.problem(what, "one unit for all values of a key")
+                raise InputError(f"{setting.key} is given in {both}", allowed="one unit for all values of a key")
         return items
 
-
-@dataclass(frozen=True)
-class GridAxes:
-    """Values of each of several parameters."""
-
-    about: str
-    form: str = "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}"
-
-    def read(self, value: Any, place: Place) -> dict[str, list[Setting]]:
-        """Check every value."""
-        return _each(_mapping(value, place, self.form), place, self._axis)
-
-    def _axis(self, key: str, value: Any, place: Place) -> list[Setting]:
-        given = _inner(value, ("values", "unit"), ("values",), place, self.form)
-        values = given["values"]
-        if not isinstance(values, list) or not values:
-            raise place.problem(f"values is {shown(values)}", "a list of values", "For quantities, without their unit.")
-        settings = [Setting(key, item, given.get("unit", "")) for item in values]
-        for setting in settings:
-            setting.check(place)
-        if len({repr(item) for item in values}) != len(values):
-            raise place.problem(f"a value stands twice in {shown(values)}", "different values")
-        return settings
+    def json(self) -> dict[str, Any]:
+        """A list of objects."""
+        return {"type": "array", "items": {"type": "object"}, "minItems": 1}
 
 
 @dataclass(frozen=True)
-class SampleRanges:
-    """Ranges of the sampled parameters."""
+class Values(Form):
+    """A list of different values."""
 
-    about: str
-    form: str = "a section such as {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}}"
+    form = "a list of values"
 
-    def read(self, value: Any, place: Place) -> dict[str, Range]:
-        """Check both ends of every range."""
-        return _each(_mapping(value, place, self.form), place, self._range)
+    def read(self, value: Any, info: Any) -> list[Any]:
+        """Check that there are some, and none twice."""
+        if not isinstance(value, list) or not value:
+            remedy = "For quantities, without their unit."
+            raise InputError(f"values is {shown(value)}", allowed=self.form, remedy=remedy)
+        if len({repr(item) for item in value}) != len(value):
+            raise InputError(f"a value stands twice in {shown(value)}", allowed="different values")
+        return value
 
-    def _range(self, key: str, value: Any, place: Place) -> Range:
-        given = _inner(value, ("low", "high", "unit", "scale"), ("low", "high"), place, self.form)
-        for end in ("low", "high"):
-            if not is_finite_number(given[end]):
-                raise place.problem(f"{end} is {shown(given[end])}", "a finite number", "Its unit goes into unit.")
-            Setting(key, float(given[end]), given.get("unit", "")).check(place)
-        scale = Choice("scale", lambda: SCALES).read(given.get("scale", "linear"), place.inside("scale"))
-        try:
-            return Range(float(given["low"]), float(given["high"]), given.get("unit", ""), scale)
-        except InputError as problem:
-            raise place.blamed(problem) from None
+    def json(self) -> dict[str, Any]:
+        """A list of different values."""
+        return {"type": "array", "minItems": 1, "uniqueItems": True}
 
 
-STUDY = Section(
-    "study",
-    {
-        "title": Plain("what the study is about", str),
-        "case": BaseCase("base case: the keys of a case file; of loads only start and end"),
-        "loads": Section(
-            "load histories, from exactly one source",
-            {
-                "files": Texts("paths of load files, with fields such as {wind_speed:g} and wildcards"),
-                "table": Plain("CSV or Parquet table with a column 'file' and one column a field", str),
-                "bundled": Texts("load cases that come with the package, or all"),
-                "kind": Choice("what the files hold", lambda: KINDS),
-                "units": Named("units of the fields", Plain("unit", str)),
-            },
-            one_of=LOAD_SOURCES,
+@input_section("grid", "values of one parameter")
+class Axis:
+    """Values of one parameter."""
+
+    values: Annotated[list[Any], Values("values of the parameter")]
+    unit: Annotated[str, Text("unit of the values", may_be_empty=True)] = ""
+
+
+def _written(key: str, value: Any) -> Setting:
+    """A value as a case file has it, checked."""
+    setting = Setting.written(key, value)
+    setting.check(Place(Source()))
+    return setting
+
+
+def _axis(key: str, axis: Axis) -> list[Setting]:
+    """The settings of one parameter, checked."""
+    settings = [Setting(key, value, axis.unit) for value in axis.values]
+    for setting in settings:
+        setting.check(Place(Source()))
+    return settings
+
+
+@input_section("loads", "load histories, from exactly one source", one_of=LOAD_SOURCES)
+class StudyLoads:
+    """Where the load histories come from, and the fields they are labelled with."""
+
+    files: Annotated[
+        list[str] | None, Texts("paths of load files, with fields such as {wind_speed:g} and wildcards")
+    ] = None
+    table: Annotated[str | None, Text("CSV or Parquet table with a column 'file' and one column a field")] = None
+    bundled: Annotated[list[str] | None, Texts("load cases that come with the package, or all")] = None
+    kind: Annotated[str, Choice("what the files hold", lambda: KINDS)] = "hub"
+    units: Annotated[dict[str, str] | None, MappingOf("units of the fields", item=Annotated[str, Text("unit")])] = None
+
+
+_Grid = Annotated[
+    dict[str, Axis],
+    MappingOf(
+        "values of each parameter, of which every combination is run",
+        "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",
+        Axis,
+        _axis,
+    ),
+]
+_List = Annotated[list[Any], SettingsList("combinations of values, each of which is run")]
+
+
+@input_section("variations", "parameters that vary")
+class Variations:
+    """Parameters that vary; every combination of the three is run."""
+
+    grid: _Grid = None
+    list: _List = None
+    sample: Sample | None = None
+
+
+@input_section("study", "many cases")
+class StudyFile:
+    """The keys at the top of a study file."""
+
+    title: Annotated[str, Text("what the study is about", may_be_empty=True)] = ""
+    case: Annotated[dict[str, Any], BaseCase("base case: the keys of a case file; of loads only start and end")] = None
+    loads: StudyLoads
+    bearings: Annotated[list[str], Texts("bearings: names of the catalogue, or paths of bearing files")] = None
+    lubricants: Annotated[list[str], Texts("lubricants: names of the catalogue, or paths of lubricant files")] = None
+    models: Annotated[
+        dict[str, Any],
+        MappingOf(
+            "named choices of the model",
+            item=Annotated[list[Any], Settings("values in place of the base case's")],
+            may_be_empty=True,
         ),
-        "bearings": Texts("bearings: names of the catalogue, or paths of bearing files"),
-        "lubricants": Texts("lubricants: names of the catalogue, or paths of lubricant files"),
-        "models": Named("named choices of the model", Settings("values in place of the base case's")),
-        "variations": Section(
-            "parameters that vary",
-            {
-                "grid": GridAxes("values of each parameter, of which every combination is run"),
-                "list": SettingsList("combinations of values, each of which is run"),
-                "sample": Section(
-                    "seeded sample of a box of parameters",
-                    {
-                        "method": Choice("how to sample", lambda: METHODS),
-                        "count": Plain("number of points; a power of 2 for sobol", int),
-                        "seed": Plain("seed: the same one gives the same points", int),
-                        "ranges": SampleRanges("interval of each parameter"),
-                    },
-                    required=("count", "seed", "ranges"),
-                ),
-            },
-        ),
-        "cycles": Plain("whether to count the cycles of the bearing's load", bool),
-    },
-    required=("loads",),
-)
-
-
-def sample_of(given: Mapping[str, Any] | None, place: Place) -> Sample | None:
-    """The sample that a study file describes."""
-    if given is None:
-        return None
-    try:
-        return Sample(given.get("method", METHODS[0]), given["count"], given["seed"], given["ranges"])
-    except InputError as problem:
-        raise place.blamed(problem) from None
-
-
-def _each(value: Mapping[str, Any], place: Place, read: Any) -> dict[str, Any]:
-    """Read every entry of a mapping, and tell the problems of all together."""
-    found, problems = {}, []
-    for key, item in value.items():
-        try:
-            found[key] = read(key, item, place.inside(key))
-        except InputError as problem:
-            problems.append(problem)
-    if problems:
-        raise together(problems)
-    return found
-
-
-def _mapping(value: Any, place: Place, form: str) -> Mapping[str, Any]:
-    if not isinstance(value, Mapping) or not value or not all(isinstance(key, str) for key in value):
-        raise place.problem(f"it is {shown(value)}", form)
-    return value
-
-
-def _inner(value: Any, keys: tuple[str, ...], required: tuple[str, ...], place: Place, form: str) -> Mapping[str, Any]:
-    for key in _mapping(value, place, form):
-        if key not in keys:
-            raise unknown_key(key, keys, where=place.where, inside=place.key)
-    missing = [key for key in required if key not in value]
-    if missing:
-        raise place.problem(f"{' and '.join(missing)} is missing", form)
-    if not isinstance(value.get("unit", ""), str):
-        raise place.problem(f"unit is {shown(value['unit'])}", 'text, such as mm or "1"')
-    return value
+    ] = None
+    variations: Variations = Variations()
+    cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False

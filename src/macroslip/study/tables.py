@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from macroslip.bearing.frames import ROWS
-from macroslip.study.durable import UNFINISHED, flush, flush_folder
+from macroslip.files import flush, flush_folder, unfinished
 from macroslip.study.journal import record_at, records
 from macroslip.study.outcome import Outcome
 from macroslip.study.store import JOURNAL, RUNS, SUMMARY
@@ -177,7 +176,7 @@ def _write(path: Path, schema: pa.Schema, rows: Iterator[dict[str, Any]]) -> Non
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    temporary = path.with_name(f".{path.name}.{os.getpid()}{UNFINISHED}")
+    temporary = unfinished(path)
     try:
         with temporary.open("wb") as file:
             with pq.ParquetWriter(file, schema, compression="zstd") as writer:

@@ -5,16 +5,23 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 
+from macroslip.catalogue.forms import Choice, Quantity, Text, Whole
+from macroslip.catalogue.input_section import MappingOf, input_section
+from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 from macroslip.study.settings import Setting
 
+METHODS = ("latin-hypercube", "sobol")
+SCALES = ("linear", "log")
+#: Points of a sample beyond which only a mistaken count is left as an explanation.
+_MOST_POINTS = 10_000_000
 
-@dataclass(frozen=True)
+
+@input_section("range", "interval of a sampled parameter", positional=True)
 class Range:
     """Interval of a sampled parameter.
 
@@ -28,10 +35,10 @@ class Range:
         `linear`: equally likely values; `log`: equally likely logarithms.
     """
 
-    low: float
-    high: float
-    unit: str = ""
-    scale: str = "linear"
+    low: Annotated[float, Quantity("lower end; its unit goes into unit")]
+    high: Annotated[float, Quantity("upper end; its unit goes into unit")]
+    unit: Annotated[str, Text("unit of both ends", may_be_empty=True)] = ""
+    scale: Annotated[str, Choice("scale on which values are equally likely", lambda: SCALES)] = "linear"
 
     def __post_init__(self) -> None:
         if not self.low < self.high:
@@ -46,7 +53,14 @@ class Range:
         return self.low + position * (self.high - self.low)
 
 
-@dataclass(frozen=True)
+def _checked_range(key: str, interval: Range) -> Range:
+    """Check both ends as values of the parameter."""
+    for end in (interval.low, interval.high):
+        Setting(key, end, interval.unit).check(Place(Source()))
+    return interval
+
+
+@input_section("sample", "seeded sample of a box of parameters")
 class Sample:
     """Seeded sample of a box of parameters.
 
@@ -57,20 +71,25 @@ class Sample:
     count : int
         Number of points; a power of 2 for `sobol`.
     seed : int
+        The same one gives the same points.
     ranges : mapping of str to Range
         By key of the parameter.
     """
 
-    method: str
-    count: int
-    seed: int
-    ranges: Mapping[str, Range]
+    method: Annotated[str, Choice("how to sample", lambda: METHODS)] = "latin-hypercube"
+    count: Annotated[int, Whole("number of points; a power of 2 for sobol", 1, _MOST_POINTS)]
+    seed: Annotated[int, Whole("seed: the same one gives the same points")]
+    ranges: Annotated[
+        dict[str, Range],
+        MappingOf(
+            "interval of each parameter",
+            "a section such as {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}}",
+            Range,
+            _checked_range,
+        ),
+    ]
 
     def __post_init__(self) -> None:
-        if self.count < 1:
-            raise InputError(f"count is {self.count}", allowed="a whole number above 0")
-        if self.seed < 0:
-            raise InputError(f"seed is {self.seed}", allowed="a whole number, 0 or above")
         if self.method == "sobol" and self.count & (self.count - 1):
             below = 1 << (self.count.bit_length() - 1)
             raise InputError(
@@ -113,8 +132,3 @@ def grid(values: Mapping[str, list[Setting]]) -> list[list[Setting]]:
     (6, 1)
     """
     return [list(combination) for combination in itertools.product(*values.values())]
-
-
-def label(settings: list[Setting]) -> dict[str, Any]:
-    """The values of settings by key, as labels of a run."""
-    return {setting.key: setting.value for setting in settings}

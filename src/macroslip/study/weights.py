@@ -56,8 +56,10 @@ class Weibull:
 
     def probability(self, centre: float, width: float) -> float:
         """Probability of the bin of this centre and width [m/s]."""
-        low, high = max(centre - 0.5 * width, 0.0), max(centre + 0.5 * width, 0.0)
-        return math.exp(-((low / self.scale) ** self.shape)) - math.exp(-((high / self.scale) ** self.shape))
+        from scipy.stats import weibull_min
+
+        low, high = weibull_min.sf([centre - 0.5 * width, centre + 0.5 * width], self.shape, scale=self.scale)
+        return float(low - high)
 
 
 @dataclass(frozen=True)

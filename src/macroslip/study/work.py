@@ -11,9 +11,9 @@ from typing import Any
 
 from macroslip.case.case import Case
 from macroslip.errors import InputError, MacroslipError
+from macroslip.files import write_durably
 from macroslip.loads import BearingLoads, HubLoads, main_bearing_load
 from macroslip.study.build import read_loads, template
-from macroslip.study.durable import write_durably
 from macroslip.study.key import case_key, program
 from macroslip.study.outcome import Outcome
 from macroslip.study.settings import RECORDS, Setting
@@ -22,7 +22,7 @@ from macroslip.study.summary import case_values, row_values
 
 
 class StoreError(MacroslipError):
-    """A result cannot be stored; no fault of the case, so the campaign stops."""
+    """A result cannot be stored; no fault of the case, so the study stops."""
 
 
 def work(task: dict[str, Any]) -> dict[str, Any]:
@@ -31,7 +31,7 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     task : dict
-        Plain data: `directory`, `setup` (checksum of its manifest), `campaign` (a name no other one has), `run` (name),
+        Plain data: `directory`, `setup` (checksum of its manifest), `session` (a name that no other has), `run` (name),
         `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
         compute even if a result is there.
 
@@ -39,7 +39,7 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     -------
     dict
         The record for the journal: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `size`,
-        `layout`, `values`; and `program`, by which the campaign tells that a worker runs the same version. With `found`
+        `layout`, `values`; and `program`, by which the study tells that a worker runs the same version. With `found`
         true nothing was computed: a result of that key is there, and the journal has to tell whether it is sound.
 
     Raises
@@ -92,7 +92,7 @@ def work_several(tasks: list[dict[str, Any]]) -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        What `work` returns, or `stop` with the reason why the campaign has to stop.
+        What `work` returns, or `stop` with the reason why the study has to stop.
     """
     found: list[dict[str, Any]] = []
     for task in tasks:
@@ -108,7 +108,7 @@ def _setup(directory: str, expected: str) -> dict[str, Any]:
     """What all runs of a study share, from its manifest."""
     manifest, found = read_manifest(Path(directory))
     if found != expected:
-        raise StoreError(f"{directory}: the manifest is not that of this campaign; another one was begun there.")
+        raise StoreError(f"{directory}: the manifest is not that of this study; another one was begun there.")
     setup = manifest["setup"]
     records = {
         noun: {name: kind.from_dict(entries) for name, entries in setup[f"{noun}s"].items()}
@@ -121,7 +121,7 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> tuple[Case, HubLoads |
     settings = [Setting(*one) for one in task["settings"]]
     records = {noun: setup["records"][noun][task[noun]] for noun in RECORDS}
     case, cut = template(setup["case"], settings, records, folder=Path(setup["folder"]))
-    loads = _loads(task["campaign"], setup["source"], task["load"], tuple(sorted(cut.items())))
+    loads = _loads(task["session"], setup["source"], task["load"], tuple(sorted(cut.items())))
     try:
         return replace(case, loads=loads), loads
     except InputError as problem:
@@ -131,8 +131,8 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> tuple[Case, HubLoads |
 
 
 @functools.lru_cache(maxsize=1)
-def _loads(campaign: str, source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
-    """Read a load history; runs with the same one follow each other. A campaign takes a file as it finds it."""
+def _loads(session: str, source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
+    """Read a load history; runs with the same one follow each other. A session takes a file as it finds it."""
     return read_loads(source, path, dict(cut))
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
-def printable(text: object) -> str:
+def safe_text(text: object) -> str:
     """Write control characters, such as those that steer a terminal, by their numbers.
 
     Examples
     --------
-    >>> printable("run\\x1b[2J\\n7.outb")
+    >>> safe_text("run\\x1b[2J\\n7.outb")
     'run\\\\x1b[2J\\\\n7.outb'
     """
     return "".join(

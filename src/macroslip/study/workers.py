@@ -11,14 +11,14 @@ Done = tuple[dict[str, Any], dict[str, Any]]
 """A task and what `work` returned for it."""
 
 
-class Crew(Protocol):
+class Workers(Protocol):
     """Does tasks, of which it takes a bounded number at a time."""
 
-    def room(self) -> int:
+    def free_places(self) -> int:
         """How many more tasks it takes now."""
 
     def submit(self, tasks: list[dict[str, Any]]) -> None:
-        """Hand over tasks, at most as many as there is room for."""
+        """Hand over tasks, at most as many as there are free places."""
 
     def wait(self) -> list[Done]:
         """Wait until something is done; nothing when nothing was handed over."""
@@ -30,7 +30,7 @@ class ThisProcess:
     def __init__(self) -> None:
         self._tasks: deque[dict[str, Any]] = deque()
 
-    def room(self) -> int:
+    def free_places(self) -> int:
         """One at a time."""
         return 1 - len(self._tasks)
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from benchmarks import own
 from benchmarks.histories import History
-from benchmarks.outcome import ASKED, Outcome, Reference, Setting, cheapest
+from benchmarks.outcome import ASKED, Measurement, Reference, Setting, cheapest
 from benchmarks.quiet import silence
 from benchmarks.rivals import CVODE, CVODE_COMPILED, EULER, EULER_TOLERANCES, OWN, OWN_TITLE, RIVALS, own_settings
 from benchmarks.scan import in_words, measure, scan, timed_again
@@ -25,14 +25,14 @@ class Entry(NamedTuple):
     `extrapolated` says that the outcome was not run but follows from the order of convergence measured on the others.
     """
 
-    best: Outcome
+    best: Measurement
     reached: bool
-    outcomes: list[Outcome]
+    outcomes: list[Measurement]
     extrapolated: bool
     ratio: float
 
 
-def contest(
+def compare(
     histories: list[History], references: list[Reference], *, quick: bool, report: Report
 ) -> dict[str, list[Entry] | None]:
     """Every method's entries, history by history, under its key; None if a rival is not installed.
@@ -76,7 +76,7 @@ def contest(
     return results
 
 
-def _entry(outcomes: list[Outcome]) -> Entry:
+def _entry(outcomes: list[Measurement]) -> Entry:
     return Entry(outcomes[0], outcomes[0].error <= ASKED, outcomes, False, math.nan)
 
 
@@ -94,7 +94,7 @@ def _accurate_settings(entry: Entry) -> list[Setting]:
     return [one.setting for one in good]
 
 
-def _euler_entry(solve: Callable, outcomes: list[Outcome], reference: Reference, budget: float) -> Entry:
+def _euler_entry(solve: Callable, outcomes: list[Measurement], reference: Reference, budget: float) -> Entry:
     """Go on from the steps tried: an error of first order tells which step would have been just short enough."""
     best, reached = outcomes[0], outcomes[0].error <= ASKED
     factor = min(0.9 * ASKED / best.error, 3.0)
@@ -103,7 +103,7 @@ def _euler_entry(solve: Callable, outcomes: list[Outcome], reference: Reference,
         refined = scan(solve, [setting], reference, budget=budget, prune=False)
         best, reached = cheapest([best, *refined])
         return Entry(best, reached, [*outcomes, *refined], False, math.nan)
-    guess = Outcome(setting, 0.9 * ASKED, 0.9 * ASKED, best.seconds / factor, best.evaluations / factor)
+    guess = Measurement(setting, 0.9 * ASKED, 0.9 * ASKED, best.seconds / factor, best.evaluations / factor)
     return Entry(guess, True, outcomes, True, math.nan)
 
 
@@ -143,6 +143,6 @@ def as_plain(histories: list[History], results: dict[str, list[Entry] | None]) -
 def _entry_as_plain(entry: Entry) -> dict[str, Any]:
     best = entry.best._asdict() | {"setting": in_words(entry.best.setting)}
     # Columns, because there may be hundreds of runs.
-    runs = {name: [getattr(one, name) for one in entry.outcomes] for name in Outcome._fields if name != "setting"}
+    runs = {name: [getattr(one, name) for one in entry.outcomes] for name in Measurement._fields if name != "setting"}
     runs = {"setting": [in_words(one.setting) for one in entry.outcomes]} | runs
     return best | {"reached": entry.reached, "extrapolated": entry.extrapolated, "ratio": entry.ratio, "runs": runs}

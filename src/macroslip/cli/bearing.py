@@ -1,0 +1,168 @@
+"""`macroslip bearing estimate`, `init` and `draw`: bearing files of the user's own, and pictures of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from macroslip.cli.failure import command
+from macroslip.cli.needs import PICTURE, require
+from macroslip.errors import InputError
+from macroslip.files import check_new_file, new_file
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.bearing.estimate import Estimate
+    from macroslip.catalogue.units import Dimension
+
+_BASE = "skf-240-600-bc"
+
+Output = Annotated[Path, typer.Option("--output", "-o", help="The bearing file to write.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")]
+
+
+def _option(help: str) -> object:
+    return typer.Option(help=help)
+
+
+def estimate(
+    bore: Annotated[str, _option("Bore diameter d, with its unit: '630 mm'.")],
+    outside: Annotated[str, _option("Outside diameter D: '920 mm'.")],
+    width: Annotated[str, _option("Width B: '290 mm'.")],
+    c0: Annotated[str, _option("Static load rating C0: '17600 kN'.")],
+    e: Annotated[float, _option("Axial factor e: 0.30.")],
+    output: Output,
+    shoulder: Annotated[str | None, _option("Shoulder diameter of the outer ring D1: '828 mm'.")] = None,
+    groove: Annotated[str | None, _option("Width of the lubrication groove b: '56.5 mm'.")] = None,
+    c: Annotated[str | None, _option("Dynamic load rating C: '9307 kN'.")] = None,
+    cu: Annotated[str | None, _option("Fatigue load limit C_u or P_u: '1180 kN'.")] = None,
+    y1: Annotated[float | None, _option("Axial factor Y1.")] = None,
+    y2: Annotated[float | None, _option("Axial factor Y2.")] = None,
+    y0: Annotated[float | None, _option("Static axial factor Y0.")] = None,
+    mass: Annotated[str | None, _option("Mass: '623 kg'.")] = None,
+    bpfo: Annotated[float | None, _option("Overrolling frequency of the outer ring, per turn of the shaft.")] = None,
+    bpfi: Annotated[float | None, _option("Overrolling frequency of the inner ring, per turn of the shaft.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 1,
+    force: Force = False,
+) -> None:
+    """Estimate the inside of a bearing from its maker's page, and write a bearing file.
+
+    What the page leaves open is sampled within usual proportions. The file holds the median of every inner dimension and
+    the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
+    """
+    from macroslip.bearing.estimate import MakersPage, estimate_bearing
+    from macroslip.catalogue.units import FORCE, LENGTH, MASS
+
+    check_new_file(output, force=force)
+    page = MakersPage(
+        bore=_required("--bore", bore, LENGTH),
+        outside=_required("--outside", outside, LENGTH),
+        width=_required("--width", width, LENGTH),
+        static_load_rating=_required("--c0", c0, FORCE),
+        axial_factor_e=e,
+        shoulder=_si("--shoulder", shoulder, LENGTH),
+        groove=_si("--groove", groove, LENGTH),
+        dynamic_load_rating=_si("--c", c, FORCE),
+        fatigue_load_limit=_si("--cu", cu, FORCE),
+        axial_factor_y1=y1,
+        axial_factor_y2=y2,
+        axial_factor_y0=y0,
+        mass=_si("--mass", mass, MASS),
+        bpfo=bpfo,
+        bpfi=bpfi,
+    )
+    size = " x ".join(f"{1e3 * one:g}" for one in (page.bore, page.outside, page.width))
+    found = estimate_bearing(page, output.stem, f"Estimated from its maker's page, {size} mm", seed=seed)
+    _write(output, found.bearing, force)
+    _report(found, output)
+
+
+def init(
+    path: Annotated[Path, typer.Argument(help="The bearing file to write.")] = Path("bearing.yaml"),
+    force: Force = False,
+) -> None:
+    """Write a bearing file with every key explained, to change into your own: the base bearing's values."""
+    from macroslip.bearing import Bearing
+
+    check_new_file(path, force=force)
+    _write(path, Bearing.read(_BASE).replace(name=path.stem, title=f"Started from {_BASE}"), force)
+    typer.echo(
+        f"written: {path}\nlook at it:  macroslip bearing show {path}\nuse it:      bearing: {path}, in a case file"
+    )
+
+
+def draw(
+    name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="The drawing to write: .svg, .pdf or .png.")],
+    force: Force = False,
+) -> None:
+    """Draw the section of a bearing, with the name and value of every dimension."""
+    from macroslip.bearing import Bearing
+
+    if output.suffix not in (".svg", ".pdf", ".png"):
+        raise InputError(
+            "this is no kind of drawing", where=str(output), allowed="a name that ends with .svg, .pdf or .png"
+        )
+    check_new_file(output, force=force)
+    require(PICTURE)
+    from macroslip.report.bearing_drawing import draw_bearing
+
+    figure = draw_bearing(Bearing.read(name_or_file))
+    with new_file(output, force=force) as temporary:
+        figure.savefig(temporary, format=output.suffix[1:])
+    typer.echo(f"written: {output}")
+
+
+def add_commands(app: typer.Typer) -> None:
+    """Add the commands that make bearing files."""
+    command(app, estimate)
+    command(app, init)
+    command(app, draw)
+
+
+def _required(option: str, text: str, dimension: Dimension) -> float:
+    from macroslip.catalogue.quantity import parse_quantity
+
+    return dimension.to_si(*parse_quantity(text, dimension, option))
+
+
+def _si(option: str, text: str | None, dimension: Dimension) -> float | None:
+    return None if text is None else _required(option, text, dimension)
+
+
+def _write(path: Path, bearing: Bearing, force: bool) -> None:
+    with new_file(path, force=force) as temporary:
+        temporary.write_text(bearing.as_yaml(), encoding="utf-8")
+
+
+def _report(found: Estimate, output: Path) -> None:
+    from macroslip.bearing.load_ratings import dynamic_load_rating
+    from macroslip.cli.printing import table
+
+    bearing = found.bearing
+    rows = []
+    for key, origin in bearing.provenance.items():
+        if origin.range is not None:
+            unit = "" if origin.unit == "1" else f" {origin.unit}"
+            low, high = origin.range
+            rows.append([key, f"{origin.value:g}{unit}", f"{low:g} to {high:g}{unit}"])
+    table(
+        f"{bearing.name}: median and range of four out of five of {found.samples['contact_angle'].size} bearings that fit "
+        "the page",
+        [("key", False), ("median", True), ("10 to 90 %", False)],
+        rows,
+    )
+    typer.echo()
+    published = bearing.dynamic_load_rating
+    if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
+        rating = dynamic_load_rating(
+            2, bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length, bearing.contact_angle,
+            2 * bearing.pitch_radius,
+        )  # fmt: skip
+        typer.echo(
+            f"C by ISO 281 from these dimensions is {rating / published:.3f} of the published one; "
+            "within one family of bearings that scatters by 1 to 2 %."
+        )
+    typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")

@@ -1,0 +1,6 @@
+"""Numbers that stand beside slip: static safety, rating lives, pressures, film ratio, minimum load, load spectra."""
+
+from macroslip.rating.rate import rate
+from macroslip.rating.roller_load import roller_load_history
+
+__all__ = ["rate", "roller_load_history"]

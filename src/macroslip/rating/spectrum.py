@@ -1,0 +1,116 @@
+"""Spectra of a load history: how long each load lasts, and the cycle that does the damage of all."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+LEVELS = 256
+"""Levels between smallest and largest load at which reversals are told apart."""
+
+
+def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Time that every sample stands for [s]: half of the intervals at either side.
+
+    Examples
+    --------
+    >>> sample_durations(np.array([0.0, 1.0, 3.0])).tolist()
+    [0.5, 1.5, 1.0]
+    """
+    step = np.diff(time)
+    return 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
+
+
+def load_duration(load: NDArray[np.float64], weight: NDArray[np.float64], edges: NDArray[np.float64]) -> NDArray:
+    """Load duration distribution: share of time, or of revolutions, that the load spends in each class.
+
+    Parameters
+    ----------
+    load : ndarray, shape (n,)
+        Load [N].
+    weight : ndarray, shape (n,)
+        Time or revolutions each sample stands for.
+    edges : ndarray, shape (k + 1,)
+        Rising edges of the classes [N] that contain all loads.
+
+    Returns
+    -------
+    ndarray, shape (k,)
+        Shares [-], whose sum is 1; NaN if the weights are all zero.
+
+    Examples
+    --------
+    >>> load_duration(np.array([1.0, 3.0]), np.array([1.0, 3.0]), np.array([0.0, 2.0, 4.0])).tolist()
+    [0.25, 0.75]
+    """
+    found = np.histogram(load, edges, weights=weight)[0]
+    with np.errstate(invalid="ignore"):
+        return found / weight.sum()
+
+
+def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Ranges of the cycles of a load history, which is taken as repeating, so that every cycle closes.
+
+    Parameters
+    ----------
+    load : ndarray, shape (n,)
+        Load [N], at least two samples.
+
+    Returns
+    -------
+    ndarray
+        One range [N] a cycle; empty for a constant load. Ripples of less than 1/256 of the largest range do not count.
+
+    References
+    ----------
+    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17.
+
+    Examples
+    --------
+    >>> rainflow_ranges(np.array([0.0, 1.0, 0.0, 1.0, 0.0])).tolist()
+    [1.0, 1.0]
+    """
+    import fatpack
+
+    if np.ptp(load) == 0.0:
+        return np.zeros(0)
+    try:
+        return np.asarray(fatpack.find_rainflow_ranges(load, k=LEVELS), float)
+    except (ValueError, IndexError):  # fewer reversals than it can count: repeated, the history is one cycle
+        return np.array([np.ptp(load)])
+
+
+def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0) -> float:
+    """Range of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
+
+    Cycles are counted by the rainflow method; the history is taken as repeating, so that every cycle closes.
+
+    Parameters
+    ----------
+    load : array_like, shape (n,)
+        Load history [N], at least two samples.
+    duration : float
+        Its duration T [s], positive.
+    exponent : float
+        Slope m of the Wöhler line [-], at least 1.
+    frequency : float
+        f [Hz].
+
+    Returns
+    -------
+    float
+        Range (twice the amplitude) [N]; 0 for a constant load.
+
+    References
+    ----------
+    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17. IEC 61400-13,
+    annex on damage-equivalent loads.
+
+    Examples
+    --------
+    >>> time = np.linspace(0.0, 100.0, 10001)
+    >>> round(damage_equivalent_load(45e3 * np.sin(2 * np.pi * time), 100.0, 4.0) / 1e3, 1)
+    90.0
+    """
+    ranges = rainflow_ranges(np.asarray(load, float))
+    return float((np.sum(ranges**exponent) / (frequency * duration)) ** (1.0 / exponent))

@@ -1,0 +1,114 @@
+"""A contact with little load or none: film, rolling resistance and sliding of one film, continuous into the elastic one.
+
+Load, resistance and shear of a rigid contact follow from one gap h0. Where the surfaces begin to deform, the film is
+Moes' with the rigid limit of this gap, the resistance that of `law`, and sliding is in two parts: inside Hertz' ellipse
+it is the traction law's; outside it is η0 φ Δu S, S = ∫∫ dA/h less the ellipse's own part, S²/(S + π a b/h).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from macroslip.compiled import jit
+from macroslip.rolling.film import light_film
+from macroslip.rolling.gap import film_at_gap
+from macroslip.rolling.law import LOWEST_SPEED, RollingForces, rolling_resistance
+from macroslip.rolling.martin import FLOW
+
+_LOG_FLOW = math.log(FLOW)
+
+
+class LightContact(NamedTuple):
+    """Film and forces of a contact.
+
+    Attributes
+    ----------
+    load : float
+        Q [N].
+    film : float
+        Film of the volume flow [m]: 1.2257 h0 where rigid, the flat middle's where elastic.
+    rolling : RollingForces
+        Rolling resistance.
+    sliding : float
+        Force of the film outside Hertz' ellipse on the roller [N], positive along +Δu = u2 − u1; the counterpart's is
+        the opposite.
+    sliding_slope : float
+        ∂sliding/∂Δu [N s/m] at given film.
+    sliding_power : float
+        What that film dissipates in sliding [W].
+    """
+
+    load: float
+    film: float
+    rolling: RollingForces
+    sliding: float
+    sliding_slope: float
+    sliding_power: float
+
+
+@jit
+def light_contact(law, load, u1, u2):
+    """A contact under a normal load: the cage's, or a raceway's under little load.
+
+    Parameters
+    ----------
+    law : Rolling
+    load : float
+        Q [N], > 0.
+    u1, u2 : float
+        Surface speeds of roller and counterpart past the contact [m/s].
+
+    Returns
+    -------
+    LightContact
+        The mean speed is floored at `LOWEST_SPEED` for the film.
+    """
+    speed = max(0.5 * abs(u1 + u2), LOWEST_SPEED)
+    log_film, _, _ = light_film(law, math.log(load), math.log(speed))
+    film = math.exp(log_film)
+    _, _, _, _, log_shear, _ = film_at_gap(law.gap, log_film - _LOG_FLOW)
+    shear = law.gap.fullness * math.exp(log_shear)
+    inside = law.area * load ** (2.0 / 3.0) / film
+    slope = law.viscosity * shear * shear / (shear + inside)
+    slip = u2 - u1
+    rolling = rolling_resistance(law, load, u1, u2)
+    return LightContact(load, film, rolling, slope * slip, slope, slope * slip * slip)
+
+
+@jit
+def contact_at_gap(law, gap, u1, u2):
+    """A contact whose smallest gap is given, as that of a roller with play: load, resistance and sliding.
+
+    Parameters
+    ----------
+    law : Rolling
+    gap : float
+        h0 [m], > 0.
+    u1, u2 : float
+        Surface speeds of roller and counterpart past the contact [m/s].
+
+    Returns
+    -------
+    LightContact
+        Rigid and isoviscous; all forces are proportional to viscosity, speed and fullness. `rolling.by_load` is
+        ∂shear/∂Q along the film at given speed.
+    """
+    speed = 0.5 * (u1 + u2)
+    unit = law.viscosity * law.gap.fullness
+    log_load, load_slope, log_rolling, rolling_slope, log_shear, _ = film_at_gap(law.gap, math.log(gap))
+    load = unit * abs(speed) * math.exp(log_load)
+    resistance = unit * math.exp(log_rolling)
+    force = resistance * speed
+    slope = unit * math.exp(log_shear)
+    slip = u2 - u1
+    by_load = -math.copysign(math.exp(log_rolling - log_load), speed) * rolling_slope / load_slope
+    rolling = RollingForces(
+        -force,
+        2.0 * force * law.share_1,
+        2.0 * force * law.share_2,
+        2.0 * resistance * speed * speed,
+        by_load,
+        -resistance,
+    )
+    return LightContact(load, FLOW * gap, rolling, slope * slip, slope, slope * slip * slip)

@@ -1,0 +1,57 @@
+"""Cases made in Python: NumPy's numbers are numbers, and what is wrong is said in one paragraph."""
+
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from macroslip import BackwardEuler, BearingLoads, Case, Drivetrain, ExplicitEuler, InputError, Radau, Traces, Window
+from macroslip.loads import HubLoads
+from macroslip.result.simulate import simulate
+
+LOADS = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 1.0)
+
+
+def test_numbers_of_numpy_are_welcome():
+    case = Case(
+        loads=LOADS,
+        rollers=np.arange(3),
+        integrator=Radau(tolerance=np.float32(1e-4), max_steps=np.int64(1000)),
+        window=Window(end=np.float64(1.0)),
+        drivetrain=Drivetrain(tilt=np.float32(0.05)),
+        traces=Traces(step=np.int32(1)),
+    )
+    assert case.rollers == (0, 1, 2) and {type(number) for number in case.rollers} == {int}
+    assert type(case.integrator.tolerance) is float and case.integrator.max_steps == 1000
+    assert pickle.loads(pickle.dumps(case.integrator)) == case.integrator
+    assert BearingLoads.constant(np.array([0, -1, 0]), np.float32(2), np.int64(1)).shaft_speed[0] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Radau(tolerance=0.5), "integrator: the tolerance is 0.5. Allowed: 1e-10 to 1e-2."),
+        (lambda: Radau(tolerance="1e-4"), "integrator: tolerance is '1e-4'. Allowed: a finite number."),
+        (lambda: Radau(max_steps=10**30), "integrator: max_steps is 1000000000000000000000000000000. Allowed: a whole"),
+        (lambda: Radau(max_steps=1e30), "integrator: max_steps is 1e+30. Allowed: a whole number."),
+        (lambda: Radau(max_steps=0), "integrator: max_steps is 0. Allowed: a whole number above 0."),
+        (lambda: Radau(tolerence=1e-4), "integrator: the key 'tolerence' is unknown. Did you mean 'tolerance'?"),
+        (lambda: ExplicitEuler(), "integrator: 'step' is missing"),
+        (lambda: BackwardEuler(step=3.0), "integrator: the step is 3.0 s. Allowed: 1e-7 to 1 s."),
+        (lambda: Traces(step=-1.0), "traces: the step is -1.0 s. Allowed: a number above 0 s."),
+        (lambda: Window(start=np.nan), "window: start is nan. Allowed: a finite number."),
+        (lambda: replace(Drivetrain(), tilt=5.0), "drivetrain: tilt is 5.0. Allowed: -0.3 to 0.3 rad. Angles are in"),
+        (lambda: Case(loads=LOADS, rollers=[0, 28]), "rollers: rollers is [0, 28]. Allowed: all, or a list"),
+        (lambda: Case(loads=LOADS, rollers=3), "rollers: rollers is 3. Allowed: all, or a list"),
+        (lambda: Case(loads=LOADS, rollers=[True]), "rollers: rollers is [True]. Allowed: all, or a list"),
+        (lambda: BearingLoads.constant([0, -1, 0], "2", 1.0), "the shaft_speed is '2'. Allowed: a finite number."),
+        (lambda: BearingLoads.constant([0, -1, 0], 2.0, 1e308), "the duration of a constant load is 1e+308 s"),
+        (lambda: HubLoads.constant(["1", 0, 0], [0, 0, 0], 2.0, 1.0), "constant load: force does not convert"),
+        (lambda: simulate(Case(loads=LOADS, traces=Traces(step=1e-300))), "traces: a step of 1e-300 s makes 1e+300"),
+    ],
+)
+def test_what_is_wrong_is_said_in_words(make, words):
+    with pytest.raises(InputError) as caught:
+        make()
+    assert words in str(caught.value) and "\n" not in str(caught.value)

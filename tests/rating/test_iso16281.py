@@ -1,0 +1,99 @@
+"""Reference life: the load integrals behind its constants, and the limit in which it is ISO 281's life."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from macroslip.bearing.load_ratings import geometry_factor
+from macroslip.rating.iso16281 import (
+    LAMINAE,
+    REDUCTION,
+    lamina_loads,
+    reference_life,
+    ring_damage,
+    ring_ratings,
+)
+
+
+def load_integral(power):
+    """Mean over the circumference of cos^(1.1 power) in the loaded half."""
+    return quad(lambda angle: math.cos(angle) ** (1.1 * power), -math.pi / 2, math.pi / 2)[0] / (2 * math.pi)
+
+
+def test_the_standards_constants_are_load_integrals():
+    radial = quad(lambda angle: math.cos(angle) ** 2.1, -math.pi / 2, math.pi / 2)[0] / (2 * math.pi)
+    inner, outer = load_integral(4.0) ** (1 / 4), load_integral(4.5) ** (1 / 4.5)
+    # The standard's come from tables of these integrals with four digits and an exponent between 1.08 and 10/9.
+    assert radial / inner == pytest.approx(0.378, rel=4e-3)
+    assert radial / outer == pytest.approx(0.364, rel=4e-3)
+    assert outer / inner == pytest.approx(1.038, rel=4e-3)
+
+
+@pytest.mark.parametrize("gamma", [0.05, 0.09, 0.15])
+@pytest.mark.parametrize("rows", [1, 2])
+def test_a_bearing_loaded_over_half_its_circumference_lives_as_iso_281_has_it(gamma, rows):
+    # Load C on zero clearance: a million revolutions, whatever the number of rows and the ratio of diameters.
+    count, alpha, rating = 720, 0.2, 8e6
+    angle = 2 * np.pi * (np.arange(count) + 0.5) / count
+    shape = np.maximum(np.cos(angle), 0.0) ** 1.1
+    load = shape * rating / rows / (math.cos(alpha) * np.sum(shape * np.cos(angle)))
+    inner, outer = ring_ratings(rating, rows, count, alpha, gamma)
+    damages = [ring_damage(load[:, None], inner, stationary=False), ring_damage(load[:, None], outer, stationary=True)]
+    life = reference_life(np.repeat(damages, rows))
+    assert life == pytest.approx(1e6, rel=0.02)
+    # Twice the load: the exponent of the reference life is 4.
+    doubled = [ring_damage(2 * load[:, None], inner, stationary=False),
+               ring_damage(2 * load[:, None], outer, stationary=True)]  # fmt: skip
+    assert reference_life(np.repeat(doubled, rows)) == pytest.approx(life / 16, rel=1e-12)
+
+
+def test_ring_ratings_give_back_the_geometry_factor():
+    # Lundberg and Palmgren: Q_ci/Q_ce is ((1 - gamma)/(1 + gamma))^(143/108), and the inner ring is the weaker one.
+    for gamma in (0.02, 0.1, 0.3):
+        inner, outer = ring_ratings(1.0, 1, 1, 0.0, gamma)
+        assert inner / outer == pytest.approx(((1 - gamma) / (1 + gamma)) ** (143 / 108), rel=2e-3)
+        # 207.9 lambda nu gamma^(2/9) (1 - gamma)^(29/27)/(1 + gamma)^(1/4) is the inner ring's own rating.
+        own = 207.9 * REDUCTION * gamma ** (2 / 9) * (1 - gamma) ** (29 / 27) / (1 + gamma) ** 0.25
+        assert inner * geometry_factor(gamma) * 0.378 == pytest.approx(own, rel=2e-3)
+
+
+def test_laminae_carry_the_load_of_a_hertz_ellipse():
+    length, axis, load = 0.1, 0.03, 5e4
+    found = lamina_loads(np.array([load]), np.array([axis]), length)[0]
+    edges = np.linspace(0, length / 2, LAMINAE // 2 + 1)
+    for k, (start, end) in enumerate(itertools.pairwise(edges)):
+        per_length = lambda x: 0.75 * load / axis * max(0.0, 1 - (x / axis) ** 2)
+        carried = quad(per_length, start, end, points=[axis] if start < axis < end else None)[0]
+        assert found[k] == pytest.approx(carried / (end - start) * length, rel=1e-9, abs=1e-6)
+    # Cut off at the ends, what is left carries all; no load, no lamina load.
+    for semi_axis in (0.03, 0.06, 10.0):
+        assert lamina_loads(np.array([load]), np.array([semi_axis]), length).mean() == pytest.approx(load, rel=1e-12)
+    np.testing.assert_allclose(lamina_loads(np.array([load]), np.array([10.0]), length)[0], load, rtol=1e-4)
+    assert not lamina_loads(np.array([0.0]), np.array([0.0]), length).any()
+
+
+def test_uneven_load_lives_shorter():
+    # The whole roller in contact: mean of (1.5 (1 - x^2))^4.5 over x is 2.3955 (Beta function), so the ring's damage is.
+    load = np.full(28, 1e5)
+    even = ring_damage(load[:, None], 5e5, stationary=True)
+    laminae = lamina_loads(load, np.full(28, 0.05), 0.1)
+    exact = 1.5**4.5 * math.gamma(0.5) * math.gamma(5.5) / (2 * math.gamma(6.0))
+    assert ring_damage(laminae, 5e5, stationary=True) / even == pytest.approx(exact, rel=3e-3)
+
+
+def test_a_ring_that_turns_averages_before_it_fails():
+    # Jensen: with uneven loads the standing ring is hurt more; with even ones both are hurt alike.
+    even, uneven = np.full((28, 1), 1e5), np.linspace(0, 2e5, 28)[:, None]
+    assert ring_damage(even, 5e5, stationary=True) == pytest.approx(ring_damage(even, 5e5, stationary=False), rel=1e-12)
+    assert ring_damage(uneven, 5e5, stationary=True) > ring_damage(uneven, 5e5, stationary=False)
+
+
+def test_rings_together_live_shorter_than_the_weakest():
+    damages = np.array([[1.0, 0.5], [0.0, 0.25]])
+    lives = reference_life(damages, axis=())
+    assert np.isinf(lives[1, 0]) and reference_life(damages) < lives.min()
+    # Weibull's product law with slope 9/8: L^(-9/8) add up.
+    assert np.sum((lives / 1e6) ** (-9 / 8)) == pytest.approx((reference_life(damages) / 1e6) ** (-9 / 8))
