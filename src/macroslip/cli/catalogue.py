@@ -50,8 +50,10 @@ def _catalogue(
             typer.echo(record.as_yaml(), nl=False)
             return
         if as_json:
+            from dataclasses import asdict
+
             follows = [dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in derived(record)]
-            values = {key: origin._asdict() for key, origin in record.provenance.items()}
+            values = {key: asdict(origin) for key, origin in record.provenance.items()}
             print_json({"name": record.name, "title": record.title, "values": values, "what follows from it": follows})
             return
         rows = [
