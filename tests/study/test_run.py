@@ -76,7 +76,7 @@ def test_a_study_may_grow_and_shrink(tmp_path, load_files, content, counted, res
 def test_a_changed_program_computes_all_again(tmp_path, load_files, content, counted, monkeypatch, resumed):
     out = tmp_path / "out"
     run_study(study_of(content, load_files), out)
-    monkeypatch.setattr("macroslip.study.key._sources", lambda: "another program")
+    monkeypatch.setattr("macroslip.study.key.fingerprint", lambda *parts: "another program")
     assert resumed(study_of(content, load_files), out, counted)[1] == 4
 
 
