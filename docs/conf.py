@@ -38,6 +38,6 @@ def _with_path(link: re.Match) -> str:
     return path if quote else f"{words} ({path})"
 
 
-def setup(app) -> None:  # noqa: ANN001  Sphinx's own class is not imported for it
+def setup(app) -> None:
     """Register what changes pages as they are read."""
     app.connect("source-read", _links_to_sources)

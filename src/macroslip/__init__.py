@@ -26,6 +26,7 @@ _HOMES = {
     "Traces": "macroslip.case.case",
     "read_case": "macroslip.case.case_file",
     "simulate": "macroslip.result.simulate",
+    "progress_bar": "macroslip.progress",
     "open_result": "macroslip.report.accessor",
     "rate_case": "macroslip.result.rating",
     "read_study": "macroslip.study.study_file",

@@ -86,7 +86,7 @@ def _packages() -> Iterator[dict[str, str | None]]:
         requirement, _, marker = line.partition(";")
         name, bound = re.fullmatch(r"([\w.-]+)(?:\[[\w,]*\])?\s*(.*?)\s*", requirement).groups()
         extra = re.search(r"extra == ['\"](\w+)['\"]", marker)
-        if name == "macroslip" or (extra and extra[1] not in ("figures", "cluster", "cycles")):
+        if name == "macroslip" or (extra and extra[1] not in ("figures", "cluster", "cycles", "notebook")):
             continue
         try:
             installed = importlib.metadata.version(name)

@@ -55,7 +55,7 @@ def inspect(
     as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
     """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
-    from macroslip.catalogue.units import ANGLE, SPEED, LENGTH, MASS
+    from macroslip.catalogue.units import ANGLE, LENGTH, MASS, SPEED
     from macroslip.cli.printing import print_json
 
     if output is not None:

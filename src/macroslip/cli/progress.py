@@ -37,15 +37,8 @@ def progress_bar(
     if quiet or not console.is_terminal:
         yield None
         return
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        TextColumn("left"),
-    )
-    bar = Bar(*columns, console=console, transient=True, speed_estimate_period=600.0)
-    task = bar.add_task("preparing (the first run of all compiles)", total=None)
+    bar = bar_with_time_left(console)
+    task = bar.add_task(PREPARING, total=None)
 
     def report(label: str, done: int, total: int) -> None:
         if stages is not None:
