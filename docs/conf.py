@@ -20,6 +20,8 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
+# A block without a language is a command or plain text.
+highlight_language = "none"
 html_theme = "furo"
 html_title = "macroslip"
 html_show_sourcelink = False

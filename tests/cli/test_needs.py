@@ -27,7 +27,7 @@ def test_all_is_there():
 
 def test_the_message_names_package_and_remedy(without):
     without("fatpack")
-    with pytest.raises(MacroslipError, match=r"^cycles: true needs fatpack, .*pip install 'macroslip\[cycles\]'$"):
+    with pytest.raises(MacroslipError, match=r"for cycles: true: fatpack\. .*pip install 'macroslip\[cycles\]'$"):
         require(FIGURES, CYCLES)
 
 
@@ -35,7 +35,7 @@ def test_several_needs_are_one_message_with_one_remedy(without):
     without("fatpack", "distributed")
     with pytest.raises(MacroslipError) as error:
         require(WORKERS, CYCLES)
-    assert "distributed, fatpack, which are not installed" in str(error.value)
+    assert "--workers and --scheduler and cycles: true: distributed, fatpack." in str(error.value)
     assert str(error.value).endswith("pip install 'macroslip[cluster,cycles]'")
 
 

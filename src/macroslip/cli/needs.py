@@ -61,9 +61,7 @@ def require(*needs: Need) -> None:
         return
     uses = " and ".join(need.use for need in found)
     names = ", ".join(dict.fromkeys(name for names in found.values() for name in names))
-    several = len(found) > 1 or names.count(",") > 0
-    verb = "need" if several or " and " in uses else "needs"
     extras = ",".join(dict.fromkeys(need.extra for need in found))
     raise MacroslipError(
-        f"{uses} {verb} {names}, which {'are' if ',' in names else 'is'} not installed: pip install 'macroslip[{extras}]'"
+        f"not installed, but needed for {uses}: {names}. Install with: pip install 'macroslip[{extras}]'"
     )
