@@ -30,8 +30,8 @@ def progress_bar(
         To be called as `report(label, done, total)`; None if nothing is shown.
     """
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
+
+    from macroslip.progress import PREPARING, bar_with_time_left
 
     console = Console(stderr=True)
     if quiet or not console.is_terminal:
