@@ -81,7 +81,7 @@ def inspect(
     if output is not None:
         figure = _picture(bearing, base, drivetrain)
         with new_file(output, force=force) as temporary:
-            figure.savefig(temporary, format=output.suffix[1:])
+            figure.savefig(temporary, format=output.suffix[1:], dpi=150)
         if not as_json:
             typer.echo(f"\nwritten: {output}")
 
@@ -229,7 +229,7 @@ def _words(drivetrain: dict[str, Any]) -> str:
         f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub" if mass else "no shaft mass"
     )
     return (
-        f"{'the default' if drivetrain['default'] else 'a'} drivetrain "
+        f"{'the default' if drivetrain['default'] else 'your'} drivetrain "
         f"({drivetrain['hub_to_bearing [m]']:g} m from hub to bearing, "
         f"{drivetrain['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
     )
