@@ -17,11 +17,20 @@ def test_versions_kernels_and_commands(macroslip):
     assert all(one["missing"] == [] for one in found["commands"])
 
 
-def test_a_folder_of_kernels_of_ones_own(macroslip, tmp_path, monkeypatch):
-    (tmp_path / "a.nbc").write_bytes(bytes(2_000_000))
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+def test_the_folder_of_kernels_is_the_one_in_use(macroslip):
+    from macroslip.kernel_cache import kernel_folder
+
     kernels = json.loads(macroslip("doctor", "--json").out)["kernels"]
-    assert kernels == {"folder": str(tmp_path), "files": 1, "megabytes": 2.0, "writable": True}
+    assert kernels["folder"] == str(kernel_folder())
+    sizes = [path.stat().st_size for path in kernel_folder().rglob("*") if path.is_file()]
+    assert (kernels["files"], kernels["megabytes"]) == (len(sizes), sum(sizes) / 1e6)
+
+
+def test_no_folder_for_kernels_is_said(macroslip, monkeypatch):
+    from macroslip import kernel_cache
+
+    monkeypatch.setattr(kernel_cache, "kernel_folder", lambda laws="": None)
+    assert "NO FOLDER CAN BE WRITTEN" in macroslip("doctor").out
 
 
 def test_the_same_for_people(macroslip):

@@ -130,6 +130,23 @@ def test_a_drivetrain_of_ones_own_from_options_and_from_a_case_file(folder, macr
     assert both["drivetrain"]["bearing_to_gearbox [m]"] == 2.2 and both["drivetrain"]["hub_to_bearing [m]"] == 1.9
 
 
+def test_a_four_point_mount_from_a_case_file(folder, macroslip):
+    path = DATA / "sample14B.outb"
+    (folder / "case.yaml").write_text(
+        "loads: {bundled: 14B}\ndrivetrain: {mount: four-point, hub_to_bearing: 1.3 m, front_to_rear: 1.8 m, "
+        "locating: rear, bearing: front}\n"
+    )
+    own = Drivetrain(mount="four-point", hub_to_bearing=1.3, front_to_rear=1.8, locating="rear", bearing="front")
+    expected = main_bearing_load(HubLoads.read(path), own).force.mean(axis=0) / 1e3
+    found = inspected(macroslip, path, "--case", "case.yaml")["main bearing"]
+    means = [found[f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")]
+    assert means == pytest.approx(expected, rel=1e-12)
+    assert (
+        "1.8 m from front to rear bearing, rear locating"
+        in macroslip("loads", "inspect", path, "--case", "case.yaml").out
+    )
+
+
 def test_a_shaft_speed_of_ones_own(macroslip):
     found = inspected(macroslip, DATA / "sample14B.outb", "--shaft-speed", "12 rpm")
     assert found["statistics"]["shaft speed [rpm]"] == pytest.approx({"mean": 12, "std": 0, "min": 12, "max": 12})

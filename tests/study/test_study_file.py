@@ -146,6 +146,10 @@ def test_a_table_gives_files_and_fields(load_files):
         ),
         ("loads: {bundled: all}\nvariations:\n  sample: {count: 5, seed: 1}\n", ["ranges' is missing"]),
         ("loads: {bundled: all, units: {size: m}}\n", ["units names size"]),
+        (
+            "loads: {bundled: all}\nkeep: [energy, enrgy]\n",
+            ["line 2", "keep", "'enrgy'", "a list of variables", "orbit_energy"],
+        ),
         ("loads: [1]\n", ["it is \\[1\\]"]),
         ("- 1\n", ["a mapping"]),
     ],

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -25,8 +23,9 @@ def doctor(
         return
     machine, cache = found["machine"], found["kernels"]
     rows = [[name, str(machine[name])] for name in ("python", "system", "processor", "cores")]
-    rows.append(["kernels", f"{cache['folder']}, {cache['megabytes']:.3g} MB in {cache['files']} files"])
-    rows.append(["", "can be written" if cache["writable"] else "CANNOT BE WRITTEN: every run compiles again"])
+    nowhere = "NO FOLDER CAN BE WRITTEN: every run compiles again"
+    stored = f"{cache['folder']}, {cache['megabytes']:.3g} MB in {cache['files']} files"
+    rows.append(["kernels", stored if cache["folder"] else nowhere])
     table(f"macroslip {found['version']}", [("", False), ("", False)], rows)
     typer.echo()
     table(
@@ -60,17 +59,15 @@ _OF_THE_MACHINE = ("python", "system", "processor", "cores")
 
 
 def _kernels() -> dict[str, Any]:
-    """Where numba keeps the compiled kernels: NUMBA_CACHE_DIR, or __pycache__ beside the sources."""
-    import macroslip
+    """Where the kernels of these sources are kept; without a folder every process compiles for itself."""
+    from macroslip.kernel_cache import kernel_folder
 
-    chosen = os.environ.get("NUMBA_CACHE_DIR")
-    folder = Path(chosen) if chosen else Path(macroslip.__file__).parent
-    files = [path for pattern in ("*.nbc", "*.nbi") for path in folder.rglob(pattern)] if folder.is_dir() else []
+    folder = kernel_folder()
+    files = [path for path in folder.rglob("*") if path.is_file()] if folder else []
     return {
-        "folder": str(folder),
+        "folder": str(folder) if folder else None,
         "files": len(files),
         "megabytes": sum(path.stat().st_size for path in files) / 1e6,
-        "writable": os.access(folder if folder.is_dir() else folder.parent, os.W_OK),
     }
 
 

@@ -132,8 +132,12 @@ def _read(file: Path, speed: float | None, drivetrain: Drivetrain) -> tuple[dict
     found["reading"] = list(hub.reading)
     found["drivetrain"] = {
         "default": drivetrain == Drivetrain(),
+        "mount": drivetrain.mount,
         "hub_to_bearing [m]": drivetrain.hub_to_bearing,
         "bearing_to_gearbox [m]": drivetrain.bearing_to_gearbox,
+        "front_to_rear [m]": drivetrain.front_to_rear,
+        "locating": drivetrain.locating,
+        "bearing": drivetrain.bearing,
         "tilt [deg]": math.degrees(drivetrain.tilt),
         "shaft_mass [kg]": drivetrain.shaft_mass,
         "shaft_mass_station [m]": drivetrain.shaft_mass_station,
@@ -228,11 +232,15 @@ def _words(drivetrain: dict[str, Any]) -> str:
     shaft = (
         f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub" if mass else "no shaft mass"
     )
-    return (
-        f"{'the default' if drivetrain['default'] else 'your'} drivetrain "
-        f"({drivetrain['hub_to_bearing [m]']:g} m from hub to bearing, "
-        f"{drivetrain['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
-    )
+    whose = "the default" if drivetrain["default"] else "your"
+    hub = drivetrain["hub_to_bearing [m]"]
+    if drivetrain["mount"] == "four-point":
+        return (
+            f"{whose} drivetrain ({hub:g} m from hub to front bearing, {drivetrain['front_to_rear [m]']:g} m from front to "
+            f"rear bearing, {drivetrain['locating']} locating, {shaft}): the {drivetrain['bearing']} bearing"
+        )
+    gearbox = drivetrain["bearing_to_gearbox [m]"]
+    return f"{whose} drivetrain ({hub:g} m from hub to bearing, {gearbox:g} m from bearing to gearbox, {shaft})"
 
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:

@@ -81,7 +81,7 @@ def study(
 
 def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:
     from macroslip.cli.printing import print_json, table
-    from macroslip.result.simulate import usable_processors
+    from macroslip.machine import usable_processors
     from macroslip.study.estimate import estimate
     from macroslip.study.progress import duration
     from macroslip.study.safe_text import safe_text

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING
@@ -20,6 +19,7 @@ from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import Record, new_record
 from macroslip.integrate.root import rising_at
 from macroslip.loads import BearingLoads, main_bearing_load
+from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
@@ -119,11 +119,6 @@ def simulate(
     notes = film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))
     cut_off = truncated_share(largest, truncation_load(case.bearing, case.lubricant))
     return to_dataset(case, model, edges, end, results, notes, cut_off)
-
-
-def usable_processors() -> int:
-    """Processors this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:
