@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from macroslip.case.case import Case
 
 #: Modules of this folder whose code is stored in results.
-_STORED_PARTS = ("study/cycles", "study/summary")
+_STORED_PARTS = ("study/cycles", "study/rating_values", "study/summary")
 
 
 def program() -> str:
@@ -24,7 +24,7 @@ def program() -> str:
     str
         64 hexadecimal digits.
     """
-    laws = sorted(compiled._extra_sources)
+    laws = compiled.own_laws()
     return hashlib.sha256(
         "\0".join([fingerprint(*KERNEL_PARTS, *RESULT_PARTS, *_STORED_PARTS), *laws]).encode()
     ).hexdigest()

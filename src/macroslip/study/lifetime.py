@@ -134,15 +134,11 @@ def percentiles(
     names = ("orbit_energy_mean", "peak_power_mean", "peak_power_max", "lowest_spin_ratio")
     wanted = {"power": (rate, _about("W", "energy dissipated by a roller per time"))}
     wanted |= {name: (study[name], dict(study[name].attrs)) for name in names}
-    shape = (len(bins.groups), bins.centres.size, study.sizes["row"], len(quantiles))
     data: dict[str, Any] = {}
     for name, (values, about) in wanted.items():
-        values, found = values.transpose("case", "row").values, np.full(shape, np.nan)
-        for group, number, members in _cells(bins):
-            for row in range(shape[2]):
-                good = values[members, row][np.isfinite(values[members, row])]
-                if good.size:
-                    found[group, number, row] = np.quantile(good, quantiles)
+        values = values.transpose("case", "row").values
+        runs = bins.by_cell(np.where(np.isfinite(values), values, np.nan))
+        found = np.stack([bins.as_array(runs.quantile(quantile)) for quantile in quantiles], axis=-1)
         data[name] = (("group", "bin", "row", "quantile"), found, about)
     _, used, _ = _bin_means(bins, rate.transpose("case", "row").values)
     data["runs"] = (("group", "bin"), used, _about("1", "runs that the quantiles rest on"))
@@ -178,6 +174,9 @@ def worst(
     InputError
         If there is no such variable.
     """
+    import pandas as pd
+    import xarray as xr
+
     names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
     if variable not in names:
         raise InputError(f"the summary has no variable '{variable}'", allowed=", ".join(map(str, names)))
@@ -188,35 +187,20 @@ def worst(
         [name for name in study.coords if not set(study[name].dims) <= {"case", "row"}], errors="ignore"
     )
     values = study[variable].transpose("case", "row").values
-    order = np.argsort(values if smallest else -values, axis=None, kind="stable")
-    order = order[np.isfinite(values.ravel()[order])][:count]
+    finite = pd.Series(values.ravel())[np.isfinite(values.ravel())]
+    order = (finite.nsmallest(count) if smallest else finite.nlargest(count)).index.to_numpy()
     cases, rows = np.unravel_index(order, values.shape)
-    import xarray as xr
-
     found = summary.isel(case=xr.DataArray(cases, dims="rank"), row=xr.DataArray(rows, dims="rank"))
     return found.assign_coords(rank=("rank", np.arange(1, order.size + 1), _about("1", f"rank by {variable}")))
 
 
-def _cells(bins: Binning) -> Any:
-    """Group, bin and runs of every cell that has runs."""
-    cell = bins.group * bins.centres.size + bins.bin
-    order = np.argsort(cell, kind="stable")
-    numbers, starts = np.unique(cell[order], return_index=True)
-    for number, members in zip(numbers, np.split(order, starts[1:]), strict=True):
-        yield *divmod(int(number), bins.centres.size), members
-
-
 def _bin_means(bins: Binning, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean of values (runs, k) in each cell over runs that have all k, their number, and that of the others."""
-    shape = (len(bins.groups), bins.centres.size)
-    means = np.full((*shape, values.shape[1]), np.nan)
-    used, left_out = np.zeros(shape), np.zeros(shape)
-    for group, number, members in _cells(bins):
-        good = members[np.isfinite(values[members]).all(axis=1)]
-        used[group, number], left_out[group, number] = good.size, members.size - good.size
-        if good.size:
-            means[group, number] = values[good].mean(axis=0)
-    return means, used, left_out
+    whole = np.isfinite(values).all(axis=1)
+    used = bins.as_array(bins.by_cell(whole).sum(), 0.0)
+    left_out = bins.as_array(bins.by_cell(~whole).sum(), 0.0)
+    means = bins.as_array(bins.by_cell(np.where(whole[:, None], values, np.nan)).mean())
+    return means, used[..., 0], left_out[..., 0]
 
 
 def _about(units: str, long_name: str) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import platform
@@ -9,6 +10,8 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from filelock import FileLock, Timeout
 
 from macroslip.errors import InputError
 
@@ -20,7 +23,7 @@ def locked(directory: Path) -> Iterator[None]:
     """Hold the folder for the length of the block.
 
     The lock belongs to the open file, not to its presence: when the process ends in any way, the system lifts it, and a
-    file that is left behind holds nothing. What stands in the file only tells others who it is.
+    file that is left behind holds nothing. What the file contains only tells others who holds it.
 
     Parameters
     ----------
@@ -30,47 +33,39 @@ def locked(directory: Path) -> Iterator[None]:
     Raises
     ------
     InputError
-        If another process holds it; the message says which, on what machine, and since when.
+        If another process holds it; the message names it, its machine, and since when.
     """
     path = directory / _NAME
-    file = path.open("a+", encoding="utf-8")
     try:
-        if not _try_lock(file.fileno()):
-            raise InputError(
-                f"another process is at work in this folder{_holder(path)}",
-                where=str(directory),
-                remedy="Wait for it or stop it, or choose another folder. open_study may look at it meanwhile.",
-            )
-        file.truncate(0)
+        lock = FileLock(path, timeout=0).acquire()
+    except Timeout:
+        raise InputError(
+            f"another process is at work in this folder{_holder(path)}",
+            where=str(directory),
+            remedy="Wait for it or stop it, or choose another folder. open_study may look at it meanwhile.",
+        ) from None
+    with lock:
         started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
-        json.dump({"process": os.getpid(), "machine": platform.node(), "since": started}, file)
-        file.flush()
+        _write(path, json.dumps({"process": os.getpid(), "machine": platform.node(), "since": started}))
         yield
-        file.truncate(0)
-    finally:
-        file.close()
+        _write(path, "")
+
+
+def _write(path: Path, text: str) -> None:
+    """Say who holds the lock. The first byte is the lock's: Windows lets nobody else read or write what is locked."""
+    # Where the system refuses, or the disk is full, the lock holds without it.
+    with contextlib.suppress(OSError), path.open("r+", encoding="utf-8") as file:
+        file.truncate(1)
+        file.seek(1)
+        file.write(text)
 
 
 def _holder(path: Path) -> str:
-    """Who holds the lock, as far as the file tells it."""
+    """Who holds the lock, as far as the file tells."""
     try:
-        holder = json.loads(path.read_text(encoding="utf-8"))
+        with path.open(encoding="utf-8") as file:
+            file.seek(1)
+            holder = json.load(file)
         return f" (process {int(holder['process'])} on {holder['machine']!s:.80}, since {holder['since']!s:.40})"
     except (OSError, ValueError, KeyError, TypeError):
         return ""
-
-
-def _try_lock(descriptor: int) -> bool:
-    try:
-        if os.name == "posix":
-            import fcntl
-
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        else:
-            import msvcrt
-
-            os.lseek(descriptor, 0x7FFFFFFF, os.SEEK_SET)  # beyond the text, which others may read
-            msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
-    except OSError:
-        return False
-    return True

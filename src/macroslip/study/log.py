@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import time
 from pathlib import Path
 
 from macroslip.study.safe_text import safe_text
 
 
-class Log:
+class Log(logging.FileHandler):
     """Appends lines with date and time (UTC) to a file.
 
     Parameters
@@ -18,19 +19,26 @@ class Log:
     """
 
     def __init__(self, path: Path):
-        self._file = path.open("a", encoding="utf-8")
+        super().__init__(path, encoding="utf-8")
+        self.setFormatter(_Lines("%(asctime)s %(message)s", "%Y-%m-%dT%H:%M:%SZ"))
 
     def write(self, text: str) -> None:
         """Add a line; further lines of the text are indented below it."""
-        first, *others = text.splitlines() or [""]
-        stamp = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
-        lines = [f"{stamp} {safe_text(first)}", *(f"    {safe_text(other)}" for other in others)]
-        # A full disk is found out, and told, where results are stored.
-        with contextlib.suppress(OSError):
-            self._file.write("\n".join(lines) + "\n")
-            self._file.flush()
+        self.handle(logging.LogRecord("macroslip", logging.INFO, __file__, 0, text, None, None))
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        """Go on: a full disk is found out, and reported, where results are stored."""
 
     def close(self) -> None:
         """Close the file."""
         with contextlib.suppress(OSError):
-            self._file.close()
+            super().close()
+
+
+class _Lines(logging.Formatter):
+    converter = staticmethod(time.gmtime)
+
+    def format(self, record: logging.LogRecord) -> str:
+        first, *others = str(record.msg).splitlines() or [""]
+        lines = [safe_text(first), *(f"    {safe_text(other)}" for other in others)]
+        return super().format(logging.makeLogRecord(record.__dict__ | {"msg": "\n".join(lines)}))

@@ -12,7 +12,9 @@ import numpy as np
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
+    from pandas.api.typing import DataFrameGroupBy
 
 #: A year [s], of 365.25 days.
 YEAR = 365.25 * 86400.0
@@ -147,6 +149,20 @@ class Binning:
             found["bin"] = ("bin", self.centres, about)
         return found
 
+    def by_cell(self, values: np.ndarray) -> DataFrameGroupBy:
+        """Values (runs, k) or (runs,) by group and bin."""
+        import pandas as pd
+
+        return pd.DataFrame(values).groupby([self.group, self.bin])
+
+    def as_array(self, cells: pd.DataFrame, empty: float = math.nan) -> np.ndarray:
+        """What was made of each cell's values, shape (groups, bins, k); `empty` where a cell has no runs."""
+        import pandas as pd
+
+        shape = len(self.groups), self.centres.size
+        every = pd.MultiIndex.from_product(map(range, shape))
+        return cells.reindex(every, fill_value=empty).to_numpy(dtype=float).reshape(*shape, -1)
+
     def probabilities(self, weights: Weights) -> np.ndarray:
         """Probability of each bin, shape (bins,)."""
         return np.array([weights.probability(float(centre), self.width) for centre in self.centres])
@@ -174,6 +190,8 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
     InputError
         If there is no such label, or it is no number.
     """
+    import pandas as pd
+
     labels = [name for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
     for name in (field, *by):
         if name not in labels:
@@ -186,15 +204,14 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
         raise InputError(f"the width of the bins is {width!r}", allowed="a number above 0")
     parameters = [name for name in labels if "." in str(name)]
     separate = [*_CHOICES, *parameters, *(name for name in by if name not in _CHOICES)]
-    keys = list(zip(*(study[name].values.tolist() for name in separate), strict=True))
-    distinct = list(dict.fromkeys(map(_same, keys)))
-    first = {_same(key): key for key in reversed(keys)}
-    numbers = {key: number for number, key in enumerate(distinct)}
+    labels_of_runs = pd.DataFrame({name: study[name].values for name in separate})
+    distinct = labels_of_runs.drop_duplicates()
     values = np.floor(study[field].values / width + 0.5)
     found = np.unique(values)
     return Binning(
-        groups=[dict(zip(separate, first[key], strict=True)) for key in distinct],
-        group=np.array([numbers[_same(key)] for key in keys], dtype=int),
+        groups=[dict(zip(distinct, row, strict=True)) for row in distinct.itertuples(index=False, name=None)],
+        # A parameter that a run leaves as it is in the base case is NaN, and the same in all such runs.
+        group=labels_of_runs.groupby(separate, sort=False, dropna=False).ngroup().to_numpy(),
         centres=found * width,
         bin=np.searchsorted(found, values),
         width=width,
@@ -204,8 +221,3 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
 
 _CHOICES = ("bearing", "lubricant", "model")
 _NO_LABELS = ("case", "run", "loads", "outcome", "reason", "key")
-
-
-def _same(key: tuple[Any, ...]) -> tuple[Any, ...]:
-    """NaN, which is not equal to itself, stands for the base case's value, which is."""
-    return tuple("base" if isinstance(value, float) and math.isnan(value) else value for value in key)
