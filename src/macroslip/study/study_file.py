@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from macroslip.study.loads_list import load_list
 from macroslip.study.settings import RECORDS, Setting
 from macroslip.study.study import Study
 from macroslip.study.study_keys import StudyFile, Variations
-from macroslip.study.variation import grid
+from macroslip.study.variation import Sample, grid
 
 _REMEDY = "docs/studies.md has a study file that runs."
 
@@ -95,15 +94,15 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         if f"{noun}s" in values
     }
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
-    variations = attempt("variations", lambda: _with_ranges(variations, base, records)) or variations
-    parameters = attempt("variations", lambda: _parameters(variations, models))
+    sample = attempt("variations", lambda: _sample(variations, base, records))
+    parameters = attempt("variations", lambda: _parameters(variations, sample, models))
     if problems:
         raise together(problems)
     combinations = [
         [*first, *second, *third]
         for first in grid(variations.grid or {})
         for second in variations.list or [[]]
-        for third in (variations.sample.points() if variations.sample else [[]])
+        for third in (sample.points() if sample else [[]])
     ]
     own = {noun: {_name(mapping, noun, getattr(base, noun)): getattr(base, noun)} for noun in RECORDS}
     return Study(
@@ -123,12 +122,14 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     )
 
 
-def _with_ranges(variations: Variations, base: Any, records: Mapping[str, Any]) -> Variations:
-    """The variations with the ranges of the study's bearing and lubricant where the sample asks for them."""
+def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sample | None:
+    """The sample, with the ranges of the study's bearing and lubricant where it asks for them."""
     sample = variations.sample
     asked = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
-    if not asked or base is None:
-        return variations
+    if not asked:
+        return sample
+    if base is None:  # what is wrong with the case comes first
+        return None
     found = {}
     for noun in asked:
         known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
@@ -139,7 +140,7 @@ def _with_ranges(variations: Variations, base: Any, records: Mapping[str, Any]) 
                 remedy=f"Make a study of each {noun}, or give low, high and unit.",
             )
         found[noun] = known[0]
-    return replace(variations, sample=sample.with_ranges_of(found))
+    return sample.with_ranges_of(found)
 
 
 def _name(case: Mapping[str, Any], noun: str, record: Record) -> str:
@@ -158,13 +159,13 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
     return {name: kind.read(name if name in catalogue else folder / name) for name in names}
 
 
-def _parameters(variations: Variations, models: Mapping[str, list[Setting]]) -> dict[str, str]:
+def _parameters(variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
-    ranges = variations.sample.ranges if variations.sample else {}
+    ranges = sample.ranges if sample else {}
     places: dict[str, dict[str, str]] = {
         "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
         "list": {one.key: one.unit for item in variations.list or [] for one in item},
-        "sample": {key: one.unit for key, one in ranges.items() if one is not None},
+        "sample": {key: one.unit for key, one in ranges.items()},
         "models": {one.key: one.unit for settings in models.values() for one in settings},
     }
     found: dict[str, str] = {}
