@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 # Files of tests that start processes or clusters share one worker each; the rest is spread.
 PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --dist worksteal
 
-.PHONY: reproduce test test-fast test-deep lint bench clean
+.PHONY: reproduce test test-fast test-deep lint docs bench clean
 
 reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/
 	$(BIN)/macroslip reproduce -o results
@@ -23,6 +23,9 @@ lint: $(VENV)/.ready  ## format, lint and types
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/pyright
+
+docs: $(VENV)/.ready  ## the documentation site in build/docs; warnings are errors
+	$(BIN)/python -m sphinx -W --keep-going -q -b html docs build/docs
 
 bench: $(VENV)/.ready  ## the integrator against its rivals, measured here and now
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'

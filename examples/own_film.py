@@ -1,6 +1,6 @@
 """A film law of one's own: Dowson and Higginson's smallest film of a line contact. own_laws.yaml names it.
 
-    python examples/own_film.py
+    python own_film.py
 
 compares the law's derivatives with differences, which every new law should survive. Importing this file, or naming it
 with --laws, registers the law.

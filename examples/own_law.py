@@ -1,6 +1,6 @@
 """A traction law of one's own: the Barus film without shear heating. 05_use_own_law.py simulates with it.
 
-    python examples/own_law.py
+    python own_law.py
 
 compares the law's derivatives with differences, which every new law should survive. Importing this file registers the
 law. Keep a law in a file that is imported, not in the script that runs it: only then do compiled kernels stay on disk.

@@ -28,6 +28,8 @@ _HOMES = {
     "Traces": "macroslip.case.case",
     "read_case": "macroslip.case.case_file",
     "simulate": "macroslip.result.simulate",
+    "progress_bar": "macroslip.progress",
+    "open_result": "macroslip.report.accessor",
     "rate_case": "macroslip.result.rating",
     "read_study": "macroslip.study.study_file",
     "run_study": "macroslip.study.run",
@@ -45,6 +47,8 @@ __all__ = ["__version__", *_HOMES, *_FOLDERS]
 
 
 def __getattr__(name: str) -> Any:
+    if name == "simulate":
+        import_module("macroslip.report.accessor")  # gives results their `result.macroslip.plot`
     if name in _HOMES:
         value = getattr(import_module(_HOMES[name]), name)
     elif name in _FOLDERS:

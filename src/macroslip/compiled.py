@@ -49,6 +49,11 @@ def depend_on(*functions: Callable) -> None:
                 dispatcher.enable_caching()
 
 
+def own_laws() -> list[str]:
+    """Sources of the laws of the user's own that kernels depend on, sorted."""
+    return sorted(_own_laws)
+
+
 @contextlib.contextmanager
 def _storing() -> Iterator[Path | None]:
     """Let numba store what is decorated in the block in the folder for these sources and laws, if there is one."""

@@ -10,7 +10,7 @@ from macroslip.catalogue.input_section import keys_of
 def test_init_then_run(folder, macroslip):
     done = macroslip("init")
     assert (done.code, done.err) == (0, "")
-    assert done.out == "written: case.yaml\nrun it:  macroslip run case.yaml -o case.nc\n"
+    assert done.out == "written:    case.yaml\nrun it:     macroslip run case.yaml -o case.nc\n"
     done = macroslip("run", "case.yaml", "-o", "case.nc")
     assert (done.code, done.err) == (0, "")
     assert "bundled case 14B, from 6.40203 s to 60 s, 8 complete orbits" in done.out
@@ -91,3 +91,28 @@ def test_what_the_template_comments_out_is_right_too(folder, macroslip):
         (folder / "one.yaml").write_text("loads: {bundled: 14B}\n" + uncommented + "\n")
         read_case("one.yaml")
     assert data["loads"] == {"bundled": "14B", "start": "0 s", "end": "60 s"}
+
+
+def test_every_other_example_does_what_its_last_line_proposes(folder, macroslip):
+    """The line is run as printed, in the folder it was printed in."""
+    written = {
+        "study": ["study.yaml"],
+        "bearing": ["bearing.yaml"],
+        "lubricant": ["lubricant.yaml"],
+        "laws": ["own_laws.yaml", "own_film.py", "own_law.py"],
+    }
+    for example, files in written.items():
+        done = macroslip("init", "--example", example)
+        assert (done.code, done.err) == (0, "")
+        assert [line.split()[1] for line in done.out.splitlines() if line.startswith("written:")] == files
+        assert all((folder / name).is_file() for name in files)
+    assert macroslip("bearing", "show", "bearing.yaml").code == 0
+    assert macroslip("lubricant", "show", "lubricant.yaml").code == 0
+    assert macroslip("study", "study.yaml", "--dry-run").out.startswith("Clearance of the base bearing")
+
+
+def test_an_example_replaces_nothing(folder, macroslip):
+    (folder / "own_law.py").write_text("precious")
+    done = macroslip("init", "--example", "laws")
+    assert done.code == 2 and "own_law.py: the file exists" in done.err
+    assert [path.name for path in folder.iterdir()] == ["own_law.py"]

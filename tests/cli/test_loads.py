@@ -1,5 +1,6 @@
 """`macroslip loads inspect` on genuine files."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -25,10 +26,17 @@ def test_an_openfast_file(macroslip):
     done = macroslip("loads", "inspect", path)
     assert (done.code, done.err) == (0, "")
     lines = done.out.splitlines()
-    assert lines[:6] == [
+    assert lines[:13] == [
         f"source    {path}",
         "kind      hub loads in non-rotating shaft axes",
-        "channels  shaft speed, fx, fy, fz, mx, my, mz",
+        "taken     Time (s)",
+        "          RotSpeed (rpm)",
+        "          LSShftFxa (kN)",
+        "          LSShftFys (kN)",
+        "          LSShftFzs (kN)",
+        "          LSShftMxa (kN-m)",
+        "          LSSTipMys (kN-m)",
+        "          LSSTipMzs (kN-m)",
         "samples   1201",
         "time      60 s to 120 s",
         "step      0.05 s",
@@ -78,7 +86,9 @@ def test_uneven_steps_are_told(folder, macroslip):
     [
         ("absent.outb", None, "absent.outb: no such file. Check the path; the current folder is FOLDER."),
         ("notes.txt", b"x", "notes.txt: the extension '.txt' is not known. Allowed: .outb (OpenFAST binary output), "
-                            ".out (OpenFAST text output), .parquet (table), .csv (table)."),
+                            ".out (OpenFAST text output), .%nn (Bladed output, any file of the run), .$nn (the same), "
+                            ".sel (HAWC2 output), .hdf5 (HAWC2 output in the format gtsdf), .parquet (table), "
+                            ".csv (table)."),
         ("empty.csv", b"", "empty.csv: the file is empty. Write or copy the file again."),
         ("cut.outb", b"\x02\x00\x01", "cut.outb: the file is cut off within its header. Copy the file again, or run "
                                       "OpenFAST again."),
@@ -95,3 +105,62 @@ def test_a_damaged_parquet_file(folder, macroslip):
     (folder / "loads.parquet").write_bytes((DATA / "hub14B_50Hz.parquet").read_bytes()[:3000])
     done = macroslip("loads", "inspect", "loads.parquet")
     assert done.code == 2 and done.err.startswith("error: loads.parquet: not readable as a Parquet table")
+
+
+def inspected(macroslip, *arguments):
+    done = macroslip("loads", "inspect", *arguments, "--json")
+    assert (done.code, done.err) == (0, "")
+    return json.loads(done.out)
+
+
+def test_a_drivetrain_of_ones_own_from_options_and_from_a_case_file(folder, macroslip):
+    path = DATA / "sample14B.outb"
+    (folder / "case.yaml").write_text(
+        "loads: {bundled: 14B}\ndrivetrain: {hub_to_bearing: 1.9 m, bearing_to_gearbox: 2.6 m, tilt: 6 deg}\n"
+    )
+    own = Drivetrain(hub_to_bearing=1.9, bearing_to_gearbox=2.6, tilt=np.radians(6.0))
+    options = ["--hub-to-bearing", "1.9 m", "--bearing-to-gearbox", "2600 mm", "--tilt", "6 deg"]
+    for arguments in (options, ["--case", "case.yaml"]):
+        found = inspected(macroslip, path, *arguments)
+        expected = main_bearing_load(HubLoads.read(path), own).force.mean(axis=0) / 1e3
+        means = [found["main bearing"][f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")]
+        assert means == pytest.approx(expected, rel=1e-12)
+        assert not found["drivetrain"]["default"]
+    both = inspected(macroslip, path, "--case", "case.yaml", "--bearing-to-gearbox", "2.2 m")
+    assert both["drivetrain"]["bearing_to_gearbox [m]"] == 2.2 and both["drivetrain"]["hub_to_bearing [m]"] == 1.9
+
+
+def test_a_four_point_mount_from_a_case_file(folder, macroslip):
+    path = DATA / "sample14B.outb"
+    (folder / "case.yaml").write_text(
+        "loads: {bundled: 14B}\ndrivetrain: {mount: four-point, hub_to_bearing: 1.3 m, front_to_rear: 1.8 m, "
+        "locating: rear, bearing: front}\n"
+    )
+    own = Drivetrain(mount="four-point", hub_to_bearing=1.3, front_to_rear=1.8, locating="rear", bearing="front")
+    expected = main_bearing_load(HubLoads.read(path), own).force.mean(axis=0) / 1e3
+    found = inspected(macroslip, path, "--case", "case.yaml")["main bearing"]
+    means = [found[f"{name} [kN]"]["mean"] for name in ("F_X0", "F_Y0", "F_Z0")]
+    assert means == pytest.approx(expected, rel=1e-12)
+    assert (
+        "1.8 m from front to rear bearing, rear locating"
+        in macroslip("loads", "inspect", path, "--case", "case.yaml").out
+    )
+
+
+def test_a_shaft_speed_of_ones_own(macroslip):
+    found = inspected(macroslip, DATA / "sample14B.outb", "--shaft-speed", "12 rpm")
+    assert found["statistics"]["shaft speed [rpm]"] == pytest.approx({"mean": 12, "std": 0, "min": 12, "max": 12})
+    assert found["reading"][-1].startswith("shaft speed: given, ")
+
+
+def test_an_option_without_a_unit_is_refused(macroslip):
+    done = macroslip("loads", "inspect", DATA / "sample14B.outb", "--hub-to-bearing", "1.9")
+    assert done.code == 2 and done.err.startswith("error: --hub-to-bearing is '1.9', which does not give its unit")
+
+
+def test_a_picture(folder, macroslip):
+    done = macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.png")
+    assert (done.code, done.err) == (0, "") and done.out.endswith("written: loads.png\n")
+    assert (folder / "loads.png").read_bytes().startswith(b"\x89PNG")
+    assert macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.png").code == 2
+    assert "Allowed: .png, .svg, .pdf" in macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.txt").err

@@ -32,7 +32,18 @@ def test_help_imports_nothing_heavy():
 
 def test_help_names_every_command_and_exit_code(macroslip):
     out = macroslip("--help").out
-    for word in ("init", "run", "reproduce", "loads", "bearing", "lubricant", "--version", "3 some rollers failed"):
+    for word in (
+        "init",
+        "run",
+        "reproduce",
+        "loads",
+        "bearing",
+        "lubricant",
+        "doctor",
+        "--install-completion",
+        "--version",
+        "3 some rollers failed",
+    ):
         assert word in " ".join(out.split())
 
 

@@ -245,4 +245,54 @@ def test_page_or_script_names_no_machine(path):
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_says_what_it_is_and_how_to_run_it(path):
-    assert re.match(rf'""".+\n(.*\n)*? {{4}}python examples/{re.escape(path.name)}', path.read_text(encoding="utf-8"))
+    assert re.match(rf'""".+\n(.*\n)*? *python (examples/)?{re.escape(path.name)}', path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.slow
+def test_the_site_builds_without_a_warning_and_asks_no_network(tmp_path):
+    done = python(
+        "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", str(ROOT / "docs"), str(tmp_path), folder=ROOT
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    pages = list(tmp_path.glob("*.html"))
+    assert {"index.html", "first-run.html", "search.html", "api.html"} <= {page.name for page in pages}
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        assert re.findall(r'<(?:script|link|img)[^>]+(?:src|href)="https?://[^"]*"', text) == [], page.name
+    assert (tmp_path / "searchindex.js").stat().st_size > 10_000
+
+
+NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
+def test_notebook_runs_and_shows_what_is_stored(path):
+    """Every number in the stored output of text comes out again; pictures have tests of their own."""
+    import nbformat
+    from nbclient import NotebookClient
+
+    stored = nbformat.read(path, as_version=4)
+    fresh = nbformat.read(path, as_version=4)
+    NotebookClient(fresh, timeout=600, kernel_name="python3").execute()
+    cells = [cell for cell in stored.cells if cell.cell_type == "code"]
+    again = [cell for cell in fresh.cells if cell.cell_type == "code"]
+    for old, new in zip(cells, again, strict=True):
+        before, after = (
+            [out.data["text/plain"] for out in cell.outputs if "image/png" not in out.get("data", {})]
+            for cell in (old, new)
+        )
+        for left, right in zip(before, after, strict=True):
+            numbers = [[float(one) for one in re.findall(NUMBER, text)] for text in (left, right)]
+            assert numbers[1] == pytest.approx(numbers[0], rel=5e-3, abs=2e-3), left
+
+
+def test_readme_for_a_package_index_has_no_link_into_the_repository():
+    """The substitutions of pyproject.toml, applied as the build does."""
+    import tomllib
+
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for one in settings["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]:
+        text = re.sub(one["pattern"], one["replacement"], text)
+    assert "](" not in text and "figure_3a.png" not in text and "first\nrun" in text

@@ -39,7 +39,7 @@ def test_which_variables_are_stored_matters():
 
 def test_a_changed_program_and_a_law_of_ones_own_change_it(monkeypatch):
     before = case_key(Case(loads=LOADS), {})
-    monkeypatch.setattr("macroslip.compiled._extra_sources", ["def traction(): ..."])
+    monkeypatch.setattr("macroslip.compiled._own_laws", ["def traction(): ..."])
     with_law = case_key(Case(loads=LOADS), {})
     monkeypatch.setattr(module, "fingerprint", lambda *parts: "another program")
     assert len({before, with_law, case_key(Case(loads=LOADS), {})}) == 3

@@ -17,6 +17,7 @@ from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
+from macroslip.overview import html_overview
 
 
 def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") -> None:
@@ -224,6 +225,27 @@ class Case:
             "traces": asdict(self.traces) if self.traces else None,
         }
 
+    def __repr__(self) -> str:
+        return f"<Case: {', '.join(text for _, text in self._overview())}>"
+
+    def _repr_html_(self) -> str:
+        return html_overview("Case", ["", ""], self._overview())
+
+    def _overview(self) -> list[tuple[str, str]]:
+        """What a reader wants to know first, each in a few words."""
+        loads, start, end = self.loads, self.window.start, self.window.end
+        count = "all rollers" if self.rollers == "all" else f"{len(self.roller_numbers)} rollers of each row"
+        opens = "after the first orbit" if start is None else f"at {start:g} s"
+        return [
+            ("loads", f"{loads.source}, {loads.time[0]:g} s to {loads.time[-1]:g} s"),
+            ("bearing", self.bearing.name),
+            ("lubricant", self.lubricant.name),
+            ("laws", f"model {self.laws.name}"),
+            ("integrator", type(self.integrator).__name__),
+            ("window", f"window {opens} to {loads.time[-1] if end is None else end:g} s"),
+            ("rollers", count),
+            ("traces", "no traces" if self.traces is None else f"traces every {self.traces.step:g} s"),
+        ]
 
 def _rollers(given: str | Iterable[int], count: int) -> str | tuple[int, ...]:
     """Numbers of the rollers as plain integers: NumPy's are welcome."""

@@ -19,6 +19,7 @@ from macroslip.catalogue.problems import shown, together, unknown_key
 from macroslip.catalogue.source import Source, parse, read_text
 from macroslip.catalogue.yaml_text import yaml_text
 from macroslip.errors import InputError
+from macroslip.overview import html_overview
 
 LONGEST_TEXT = 2000
 """Characters that a name, a title or a note may have."""
@@ -155,6 +156,19 @@ class Record(BaseModel):
         """Write a quantity, or another value for it, in the unit in which the quantity was given."""
         value = getattr(self, key) if si_value is None else si_value
         return dimensions(type(self))[key].text(value, self.provenance[key].unit)
+
+    def __repr__(self) -> str:
+        title = f": {self.title}" if self.title else ""
+        return f"<{type(self).__name__} {self.name}{title}>"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        rows = [
+            [key, f"{origin.value}{'' if origin.unit == '1' else f' {origin.unit}'}", TAGS[origin.tag], origin.note]
+            for key, origin in self.provenance.items()
+        ]
+        return html_overview(repr(self)[1:-1], ["quantity", "value", "where it comes from", "note"], rows)
 
     @property
     def provenance(self) -> Mapping[str, Provenance]:

@@ -9,6 +9,7 @@ import typer
 import macroslip
 from macroslip.cli.aggregate import aggregate
 from macroslip.cli.catalogue import bearing, lubricant
+from macroslip.cli.doctor import doctor
 from macroslip.cli.failure import command
 from macroslip.cli.init import init
 from macroslip.cli.loads import loads
@@ -20,7 +21,6 @@ from macroslip.cli.study import study
 app = typer.Typer(
     name="macroslip",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, or some cases of a study, 130 interrupted.",
@@ -31,6 +31,7 @@ command(app, study)
 command(app, aggregate)
 command(app, report)
 command(app, reproduce)
+command(app, doctor)
 app.add_typer(loads)
 app.add_typer(bearing)
 app.add_typer(lubricant)

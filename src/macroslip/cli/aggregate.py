@@ -36,7 +36,8 @@ def aggregate(
         list[str] | None, typer.Option(help="A further label to keep apart; may be given several times.")
     ] = None,
     form: Annotated[str, typer.Option("--format", help="csv or parquet.")] = "csv",
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the lifetime table and the files as JSON.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors, each on one line.")] = False,
 ) -> None:
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
     from macroslip.study.export import FORMATS, tables, write_tables
@@ -47,6 +48,12 @@ def aggregate(
     study = open_study(directory)
     found = tables(study, _weights(weibull, probabilities), years=years, field=field, width=width, by=by or ())
     written = write_tables(found, output, form)
+    if as_json:
+        from macroslip.cli.printing import print_json
+
+        lifetime = found["lifetime"].to_dict("records") if "lifetime" in found else None
+        print_json({"lifetime": lifetime, "written": [str(path) for path in written]})
+        return
     if quiet:
         return
     if "lifetime" in found:

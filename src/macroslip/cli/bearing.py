@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from macroslip.cli.failure import command
-from macroslip.errors import InputError, MacroslipError
+from macroslip.cli.needs import PICTURE, require
+from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
@@ -105,15 +106,10 @@ def draw(
             "this is no kind of drawing", where=str(output), allowed="a name that ends with .svg, .pdf or .png"
         )
     check_new_file(output, force=force)
-    bearing = Bearing.read(name_or_file)
-    try:
-        from macroslip.report.bearing_drawing import draw_bearing
+    require(PICTURE)
+    from macroslip.report.bearing_drawing import draw_bearing
 
-        figure = draw_bearing(bearing)
-    except ModuleNotFoundError as missing:
-        raise MacroslipError(
-            f"drawings need {missing.name}, which is not installed: pip install 'macroslip[figures]'."
-        ) from None
+    figure = draw_bearing(Bearing.read(name_or_file))
     with new_file(output, force=force) as temporary:
         figure.savefig(temporary, format=output.suffix[1:])
     typer.echo(f"written: {output}")

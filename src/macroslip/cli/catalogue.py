@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from macroslip.catalogue import Record
     from macroslip.lubricant import Lubricant
 
+AsJson = Annotated[bool, typer.Option("--json", help="Print it as JSON.")]
+
 
 def _catalogue(
     noun: str, load: Callable[[], type[Record]], derived: Callable[[Record], list[list[str]]]
@@ -26,22 +28,33 @@ def _catalogue(
         name=noun, help=f"The {noun} catalogue and files of your own.", no_args_is_help=True, rich_markup_mode=None
     )
 
-    def list() -> None:
-        from macroslip.cli.printing import table
+    def list(as_json: AsJson = False) -> None:
+        from macroslip.cli.printing import print_json, table
 
         records = [load().read(name) for name in load().catalogue()]
+        if as_json:
+            print_json([{"name": record.name, "title": record.title} for record in records])
+            return
         table(f"{noun}s", [("name", False), ("title", False)], [[record.name, record.title] for record in records])
 
     def show(
         name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")],
         yaml: Annotated[bool, typer.Option("--yaml", help="Print it as a file, to save and to change.")] = False,
+        as_json: AsJson = False,
     ) -> None:
         from macroslip.catalogue import TAGS
-        from macroslip.cli.printing import table
+        from macroslip.cli.printing import print_json, table
 
         record = load().read(name_or_file)
         if yaml:
             typer.echo(record.as_yaml(), nl=False)
+            return
+        if as_json:
+            from dataclasses import asdict
+
+            follows = [dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in derived(record)]
+            values = {key: asdict(origin) for key, origin in record.provenance.items()}
+            print_json({"name": record.name, "title": record.title, "values": values, "what follows from it": follows})
             return
         rows = [
             [key, _written(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]

@@ -23,7 +23,7 @@ def command(app: typer.Typer, function: Callable[..., None]) -> None:
     """Add a function to the commands of `app`, under its own name.
 
     What it raises becomes a paragraph on standard error and an exit code; only an error in the program itself shows a
-    traceback.
+    traceback. With the option `quiet` of the command it becomes one line, whatever it is.
     """
 
     @functools.wraps(function)
@@ -36,7 +36,8 @@ def command(app: typer.Typer, function: Callable[..., None]) -> None:
             tell("interrupted")
             raise typer.Exit(INTERRUPTED) from None
         except MacroslipError as error:
-            tell(f"error: {error}")
+            message = str(error)
+            tell(f"error: {' '.join(message.split()) if options.get('quiet') else message}")
             raise typer.Exit(BAD_INPUT) from None
         except OSError as error:
             place = f"{error.filename}: " if error.filename else ""
@@ -46,10 +47,15 @@ def command(app: typer.Typer, function: Callable[..., None]) -> None:
             tell("error: the computer has not enough memory for this. Use shorter loads, fewer rollers or no traces.")
             raise typer.Exit(BAD_INPUT) from None
         except Exception as error:
-            import traceback
+            if options.get("quiet"):
+                what = " ".join(f"{type(error).__name__}: {error}".split())
+                tell(f"internal error: {what}. This is a fault of macroslip; without --quiet it shows where.")
+            else:
+                import traceback
 
-            traceback.print_exc()
-            tell(f"internal error: {type(error).__name__}. This is a fault of macroslip; please report what is above.")
+                traceback.print_exc()
+                name = type(error).__name__
+                tell(f"internal error: {name}. This is a fault of macroslip; please report what is above.")
             raise typer.Exit(INTERNAL_ERROR) from None
 
     app.command()(run)

@@ -1,7 +1,8 @@
-"""`macroslip init`: a case file to start from; it runs as it stands."""
+"""`macroslip init`: a case file to start from, or another example; each runs as written."""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from importlib import resources
 from pathlib import Path
 from typing import Annotated
@@ -11,13 +12,61 @@ import typer
 from macroslip.files import check_new_file, new_file
 
 
+class Example(StrEnum):
+    """What `macroslip init` can write."""
+
+    CASE = "case"
+    STUDY = "study"
+    BEARING = "bearing"
+    LUBRICANT = "lubricant"
+    LAWS = "laws"
+
+
+#: Of each example its files: the first takes the name that the user gives, the others are written beside it.
+_FILES = {
+    Example.CASE: ("macroslip.cli/case_template.yaml",),
+    Example.STUDY: ("examples/study.yaml",),
+    Example.BEARING: ("macroslip.bearing/catalogue/skf-240-600-bc.yaml",),
+    Example.LUBRICANT: ("macroslip.lubricant/catalogue/vg460-pao.yaml",),
+    Example.LAWS: ("examples/own_laws.yaml", "examples/own_film.py", "examples/own_law.py"),
+}
+_NEXT = {
+    Example.CASE: "run it:     macroslip run {path} -o {stem}.nc",
+    Example.STUDY: "look at it: macroslip study {path} --dry-run\nrun it:     macroslip study {path} -o out",
+    Example.BEARING: "look at it: macroslip bearing show {path}\nuse it:     bearing: {path}, in a case file beside it",
+    Example.LUBRICANT: "look at it: macroslip lubricant show {path}\nuse it:     lubricant: {path}, in a case file beside it",
+    Example.LAWS: "run it:     macroslip run {path} --laws {folder}own_film.py --laws {folder}own_law.py -o {stem}.nc",
+}
+
+
 def init(
-    path: Annotated[Path, typer.Argument(help="The case file to write.")] = Path("case.yaml"),
-    force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
+    path: Annotated[
+        Path | None, typer.Argument(help="The file to write; case.yaml, or the name of the example, if not given.")
+    ] = None,
+    example: Annotated[
+        Example, typer.Option(help="What to write; `laws` also writes own_film.py and own_law.py beside the file.")
+    ] = Example.CASE,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
 ) -> None:
-    """Write a case file with every key explained."""
-    text = (resources.files("macroslip.cli") / "case_template.yaml").read_text(encoding="utf-8")
-    check_new_file(path, force=force)
-    with new_file(path, force=force) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    typer.echo(f"written: {path}\nrun it:  macroslip run {path} -o {path.with_suffix('.nc')}")
+    """Write a case file with every key explained, or another example."""
+    first, *others = _FILES[example]
+    path = path or Path("own_laws.yaml" if example is Example.LAWS else f"{example}.yaml")
+    texts = {path: _text(first)} | {path.with_name(name.rpartition("/")[2]): _text(name) for name in others}
+    for one in texts:
+        check_new_file(one, force=force)
+    for one, text in texts.items():
+        with new_file(one, force=force) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+        typer.echo(f"written:    {one}")
+    folder = "" if path.parent == Path() else f"{path.parent}/"
+    typer.echo(_NEXT[example].format(path=path, stem=path.with_suffix(""), folder=folder))
+
+
+def _text(name: str) -> str:
+    package, _, inside = name.partition("/")
+    if package != "examples":
+        return resources.files(package).joinpath(inside).read_text(encoding="utf-8")
+    # A wheel has the examples beside this module; a clone has them at its root, where people look for them.
+    here = Path(__file__)
+    folder = here.with_name("examples")
+    return ((folder if folder.is_dir() else here.parents[3] / "examples") / inside).read_text(encoding="utf-8")

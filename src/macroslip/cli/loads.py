@@ -1,58 +1,153 @@
-"""`macroslip loads inspect`: what a load file holds, and what it does to the main bearing."""
+"""`macroslip loads inspect`: what a load file holds, how it was read, and what it does to the main bearing."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from macroslip.cli.failure import command
+from macroslip.cli.needs import PICTURE, require
+from macroslip.errors import InputError
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
+    from macroslip.case.case import Case
+    from macroslip.catalogue.units import Dimension
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 
 loads = typer.Typer(name="loads", help="Load histories.", no_args_is_help=True, rich_markup_mode=None)
 
+_PICTURES = (".png", ".svg", ".pdf")
+
+
+def _length(help: str) -> Any:
+    return typer.Option(help=f"{help}: '1.9 m'. Overrides the case file's.")
+
 
 def inspect(
-    file: Annotated[Path, typer.Argument(help="Output of OpenFAST, Bladed or HAWC2, or a table.")],
-    shaft_speed: Annotated[
-        str | None, typer.Option(help="Constant shaft speed of a file without one, such as '20 rpm'.")
+    file: Annotated[
+        Path,
+        typer.Argument(
+            help="Output of OpenFAST, Bladed or HAWC2, or a table (.parquet, .csv) of hub or bearing loads."
+        ),
+    ],
+    case: Annotated[
+        Path | None, typer.Option(help="Case file whose drivetrain, bearing and lubricant are used; its loads are not.")
     ] = None,
+    hub_to_bearing: Annotated[str | None, _length("From the hub centre to the main bearing")] = None,
+    bearing_to_gearbox: Annotated[str | None, _length("From the main bearing to the gearbox's support")] = None,
+    tilt: Annotated[str | None, typer.Option(help="Tilt of the shaft, positive with the hub end up: '5 deg'.")] = None,
+    shaft_mass: Annotated[str | None, typer.Option(help="Mass of the shaft without the rotor: '8000 kg'.")] = None,
+    shaft_mass_station: Annotated[str | None, _length("Distance of that mass behind the hub centre")] = None,
+    shaft_speed: Annotated[
+        str | None, typer.Option(help="Constant shaft speed, in place of the file's: '20 rpm'.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="A picture of the loads to write: .png, .svg or .pdf.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the picture if it exists.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
-    """Show what was read from a load file, its statistics, and the load on the main bearing."""
-    from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
+    """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
+    from macroslip.catalogue.units import ANGLE, LENGTH, MASS, SPEED
+    from macroslip.cli.printing import print_json
 
-    if _holds_bearing_loads(file):
-        _describe(BearingLoads.read(file), "load on the main bearing", "shaft speed, F_X0, F_Y0, F_Z0")
-        return
-    hub_loads = HubLoads.read(file, shaft_speed=_speed(shaft_speed))
-    _describe(hub_loads, "hub loads in non-rotating shaft axes", "shaft speed, fx, fy, fz, mx, my, mz")
-    drivetrain = Drivetrain()
-    bearing = main_bearing_load(hub_loads, drivetrain)
-    typer.echo()
-    _statistics(f"load on the main bearing, with {_words(drivetrain)}", _forces(bearing))
+    if output is not None:
+        if output.suffix not in _PICTURES:
+            raise InputError("this is no kind of picture", where=str(output), allowed=f"{', '.join(_PICTURES)}")
+        require(PICTURE)
+        check_new_file(output, force=force, inputs=[file, *([case] if case else [])])
+    speed = _given("--shaft-speed", shaft_speed, SPEED)
+    own = {
+        "hub_to_bearing": _given("--hub-to-bearing", hub_to_bearing, LENGTH),
+        "bearing_to_gearbox": _given("--bearing-to-gearbox", bearing_to_gearbox, LENGTH),
+        "tilt": _given("--tilt", tilt, ANGLE),
+        "shaft_mass": _given("--shaft-mass", shaft_mass, MASS),
+        "shaft_mass_station": _given("--shaft-mass-station", shaft_mass_station, LENGTH),
+    }
+    base = _base_case(case)
+    drivetrain = _drivetrain(base, {name: value for name, value in own.items() if value is not None})
+    found, bearing = _read(file, speed, drivetrain)
+    if as_json:
+        print_json(found)
+    else:
+        _print(found)
+    if output is not None:
+        figure = _picture(bearing, base, drivetrain)
+        with new_file(output, force=force) as temporary:
+            figure.savefig(temporary, format=output.suffix[1:], dpi=150)
+        if not as_json:
+            typer.echo(f"\nwritten: {output}")
 
 
 command(loads, inspect)
 
 
-def _speed(text: str | None) -> float | None:
-    """A speed with its unit, in rad/s."""
-    from macroslip.catalogue.quantity import parse_quantity
-    from macroslip.catalogue.units import SPEED
-
+def _given(option: str, text: str | None, dimension: Dimension) -> float | None:
+    """The value of an option, in SI."""
     if text is None:
         return None
-    return SPEED.to_si(*parse_quantity(text, SPEED, "--shaft-speed"))
+    from macroslip.catalogue.quantity import parse_quantity
+
+    return dimension.to_si(*parse_quantity(text, dimension, option))
+
+
+def _base_case(path: Path | None) -> Case | None:
+    if path is None:
+        return None
+    from macroslip.case.case_file import read_case
+
+    return read_case(path)
+
+
+def _drivetrain(case: Case | None, own: dict[str, float]) -> Drivetrain:
+    """The case file's drivetrain, or the default one, with single values replaced."""
+    from dataclasses import replace
+
+    from macroslip.loads import Drivetrain
+
+    return replace(case.drivetrain if case else Drivetrain(), **own)
+
+
+def _read(file: Path, speed: float | None, drivetrain: Drivetrain) -> tuple[dict[str, Any], BearingLoads]:
+    """What is shown of a file, and the load it makes on the main bearing."""
+    from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
+
+    if _holds_bearing_loads(file):
+        if speed is not None:
+            raise InputError(
+                "--shaft-speed is for hub loads", where=str(file), remedy="Write the speed into the table's column."
+            )
+        bearing = BearingLoads.read(file)
+        return _described(bearing, "load on the main bearing"), bearing
+    hub = HubLoads.read(file, shaft_speed=speed)
+    bearing = main_bearing_load(hub, drivetrain)
+    found = _described(hub, "hub loads in non-rotating shaft axes")
+    found["reading"] = list(hub.reading)
+    found["drivetrain"] = {
+        "default": drivetrain == Drivetrain(),
+        "mount": drivetrain.mount,
+        "hub_to_bearing [m]": drivetrain.hub_to_bearing,
+        "bearing_to_gearbox [m]": drivetrain.bearing_to_gearbox,
+        "front_to_rear [m]": drivetrain.front_to_rear,
+        "locating": drivetrain.locating,
+        "bearing": drivetrain.bearing,
+        "tilt [deg]": math.degrees(drivetrain.tilt),
+        "shaft_mass [kg]": drivetrain.shaft_mass,
+        "shaft_mass_station [m]": drivetrain.shaft_mass_station,
+    }
+    found["main bearing"] = _statistics(_forces(bearing))
+    return found, bearing
 
 
 def _holds_bearing_loads(file: Path) -> bool:
-    """Whether a table's columns are those of main-bearing loads; reading it tells what else may be wrong with it."""
+    """Whether a table's columns are those of main-bearing loads; what else is wrong with it shows when it is read."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -69,34 +164,25 @@ def _holds_bearing_loads(file: Path) -> bool:
     return any(name.strip(' "').startswith("F_X0") for name in names)
 
 
-def _describe(read: HubLoads | BearingLoads, kind: str, channels: str) -> None:
-    """Print where the loads come from, how they are sampled, and their statistics."""
+def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
+    """Where loads come from, how they are sampled, and their statistics."""
     import numpy as np
 
     steps = np.diff(read.time)
-    step = f"{np.median(steps):.6g} s"
-    if np.ptp(steps) > 1e-3 * np.median(steps):
-        step += f" (median; {steps.min():.6g} s to {steps.max():.6g} s)"
-    typer.echo(f"source    {read.source}")
-    typer.echo(f"kind      {kind}")
-    typer.echo(f"channels  {channels}")
-    for line in getattr(read, "reading", ()):
-        typer.echo(f"read      {line}")
-    typer.echo(f"samples   {read.time.size}")
-    typer.echo(f"time      {read.time[0]:.6g} s to {read.time[-1]:.6g} s")
-    typer.echo(f"step      {step}")
-    typer.echo()
     quantities = {"shaft speed [rpm]": read.shaft_speed * 30.0 / math.pi}
     if hasattr(read, "moment"):
-        quantities |= {
-            f"{name} [kN]": values / 1e3 for name, values in zip(("fx", "fy", "fz"), read.force.T, strict=True)
-        }
-        quantities |= {
-            f"{name} [kN m]": values / 1e3 for name, values in zip(("mx", "my", "mz"), read.moment.T, strict=True)
-        }
+        names = ("fx [kN]", "fy [kN]", "fz [kN]", "mx [kN m]", "my [kN m]", "mz [kN m]")
+        quantities |= dict(zip(names, np.hstack([read.force, read.moment]).T / 1e3, strict=True))
     else:
         quantities |= _forces(read)
-    _statistics("statistics over the samples", quantities)
+    return {
+        "source": read.source,
+        "kind": kind,
+        "samples": read.time.size,
+        "time [s]": [read.time[0], read.time[-1]],
+        "step [s]": {"median": np.median(steps), "min": steps.min(), "max": steps.max()},
+        "statistics": _statistics(quantities),
+    }
 
 
 def _forces(read: BearingLoads) -> dict[str, NDArray]:
@@ -105,18 +191,66 @@ def _forces(read: BearingLoads) -> dict[str, NDArray]:
     return forces | {"radial [kN]": radial / 1e3}
 
 
-def _statistics(title: str, quantities: dict[str, NDArray]) -> None:
+def _statistics(quantities: dict[str, NDArray]) -> dict[str, dict[str, float]]:
+    return {
+        name: {"mean": values.mean(), "std": values.std(), "min": values.min(), "max": values.max()}
+        for name, values in quantities.items()
+    }
+
+
+def _print(found: dict[str, Any]) -> None:
+    step = found["step [s]"]
+    uneven = step["max"] - step["min"] > 1e-3 * step["median"]
+    spread = f" (median; {step['min']:.6g} s to {step['max']:.6g} s)" if uneven else ""
+    lines = {"source": found["source"], "kind": found["kind"]}
+    if "reading" in found:
+        lines["taken"] = "\n          ".join(found["reading"])
+    start, end = found["time [s]"]
+    lines |= {
+        "samples": f"{found['samples']}",
+        "time": f"{start:.6g} s to {end:.6g} s",
+        "step": f"{step['median']:.6g} s{spread}",
+    }
+    for name, text in lines.items():
+        typer.echo(f"{name:<10}{text}")
+    typer.echo()
+    _table("statistics over the samples", found["statistics"])
+    if "main bearing" in found:
+        typer.echo()
+        _table(f"load on the main bearing, with {_words(found['drivetrain'])}", found["main bearing"])
+
+
+def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
     from macroslip.cli.printing import number, table
 
-    rows = [
-        [name, *(number(float(value)) for value in (values.mean(), values.std(), values.min(), values.max()))]
-        for name, values in quantities.items()
-    ]
+    rows = [[name, *(number(float(value)) for value in values.values())] for name, values in statistics.items()]
     table(title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows)
 
 
-def _words(drivetrain: Drivetrain) -> str:
-    return (
-        f"the default drivetrain ({drivetrain.hub_to_bearing:g} m from hub to bearing, "
-        f"{drivetrain.bearing_to_gearbox:g} m from bearing to gearbox, no shaft mass)"
+def _words(drivetrain: dict[str, Any]) -> str:
+    mass = drivetrain["shaft_mass [kg]"]
+    shaft = (
+        f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub" if mass else "no shaft mass"
     )
+    whose = "the default" if drivetrain["default"] else "your"
+    hub = drivetrain["hub_to_bearing [m]"]
+    if drivetrain["mount"] == "four-point":
+        return (
+            f"{whose} drivetrain ({hub:g} m from hub to front bearing, {drivetrain['front_to_rear [m]']:g} m from front to "
+            f"rear bearing, {drivetrain['locating']} locating, {shaft}): the {drivetrain['bearing']} bearing"
+        )
+    gearbox = drivetrain["bearing_to_gearbox [m]"]
+    return f"{whose} drivetrain ({hub:g} m from hub to bearing, {gearbox:g} m from bearing to gearbox, {shaft})"
+
+
+def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:
+    """The picture of the loads, with the load that the upwind row carries in the case's bearing."""
+    from macroslip.bearing.frames import ROWS
+    from macroslip.case.case import Case
+    from macroslip.report.load_figures import load_figure
+    from macroslip.result.row_loads import roller_load_series
+
+    parts = {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws} if base else {}
+    case = Case(loads=bearing, drivetrain=drivetrain, **parts)
+    time, rollers = roller_load_series(case, float(bearing.time[0]), float(bearing.time[-1]))
+    return load_figure(bearing, time, rollers[:, ROWS.index("upwind")].sum(axis=-1))

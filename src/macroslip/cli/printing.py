@@ -1,10 +1,11 @@
-"""Tables on standard output."""
+"""Tables and JSON on standard output."""
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -46,3 +47,31 @@ def number(value: float) -> str:
     if math.isnan(value):
         return "-"
     return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.4g}"
+
+
+def print_json(data: Mapping[str, Any] | list[Any]) -> None:
+    """Print data as JSON, for scripts; numbers in full, and null for a number that is not finite."""
+    import typer
+
+    typer.echo(json.dumps(_plain(data), indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def _plain(data: Any) -> Any:
+    """The same in types that JSON has.
+
+    Examples
+    --------
+    >>> _plain({"a": (1, float("nan"))})
+    {'a': [1, None]}
+    """
+    if isinstance(data, Mapping):
+        return {str(key): _plain(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_plain(value) for value in data]
+    if isinstance(data, bool | int | str) or data is None:
+        return data
+    if hasattr(data, "item"):  # a number of numpy
+        return _plain(data.item())
+    if isinstance(data, float):
+        return data if math.isfinite(data) else None
+    return str(data)

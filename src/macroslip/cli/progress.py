@@ -30,22 +30,15 @@ def progress_bar(
         To be called as `report(label, done, total)`; None if nothing is shown.
     """
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
+
+    from macroslip.progress import PREPARING, bar_with_time_left
 
     console = Console(stderr=True)
     if quiet or not console.is_terminal:
         yield None
         return
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        TextColumn("left"),
-    )
-    bar = Bar(*columns, console=console, transient=True, speed_estimate_period=600.0)
-    task = bar.add_task("preparing (the first run of all compiles)", total=None)
+    bar = bar_with_time_left(console)
+    task = bar.add_task(PREPARING, total=None)
 
     def report(label: str, done: int, total: int) -> None:
         if stages is not None:

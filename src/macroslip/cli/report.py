@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.errors import InputError, MacroslipError
+from macroslip.cli.needs import FIGURES, require
+from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
 PAGE = "report.html"
@@ -32,11 +33,7 @@ def report(
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
 ) -> None:
     """Make one self-contained HTML page on results."""
-    import importlib.util
-
-    for name in ("matplotlib", "jinja2"):
-        if importlib.util.find_spec(name) is None:
-            raise MacroslipError(f"a report needs {name}, which is not installed: pip install 'macroslip[figures]'")
+    require(FIGURES)
     from macroslip.report.study_page import is_study
 
     if output is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -24,7 +24,8 @@ def run(
     ] = None,
     threads: Annotated[int | None, typer.Option(min=1, help="Threads; all processors if not given.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only, each error on one line.")] = False,
 ) -> None:
     """Compute the slip of a case's rollers, as netCDF."""
     from macroslip.case.case_file import files_named_in, read_case
@@ -44,38 +45,57 @@ def run(
     content = dataset.to_netcdf(engine="h5netcdf")
     with new_file(output, force=force) as temporary:
         temporary.write_bytes(content)
-    if not quiet:
+    if as_json:
+        from macroslip.cli.printing import print_json
+
+        print_json(_numbers(dataset) | {"written": str(output)})
+    elif not quiet:
         _summary(dataset)
         typer.echo(f"written: {output}")
     if _tell_failures(dataset):
         raise typer.Exit(ROLLERS_FAILED)
 
 
-def _summary(dataset: xr.Dataset) -> None:
-    """Print what a user looks at first, row by row."""
-    from macroslip.cli.printing import number, table
-
-    rows = []
+def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
+    """What a user looks at first, by row."""
+    rows = {}
     for name in dataset.row.values:
         row = dataset.sel(row=name)
         # Of rollers that failed nothing is known; a window without a complete orbit has no peaks.
         values = (row.energy.sum("interface", skipna=False).dropna("roller"), row.peak_power, row.min_spin_ratio)
         energy, peak, spin = (value.values[~value.isnull().values] for value in values)
-        rows.append(
-            [
-                str(name),
-                number(energy.mean() if energy.size else float("nan")),
-                number(peak.max() if peak.size else float("nan")),
-                number(spin.min() if spin.size else float("nan")),
-                f"{int((row.status != 0).sum())} of {row.sizes['roller']}",
-            ]
-        )
-    start, end = dataset.attrs["window_start"], dataset.attrs["window_end"]
-    orbits = dataset.sizes["orbit"]
+        rows[str(name)] = {
+            "mean energy per roller [J]": energy.mean() if energy.size else float("nan"),
+            "highest peak power [W]": peak.max() if peak.size else float("nan"),
+            "lowest spin / pure rolling [1]": spin.min() if spin.size else float("nan"),
+            "rollers": row.sizes["roller"],
+            "failed rollers": int((row.status != 0).sum()),
+        }
+    return {
+        "title": dataset.attrs["title"],
+        "window": {
+            "start [s]": dataset.attrs["window_start"],
+            "end [s]": dataset.attrs["window_end"],
+            "complete orbits": dataset.sizes["orbit"],
+        },
+        "rows": rows,
+    }
+
+
+def _summary(dataset: xr.Dataset) -> None:
+    """Print what a user looks at first, row by row."""
+    from macroslip.cli.printing import number, table
+
+    found = _numbers(dataset)
+    rows = []
+    for name, row in found["rows"].items():
+        *values, rollers, failed = row.values()
+        rows.append([name, *map(number, values), f"{failed} of {rollers}"])
+    start, end, orbits = found["window"].values()
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
     numbers = "mean energy per roller [J]", "highest peak power [W]", "lowest spin / pure rolling [1]", "failed rollers"
     headings = [("row", False), *((heading, True) for heading in numbers)]
-    table(f"{dataset.attrs['title']}, {window}", headings, rows)
+    table(f"{found['title']}, {window}", headings, rows)
 
 
 def _tell_failures(dataset: xr.Dataset) -> bool:

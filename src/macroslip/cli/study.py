@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from macroslip.cli.failure import CASES_FAILED, tell
+from macroslip.cli.needs import CYCLES, WORKERS, require
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
@@ -26,15 +27,21 @@ _LINE_EVERY = 60.0
 
 
 def study(
-    study: Annotated[Path, typer.Argument(help="The study file; docs/studies.md explains its keys.")],
+    study: Annotated[
+        Path,
+        typer.Argument(help="The study file; `macroslip init --example study` writes one with every key explained."),
+    ],
     output: Annotated[Path | None, typer.Option("--output", "-o", help="The folder for the results.")] = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Start so many worker processes here.")] = None,
     scheduler: Annotated[str | None, typer.Option(help="Use the workers of this Dask scheduler.")] = None,
     threads: Annotated[int | None, typer.Option(min=1, help="Threads over the rollers of a case.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on where an earlier run ended.")] = False,
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show runs, time and disk; compute nothing.")] = False,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Check what the study needs, show runs, time and disk; compute nothing.")
+    ] = False,
     strict: Annotated[bool, typer.Option("--strict", help="Stop at the first failure.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary, or the dry run, as JSON.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only, each error on one line.")] = False,
 ) -> None:
     """Compute all cases of a study; a failed one does not stop it."""
     from macroslip.study.study_file import read_study
@@ -42,8 +49,9 @@ def study(
     checked = read_study(study)
     for remark in checked.loads.remarks:
         tell(f"note: {remark}")
+    require(*([WORKERS] if workers or scheduler else []), *([CYCLES] if checked.cycles else []))
     if dry_run:
-        _dry_run(checked, workers, threads)
+        _dry_run(checked, workers, threads, as_json)
         return
     if output is None:
         raise InputError(
@@ -62,15 +70,17 @@ def study(
             strict=strict,
             progress=report,
         )
-    if not quiet:
+    if as_json:
+        _summary_as_json(ended, output)
+    elif not quiet:
         _summary(ended, output)
     if ended.failures:
         _failures(ended, output)
         raise typer.Exit(CASES_FAILED)
 
 
-def _dry_run(checked: Study, workers: int | None, threads: int | None) -> None:
-    from macroslip.cli.printing import table
+def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:
+    from macroslip.cli.printing import print_json, table
     from macroslip.machine import usable_processors
     from macroslip.study.estimate import estimate
     from macroslip.study.progress import duration
@@ -82,9 +92,20 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None) -> None:
         (len(checked.lubricants), "lubricants"), (len(checked.models), "models"),
         (len(checked.variations), "combinations of parameters"),
     ]  # fmt: skip
+    processors = min(usable_processors(), (workers or 1) * (threads or usable_processors()))
+    if as_json:
+        known = bool(found.looked_at)
+        print_json(
+            {name: count for count, name in parts}
+            | {
+                "runs": found.runs, "looked at": found.looked_at, "processors": processors,
+                "seconds on one processor": found.seconds if known else None,
+                "bytes": found.bytes if known else None, "problems": list(found.problems),
+            }
+        )  # fmt: skip
+        return
     rows = [[name, str(count)] for count, name in parts] + [["runs", str(found.runs)]]
     if found.looked_at:
-        processors = min(usable_processors(), (workers or 1) * (threads or usable_processors()))
         rows += [
             ["length of a load history, mean", f"{found.simulated_seconds:.6g} s"],
             ["time on one processor", duration(found.seconds)],
@@ -156,6 +177,22 @@ def _summary(ended: Ended, output: Path) -> None:
         + f", in {duration(counts.seconds)}"
     )
     typer.echo(f"written: {output}")
+
+
+def _summary_as_json(ended: Ended, output: Path) -> None:
+    from macroslip.cli.printing import print_json
+
+    counts = ended.progress
+    print_json(
+        {
+            "runs": counts.total, "computed": counts.computed, "unchanged": counts.unchanged, "failed": counts.failed,
+            "left": counts.total - counts.done, "seconds": counts.seconds, "folder": str(output),
+            "failures": [
+                {"labels": labels, "outcome": str(outcome), "reason": reason}
+                for labels, outcome, reason in ended.failures
+            ],
+        }
+    )  # fmt: skip
 
 
 def _failures(ended: Ended, output: Path) -> None:

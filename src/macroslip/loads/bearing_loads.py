@@ -64,7 +64,13 @@ class BearingLoads:
         return BearingLoads(**series.cut(columns, start, end, self.source), source=self.source)
 
     def __repr__(self) -> str:
-        return series.summary("BearingLoads", self, dict(zip(("F_X0", "F_Y0", "F_Z0"), self.force.T, strict=True)))
+        return series.summary("BearingLoads", self, self._forces())
+
+    def _repr_html_(self) -> str:
+        return series.html_summary("BearingLoads", self, self._forces())
+
+    def _forces(self) -> dict[str, NDArray[np.float64]]:
+        return dict(zip(("F_X0", "F_Y0", "F_Z0"), self.force.T, strict=True))
 
     @classmethod
     def constant(cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05) -> BearingLoads:

@@ -92,9 +92,13 @@ class HubLoads:
         return HubLoads(**series.cut(columns, start, end, self.source), source=self.source, reading=self.reading)
 
     def __repr__(self) -> str:
-        return series.summary(
-            "HubLoads", self, {"fx": self.force[:, 0], "fy": self.force[:, 1], "fz": self.force[:, 2]}
-        )
+        return series.summary("HubLoads", self, self._forces())
+
+    def _repr_html_(self) -> str:
+        return series.html_summary("HubLoads", self, self._forces())
+
+    def _forces(self) -> dict[str, NDArray[np.float64]]:
+        return dict(zip(("fx", "fy", "fz"), self.force.T, strict=True))
 
     @classmethod
     def constant(

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from macroslip.catalogue.entry import is_finite_number
 from macroslip.errors import InputError
+from macroslip.overview import html_overview
 
 GAP_FACTOR = 1.5
 """A step longer than this many median steps is a gap: something between two samples was lost."""
@@ -120,6 +121,18 @@ def summary(kind: str, record: Any, forces: Mapping[str, NDArray]) -> str:
         f"<{kind} from {record.source}: {record.time.size} samples, {record.time[0]:g} s to {record.time[-1]:g} s; means: "
         f"{means}, shaft {rpm:.4g} rpm>"
     )
+
+
+def html_summary(kind: str, record: Any, forces: Mapping[str, NDArray]) -> str:
+    """The same as a table for a notebook, with the spread of every channel."""
+    channels = {"shaft speed [rpm]": record.shaft_speed * 30.0 / math.pi}
+    channels |= {f"{name} [kN]": values / 1e3 for name, values in forces.items()}
+    rows = [
+        [name, *(f"{value:.4g}" for value in (values.mean(), values.std(), values.min(), values.max()))]
+        for name, values in channels.items()
+    ]
+    span = f"{record.time.size} samples, {record.time[0]:g} s to {record.time[-1]:g} s"
+    return html_overview(f"{kind} from {record.source}: {span}", ["", "mean", "std", "min", "max"], rows)
 
 
 def uniform_time(duration: float, step: float) -> NDArray[np.float64]:

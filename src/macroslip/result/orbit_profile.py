@@ -100,8 +100,9 @@ def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) ->
     """
     import xarray as xr
 
+    angles = position(result)
     every = max(1, math.ceil(result.sizes["time"] / samples))
-    angle = position(result).isel(time=slice(None, None, every))
+    angle = angles.isel(time=slice(None, None, every))
     load = result.roller_load.isel(time=slice(None, None, every)).values
     dims = _middles(sectors)
     values = np.empty((result.sizes["row"], angle.sizes["time"], sectors))

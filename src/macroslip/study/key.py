@@ -24,7 +24,7 @@ def program() -> str:
     str
         64 hexadecimal digits.
     """
-    laws = sorted(compiled._extra_sources)
+    laws = compiled.own_laws()
     return hashlib.sha256(
         "\0".join([fingerprint(*KERNEL_PARTS, *RESULT_PARTS, *_STORED_PARTS), *laws]).encode()
     ).hexdigest()

@@ -1,0 +1,67 @@
+"""Optional packages: which command needs which, and the line that installs them."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+from macroslip.errors import MacroslipError
+
+
+class Need(NamedTuple):
+    """Packages that a use of the program needs, by the name they are imported under, and the extra that has them."""
+
+    use: str
+    packages: tuple[str, ...]
+    extra: str
+
+
+FIGURES = Need("a page or a picture", ("matplotlib", "jinja2"), "figures")
+PICTURE = Need("a picture", ("matplotlib",), "figures")
+WORKERS = Need("--workers and --scheduler", ("dask", "distributed", "cryptography"), "cluster")
+CYCLES = Need("cycles: true", ("fatpack",), "cycles")
+
+#: What the commands need beyond the package's own dependencies.
+COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
+    {
+        "macroslip report": (FIGURES,),
+        "macroslip reproduce": (FIGURES,),
+        "macroslip loads inspect -o": (PICTURE,),
+        "macroslip bearing draw": (PICTURE,),
+        "macroslip study --workers": (WORKERS,),
+        "macroslip study, with cycles: true": (CYCLES,),
+    }
+)
+
+
+def missing(need: Need) -> list[str]:
+    """Packages of a need that are not installed.
+
+    Examples
+    --------
+    >>> missing(Need("nothing", ("json",), "all")), missing(Need("more", ("json", "no_such_package"), "all"))
+    ([], ['no_such_package'])
+    """
+    return [name for name in need.packages if importlib.util.find_spec(name) is None]
+
+
+def require(*needs: Need) -> None:
+    """Refuse a use of the program whose packages are not all installed.
+
+    Raises
+    ------
+    MacroslipError
+        With the packages and the line that installs them.
+    """
+    lacking = {need: missing(need) for need in needs}
+    found = {need: names for need, names in lacking.items() if names}
+    if not found:
+        return
+    uses = " and ".join(need.use for need in found)
+    names = ", ".join(dict.fromkeys(name for names in found.values() for name in names))
+    extras = ",".join(dict.fromkeys(need.extra for need in found))
+    raise MacroslipError(
+        f"not installed, but needed for {uses}: {names}. Install with: pip install 'macroslip[{extras}]'"
+    )

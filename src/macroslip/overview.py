@@ -1,0 +1,34 @@
+"""How objects show themselves in a notebook: a heading and a small table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+
+def html_overview(title: str, headings: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A heading over a table, every text in it escaped.
+
+    Parameters
+    ----------
+    title : str
+    headings : sequence of str
+        One a column; empty ones make no line of headings.
+    rows : iterable of sequences
+        As long as the headings.
+
+    Returns
+    -------
+    str
+        HTML.
+
+    Examples
+    --------
+    >>> html_overview("a < b", ["", ""], [["x", 1]])
+    '<div><strong>a &lt; b</strong><table><tr><td>x</td><td>1</td></tr></table></div>'
+    """
+    lines = ["".join(f"<td>{escape(str(cell))}</td>" for cell in row) for row in rows]
+    if any(headings):
+        lines.insert(0, "".join(f"<th>{escape(heading)}</th>" for heading in headings))
+    table = "".join(f"<tr>{line}</tr>" for line in lines)
+    return f"<div><strong>{escape(title)}</strong><table>{table}</table></div>"

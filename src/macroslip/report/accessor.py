@@ -1,0 +1,146 @@
+"""What a result can draw in a notebook: `result.macroslip.plot.load_zone()`.
+
+Importing this module registers the accessor with xarray; `macroslip.simulate` and `macroslip.open_result` bring it.
+Pictures need matplotlib, which is imported when the first one is drawn.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import xarray as xr
+
+from macroslip.overview import html_overview
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def open_result(path: str | Path) -> xr.Dataset:
+    """Read what `macroslip run` wrote; the result has `result.macroslip.plot`.
+
+    Parameters
+    ----------
+    path : path
+        A netCDF file.
+
+    Returns
+    -------
+    xarray.Dataset
+        In memory.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it cannot be read.
+    """
+    from macroslip.errors import InputError
+    from macroslip.report.read import read_results
+
+    if Path(path).is_dir():
+        raise InputError("this is a folder", where=str(path), allowed="one netCDF file that macroslip run wrote")
+    (result,) = read_results(Path(path)).values()
+    return result
+
+
+@xr.register_dataset_accessor("macroslip")
+class Macroslip:
+    """What macroslip adds to a result: `plot`, and a summary where it is shown."""
+
+    def __init__(self, result: xr.Dataset):
+        self._result = result
+
+    @property
+    def plot(self) -> Plot:
+        """Pictures of the result."""
+        return Plot(self._result)
+
+    def _rows(self) -> list[list[str]]:
+        """Of each row its name, mean energy of a roller, lowest spin over pure rolling, and how many rollers failed."""
+        found = []
+        for name in self._result.row.values:
+            row = self._result.sel(row=name)
+            energy, spin = row.energy.sum("interface", skipna=False).mean("roller"), row.min_spin_ratio.min()
+            failed = f"{int((row.status != 0).sum())} of {row.status.size}"
+            found.append([str(name), f"{float(energy):.4g}", f"{float(spin):.3g}", failed])
+        return found
+
+    def __repr__(self) -> str:
+        rows = "; ".join(
+            f"{name} {energy} J a roller, lowest spin {spin} of pure rolling, {failed} rollers failed"
+            for name, energy, spin, failed in self._rows()
+        )
+        return f"<{self._result.attrs.get('title', 'result')}: {rows}>"
+
+    def _repr_html_(self) -> str:
+        headings = ["row", "mean energy of a roller [J]", "lowest spin / pure rolling [1]", "failed rollers"]
+        return html_overview(self._result.attrs.get("title", "result"), headings, self._rows())
+
+
+class Plot:
+    """Pictures of a result. Each takes the axes to draw on, and makes a figure of its own without; it returns the axes."""
+
+    def __init__(self, result: xr.Dataset):
+        self._result = result
+
+    def energy(self, *, axes: Axes | None = None) -> Axes:
+        """Energy of a mean roller of each row, by interface."""
+        from macroslip.report.bearing_figures import plot_energy_by_interface
+
+        return _legend(plot_energy_by_interface(axes or _new_axes(), self._result.energy))
+
+    def rollers(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
+        """Energy of every roller of a row, over the mean of the row."""
+        from macroslip.report.bearing_figures import plot_roller_spread
+
+        return plot_roller_spread(axes or _new_axes(), self._result.energy, row)
+
+    def peaks(self, *, axes: Axes | None = None) -> Axes:
+        """Share of orbits whose largest power exceeds a value, for both rows."""
+        from macroslip.report.bearing_figures import plot_peak_exceedance
+
+        return _legend(plot_peak_exceedance(axes or _new_axes(), self._result))
+
+    def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
+        """Spin of a roller over time, with that of pure rolling; the first roller if none is named. Needs traces."""
+        from macroslip.report.trace_figures import plot_spin_over_time
+
+        number = int(self._result.roller[0]) if roller is None else roller
+        return plot_spin_over_time(axes or _new_axes(), self._result, row, number)
+
+    def load_zone(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
+        """Roller load over angle and time. Needs traces that begin with the loads."""
+        from macroslip.report.bearing_figures import plot_load_zone
+        from macroslip.result.orbit_profile import load_zone
+
+        return plot_load_zone(axes or _new_axes(), load_zone(self._result), row)
+
+    def orbit(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
+        """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
+
+        Needs traces that begin with the loads.
+        """
+        from macroslip.report.bearing_figures import plot_energy_over_orbit
+        from macroslip.result.orbit_profile import energy_over_orbit
+
+        drawn = plot_energy_over_orbit(axes or _new_axes("polar"), energy_over_orbit(self._result), row)
+        drawn.legend(frameon=False, fontsize=9, loc="upper left", bbox_to_anchor=(1.05, 1.0))
+        return drawn
+
+
+def _new_axes(projection: str | None = None) -> Axes:
+    """Axes in a new figure, which a notebook shows by itself."""
+    from macroslip.errors import MacroslipError
+
+    try:
+        from matplotlib import pyplot
+    except ModuleNotFoundError:
+        raise MacroslipError("a picture needs matplotlib: pip install 'macroslip[figures]'") from None
+    _, axes = pyplot.subplots(layout="constrained", subplot_kw={"projection": projection})
+    return axes
+
+
+def _legend(axes: Axes) -> Axes:
+    axes.legend(frameon=False, fontsize=9)
+    return axes

@@ -1,0 +1,51 @@
+"""Every command that prints a table prints it as JSON too: the same values, in full."""
+
+import json
+
+import pytest
+import xarray as xr
+
+from macroslip import Bearing, Lubricant
+
+
+@pytest.mark.parametrize(("noun", "kind"), [("bearing", Bearing), ("lubricant", Lubricant)])
+def test_catalogue(macroslip, noun, kind):
+    listed = json.loads(macroslip(noun, "list", "--json").out)
+    assert [one["name"] for one in listed] == kind.catalogue()
+    for one in listed:
+        shown = json.loads(macroslip(noun, "show", one["name"], "--json").out)
+        assert shown["name"] == one["name"]
+        for key, origin in kind.read(one["name"]).provenance.items():
+            assert shown["values"][key]["value"] == origin.value and shown["values"][key]["tag"] == origin.tag
+
+
+def test_run(quick, macroslip, folder):
+    done = macroslip("run", quick(), "-o", "case.nc", "--json")
+    assert (done.code, done.err) == (0, "")
+    found = json.loads(done.out)
+    result = xr.load_dataset(folder / "case.nc", engine="h5netcdf")
+    energy = result.energy.sum("interface").mean("roller")
+    for row in ("downwind", "upwind"):
+        assert found["rows"][row]["mean energy per roller [J]"] == pytest.approx(float(energy.sel(row=row)), rel=1e-12)
+        # Two seconds hold no complete orbit, so there is no peak.
+        assert found["rows"][row]["highest peak power [W]"] is None
+    assert found["written"] == "case.nc" and found["window"]["complete orbits"] == 0
+
+
+def test_study(folder, macroslip):
+    (folder / "study.yaml").write_text(
+        "case: {rollers: [0], loads: {end: 2 s}}\nloads: {bundled: [14B]}\n", encoding="utf-8"
+    )
+    found = json.loads(macroslip("study", "study.yaml", "--dry-run", "--json").out)
+    assert found["runs"] == 1 and found["load histories"] == 1 and found["bytes"] > 0
+    done = macroslip("study", "study.yaml", "-o", "out", "--json", "--quiet")
+    found = json.loads(done.out)
+    assert (found["runs"], found["computed"], found["failed"], found["left"], found["failures"]) == (1, 1, 0, 0, [])
+
+
+def test_an_error_is_one_line_with_quiet(folder, macroslip):
+    (folder / "case.yaml").write_text("bearing: [1\nloads: 3\nrollers: some\n")
+    several = macroslip("run", "case.yaml", "-o", "case.nc")
+    one = macroslip("run", "case.yaml", "-o", "case.nc", "--quiet")
+    assert several.code == one.code == 2
+    assert one.err.count("\n") == 1 and one.err.split() == several.err.split()

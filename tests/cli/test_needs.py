@@ -1,0 +1,54 @@
+"""A command whose packages are missing names them and the line that installs them, before it computes anything."""
+
+import importlib.util
+
+import pytest
+
+from macroslip.cli.needs import CYCLES, FIGURES, WORKERS, require
+from macroslip.errors import MacroslipError
+
+
+@pytest.fixture
+def without(monkeypatch):
+    """Make packages look as if they were not installed."""
+    found = importlib.util.find_spec
+
+    def hide(*names):
+        monkeypatch.setattr(
+            importlib.util, "find_spec", lambda name, *rest: None if name in names else found(name, *rest)
+        )
+
+    return hide
+
+
+def test_all_is_there():
+    require(FIGURES, WORKERS, CYCLES)
+
+
+def test_the_message_names_package_and_remedy(without):
+    without("fatpack")
+    with pytest.raises(MacroslipError, match=r"for cycles: true: fatpack\. .*pip install 'macroslip\[cycles\]'$"):
+        require(FIGURES, CYCLES)
+
+
+def test_several_needs_are_one_message_with_one_remedy(without):
+    without("fatpack", "distributed")
+    with pytest.raises(MacroslipError) as error:
+        require(WORKERS, CYCLES)
+    assert "--workers and --scheduler and cycles: true: distributed, fatpack." in str(error.value)
+    assert str(error.value).endswith("pip install 'macroslip[cluster,cycles]'")
+
+
+def test_a_dry_run_refuses_what_the_run_would_refuse(folder, macroslip, without):
+    (folder / "study.yaml").write_text("loads: {bundled: [14B]}\ncycles: true\n")
+    without("fatpack", "distributed")
+    done = macroslip("study", "study.yaml", "--dry-run", "--workers", "2")
+    assert (done.code, done.out) == (2, "")
+    assert "distributed" in done.err and "fatpack" in done.err and "[cluster,cycles]" in done.err
+
+
+def test_doctor_says_which_command_lacks_what(macroslip, without):
+    without("matplotlib")
+    lines = macroslip("doctor").out.splitlines()
+    assert any(line.startswith("macroslip report ") and "lacks matplotlib" in line for line in lines)
+    assert any(line.startswith("macroslip study --workers ") and "ready" in line for line in lines)

@@ -1,0 +1,81 @@
+"""`result.macroslip`: pictures of a result, each of the numbers that the result holds."""
+
+import subprocess
+import sys
+
+import matplotlib
+import numpy as np
+import pytest
+
+from macroslip import BearingLoads, Case, InputError, Traces, open_result, simulate
+
+matplotlib.use("agg")
+
+
+@pytest.fixture(scope="module")
+def result():
+    loads = BearingLoads.constant([0.0, -343.5e3, 100e3], 2.143, 14.0)
+    return simulate(Case(loads=loads, rollers=[0, 7, 14, 21], traces=Traces(step=0.02)))
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    from matplotlib import pyplot
+
+    yield
+    pyplot.close("all")
+
+
+def test_spin_is_the_traced_one(result):
+    axes = result.macroslip.plot.spin("upwind", 14)
+    lines = {line.get_label(): line.get_xydata() for line in axes.lines}
+    one = result.sel(row="upwind", roller=14)
+    assert np.array_equal(lines["roller"], np.column_stack([one.time, abs(one.spin)]))
+    assert np.array_equal(lines["pure rolling"][:, 1], abs(one.spin_pure.values))
+
+
+def test_energy_bars_are_the_means_over_the_rollers(result):
+    axes = result.macroslip.plot.energy()
+    heights = [bar.get_height() for bar in axes.patches]
+    assert heights == pytest.approx(result.energy.mean("roller").values.ravel(), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["energy", "peaks", "rollers", "spin", "load_zone", "orbit"])
+def test_every_picture_is_drawn_on_new_axes_or_on_those_given(result, name):
+    from matplotlib.figure import Figure
+
+    draw = getattr(result.macroslip.plot, name)
+    assert draw().figure.axes
+    projection = {"projection": "polar"} if name == "orbit" else {}
+    axes = Figure().add_subplot(**projection)
+    assert draw(axes=axes) is axes
+
+
+def test_pictures_that_need_traces_say_so(result):
+    bare = result.drop_dims("time")
+    for name in ("spin", "load_zone", "orbit"):
+        with pytest.raises(InputError, match=r"has no traces.*step: 0.05 s"):
+            getattr(bare.macroslip.plot, name)()
+
+
+def test_the_summary_has_the_numbers_of_the_result(result):
+    energy = float(result.energy.sel(row="downwind").sum("interface").mean("roller"))
+    for text in (repr(result.macroslip), result.macroslip._repr_html_()):
+        assert f"{energy:.4g}" in text and "0 of 4" in text
+
+
+def test_a_file_opens_with_its_pictures(result, tmp_path):
+    (tmp_path / "case.nc").write_bytes(result.to_netcdf(engine="h5netcdf"))
+    opened = open_result(tmp_path / "case.nc")
+    assert opened.energy.equals(result.energy) and opened.macroslip.plot.energy().patches
+    with pytest.raises(InputError, match="this is a folder"):
+        open_result(tmp_path)
+
+
+def test_importing_the_package_imports_neither_xarray_nor_matplotlib():
+    code = "import sys, macroslip; print([name for name in ('xarray', 'matplotlib') if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+    code = "import sys; from macroslip import simulate; print('matplotlib' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"

@@ -1,0 +1,25 @@
+"""The bar in Python: it counts what `simulate` reports, and leaves nothing behind."""
+
+import io
+import sys
+
+from macroslip import BearingLoads, Case, progress_bar, simulate
+
+
+class Terminal(io.StringIO):
+    """A terminal to write to."""
+
+    def isatty(self):
+        return True
+
+
+def test_the_bar_counts_the_rollers(monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    case = Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 0.0, 1.0), rollers=[0, 5])
+    with progress_bar() as progress:
+        seen = []
+        result = simulate(case, progress=lambda done, total: (seen.append((done, total)), progress(done, total)))
+    assert (result.status == 0).all() and sorted(seen) == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    assert "rollers" in screen.getvalue() and "4/4" in screen.getvalue()
