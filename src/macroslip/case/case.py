@@ -247,6 +247,7 @@ class Case:
             ("traces", "no traces" if self.traces is None else f"traces every {self.traces.step:g} s"),
         ]
 
+
 def _rollers(given: str | Iterable[int], count: int) -> str | tuple[int, ...]:
     """Numbers of the rollers as plain integers: NumPy's are welcome."""
     if isinstance(given, str) and given == "all":
