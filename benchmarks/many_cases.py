@@ -23,6 +23,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from macroslip import open_study, run_study
+from macroslip.machine import usable_processors
 from macroslip.study.cluster import check_installed
 from macroslip.study.study_file import study_of
 
@@ -282,7 +283,7 @@ def main() -> None:
     parser.add_argument("--only", choices=("speed", "scheduler", "memory", "coordinator"))
     given = parser.parse_args()
     check_installed()
-    found: dict[str, object] = {"cores": len(os.sched_getaffinity(0)), "load_before": os.getloadavg()[0]}
+    found: dict[str, object] = {"cores": usable_processors(), "load_before": os.getloadavg()[0]}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run_study(study(1, 5.0), folder / "compile")
