@@ -11,7 +11,7 @@ def safe_text(text: object) -> str:
     Examples
     --------
     >>> safe_text("run\x1b[2J\n7.outb")
-    'run\\\\x1b[2J\\\\n7.outb'
+    'run\\x1b[2J\\n7.outb'
     """
     return "".join(
         character if character.isprintable() else character.encode("unicode_escape").decode() for character in str(text)
