@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -17,6 +16,7 @@ from benchmarks.outcome import errors
 from benchmarks.scan import timed
 from macroslip.case.case import Case
 from macroslip.loads import HubLoads
+from macroslip.machine import usable_processors
 from macroslip.result.simulate import simulate
 
 _REPEATS = 3
@@ -78,7 +78,7 @@ def two_threads(*, quick: bool) -> dict[str, float] | None:
         `hashing`: of work that has nothing to do with rollers and shows what two processors were worth at that moment;
         and the wall times behind them [s]. Each is the least of several, taken in turn.
     """
-    if len(os.sched_getaffinity(0)) < 2:
+    if usable_processors() < 2:
         return None
     end = 200.0 if quick else None
     case = Case(loads=HubLoads.bundled(_CASE).window(None, end))

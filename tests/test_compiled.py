@@ -6,13 +6,16 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 
 import macroslip
+from macroslip import kernel_cache
 from macroslip.kernel_cache import KEPT
 
 SOURCE = Path(macroslip.__file__).parents[1]
@@ -166,6 +169,14 @@ def test_kernels_are_stored_where_the_user_can_write(small):
     (temporary / f"macroslip-{os.getuid()}").chmod(0o777)
     assert ask(small, XDG_CACHE_HOME=str(file), TMPDIR=str(temporary)) == (4.0, 0, "None")
     assert not list(SOURCE.rglob("kernel.*.nbi")) and not list((small / "src").rglob("*.nbi"))
+
+
+def test_a_system_without_numbers_of_users(monkeypatch, tmp_path):
+    """Windows has none; its temporary files are the user's own."""
+    monkeypatch.delattr(os, "getuid", raising=False)
+    monkeypatch.setattr(numba.config, "CACHE_DIR", "")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    assert list(kernel_cache._homes())[-1] == tmp_path / "macroslip"
 
 
 def small_disk(folder):

@@ -15,7 +15,7 @@ from numba.extending import register_jitable
 
 from macroslip.kernel_cache import kernel_folder
 
-_extra_sources: list[str] = []
+_own_laws: list[str] = []
 _stored: list[Any] = []
 
 
@@ -29,7 +29,7 @@ def depend_on(*functions: Callable) -> None:
     too: kernels are stored with the names of their types, and a process that gave the module another name would not
     find them.
     """
-    before = len(_extra_sources)
+    before = len(_own_laws)
     for function in functions:
         plain = getattr(function, "py_func", function)
         path = Path(plain.__code__.co_filename)
@@ -41,9 +41,9 @@ def depend_on(*functions: Callable) -> None:
             else repr((plain.__code__.co_code, plain.__code__.co_consts))
         )
         source = f"{plain.__module__}\n{text}"
-        if source not in _extra_sources:
-            _extra_sources.append(source)
-    if len(_extra_sources) > before:
+        if source not in _own_laws:
+            _own_laws.append(source)
+    if len(_own_laws) > before:
         with _storing() as folder:
             for dispatcher in _stored if folder else ():
                 dispatcher.enable_caching()
@@ -57,7 +57,7 @@ def own_laws() -> list[str]:
 @contextlib.contextmanager
 def _storing() -> Iterator[Path | None]:
     """Let numba store what is decorated in the block in the folder for these sources and laws, if there is one."""
-    laws = hashlib.sha256("\0".join(sorted(_extra_sources)).encode()).hexdigest()[:12] if _extra_sources else ""
+    laws = hashlib.sha256("\0".join(sorted(_own_laws)).encode()).hexdigest()[:12] if _own_laws else ""
     folder, before = kernel_folder(laws), numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(folder or before)
     try:

@@ -1,6 +1,8 @@
 """The command as a whole: version, help, speed of starting, usage errors, the progress bar."""
 
 import io
+import json
+import os
 import subprocess
 import sys
 import time
@@ -18,6 +20,21 @@ def start(*arguments):
 
 def test_version(macroslip):
     assert macroslip("--version").out == f"macroslip {package.__version__}\n"
+
+
+def test_names_that_the_output_cannot_show_are_written_by_numbers(tmp_path):
+    """As on Windows, where output that goes to a file lacks most characters."""
+    code = "from macroslip.cli import main; main()"
+    for command in (["init", "Λ.yaml"], ["show", "Λ.yaml"], ["show", "Λ.yaml", "--json"]):
+        done = subprocess.run(
+            [sys.executable, "-c", code, "bearing", *command],
+            cwd=tmp_path,
+            env=os.environ | {"PYTHONIOENCODING": "cp1252"},
+            capture_output=True,
+            timeout=60,
+        )
+        assert (done.returncode, done.stderr) == (0, b"") and rb"\u039b" in done.stdout
+    assert json.loads(done.stdout)
 
 
 def test_help_imports_nothing_heavy():

@@ -29,6 +29,26 @@ def test_other_names_do_not_fit():
         assert pattern.fields_of(name) is None
 
 
+@pytest.mark.parametrize(
+    ("pattern", "name", "fields"),
+    [
+        ("s{seed:d}.csv", "s0x12.csv", None),
+        ("s{seed:d}.csv", "s0b11.csv", None),
+        ("s{seed:d}.csv", "s 1.csv", None),
+        ("s{seed:d}.csv", "s1.0.csv", None),
+        ("v{speed:g}.csv", "vnan.csv", None),
+        ("v{speed:g}.csv", "vinf.csv", None),
+        ("v{speed:g}.csv", "v .5.csv", None),
+        ("v{speed:g}.csv", "v.5.csv", {"speed": 0.5}),
+        ("v{speed:g}.csv", "v1e1.csv", {"speed": 10.0}),
+        ("s{_seed:d}.csv", "s007.csv", {"_seed": 7}),
+    ],
+)
+def test_a_number_is_plain_decimal_digits(pattern, name, fields):
+    """As one would read it; libraries that read formats take hexadecimal numbers, blanks and NaN as well."""
+    assert Pattern(pattern).fields_of(name) == fields
+
+
 def test_a_field_that_stands_twice_has_one_value():
     pattern = Pattern("seed{seed:d}/run_{seed:d}.outb")
     assert pattern.fields_of("seed3/run_3.outb") == {"seed": 3}

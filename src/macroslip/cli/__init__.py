@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import sys
 from typing import Annotated
 
 import typer
@@ -54,4 +56,8 @@ def _options(
 
 def main() -> None:
     """Entry point of the command `macroslip`."""
+    for stream in (sys.stdout, sys.stderr):
+        # Where output goes to a file or a pipe, Windows encodes it in a way that lacks most characters.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     app()

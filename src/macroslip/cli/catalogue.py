@@ -70,7 +70,7 @@ def _catalogue(
     def schema() -> None:
         import json
 
-        typer.echo(json.dumps(load().json_schema(), indent=2, ensure_ascii=False))
+        typer.echo(json.dumps(load().json_schema(), indent=2))
 
     list.__doc__ = f"List the {noun}s of the catalogue."
     show.__doc__ = f"Show every value of a {noun} and its origin."

@@ -53,7 +53,7 @@ def print_json(data: Mapping[str, Any] | list[Any]) -> None:
     """Print data as JSON, for scripts; numbers in full, and null for a number that is not finite."""
     import typer
 
-    typer.echo(json.dumps(_plain(data), indent=2, ensure_ascii=False, allow_nan=False))
+    typer.echo(json.dumps(_plain(data), indent=2, allow_nan=False))
 
 
 def _plain(data: Any) -> Any:

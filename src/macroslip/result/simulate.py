@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -106,10 +106,14 @@ def simulate(
     pool = ThreadPoolExecutor(threads or usable_processors())
     try:
         futures = {pool.submit(run, row, angles[row][number]): (row, number) for row, number in jobs}
-        for done, future in enumerate(as_completed(futures), start=1):
-            results[futures[future]] = future.result()
-            if progress:
-                progress(done, len(jobs))
+        pending = set(futures)
+        while pending:
+            # On Windows an interrupt is noticed only when a wait ends.
+            finished, pending = wait(pending, timeout=0.5, return_when=FIRST_COMPLETED)
+            for future in finished:
+                results[futures[future]] = future.result()
+                if progress:
+                    progress(len(results), len(jobs))
     except BaseException:
         # An interrupt, say: the rollers under way look at this in every step.
         limits.interrupt[0] = 1
