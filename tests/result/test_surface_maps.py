@@ -40,7 +40,9 @@ def test_sums_along_the_roller_are_those_of_the_stations(turbulent):
 def test_densities_times_areas_are_the_energies(turbulent):
     density = energy_density(turbulent)
     total = (density * turbulent.cell_area).sum(("angle", "station")).transpose("row", "raceway").values
-    np.testing.assert_allclose(total, turbulent.energy.sel(interface=["inner", "outer"]).sum("roller").values, rtol=1e-9)
+    np.testing.assert_allclose(
+        total, turbulent.energy.sel(interface=["inner", "outer"]).sum("roller").values, rtol=1e-9
+    )
     bearing = Case(loads=HubLoads.bundled("14B")).bearing
     along = roller_energy_density(turbulent, bearing)
     area = math.pi * bearing.roller_diameter * bearing.roller_length / turbulent.sizes["station"]

@@ -54,7 +54,9 @@ def test_the_summary_keeps_what_the_rating_gives(case):
     assert values["static_safety"] == float(rating.static_safety)
     assert values["reference_life"] == float(rating.reference_life.sel(load_along_roller="hertz"))
     assert values["largest_pressure"] == float(rating.largest_pressure.max())
-    assert values["damage_equivalent_load_10"] == float(rating.damage_equivalent_load.sel(load="radial").isel(wohler_exponent=1))
+    assert values["damage_equivalent_load_10"] == float(
+        rating.damage_equivalent_load.sel(load="radial").isel(wohler_exponent=1)
+    )
     for name, (units, _) in VARIABLES.items():
         if name in rating:
             assert rating[name].units == units

@@ -22,7 +22,8 @@ FILM_REGIMES = ("below 1", "1 and above")
 
 class Way(NamedTuple):
     """The way of a roller over a step: its position φ at the first sample [rad], the ratio of orbital to shaft speed,
-    and the shaft's angles before and after [rad]."""
+    and the shaft's angles before and after [rad].
+    """
 
     start_angle: float
     orbit_ratio: float

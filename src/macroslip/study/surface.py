@@ -94,9 +94,7 @@ def weighted_maps(
             "surface_energy": (("group", *dims), found, energy_about),
             "surface_power_density": (("group", *_PLACES), largest, dict(study.surface_power_density.attrs)),
         },
-        bins.coordinates(study, bins=False)
-        | {name: study[name] for name in (*dims,)}
-        | {"cell_area": _area(study)},
+        bins.coordinates(study, bins=False) | {name: study[name] for name in (*dims,)} | {"cell_area": _area(study)},
         {"title": f"Maps of the raceways: {study.attrs.get('title', '')}", "years": years},
     )
 

@@ -9,9 +9,9 @@ from typing import Annotated
 
 import numpy as np
 
-from macroslip.catalogue.forms import Choice, Quantity, Text, Whole
 from macroslip.catalogue import Record
 from macroslip.catalogue.fields import dimensions
+from macroslip.catalogue.forms import Choice, Quantity, Text, Whole
 from macroslip.catalogue.input_section import MappingOf, OrWord, input_section
 from macroslip.catalogue.problems import unknown_key
 from macroslip.catalogue.source import Place, Source
