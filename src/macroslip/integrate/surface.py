@@ -21,8 +21,16 @@ FILM_REGIMES = ("below 1", "1 and above")
 
 
 class Way(NamedTuple):
-    """The way of a roller over a step: its position φ at the first sample [rad], the ratio of orbital to shaft speed,
-    and the shaft's angles before and after [rad].
+    """The way of a roller over a step.
+
+    Attributes
+    ----------
+    start_angle : float
+        Its position φ at the first sample [rad].
+    orbit_ratio : float
+        Orbital speed over shaft speed [-].
+    before, after : float
+        The shaft's angle before and after the step [rad].
     """
 
     start_angle: float
@@ -65,7 +73,7 @@ def spread(surface, interface, way, first, last, powers, energy):
         start, end = end, start
     length = end - start
     regime = int(powers[STATIONS + 1])
-    lowest, highest = int(math.floor(start)), int(math.floor(end))
+    lowest, highest = math.floor(start), math.floor(end)
     for sector in range(lowest, highest + 1):
         passed = 1.0 if lowest == highest else (min(end, sector + 1.0) - max(start, float(sector))) / length
         share = energy * passed / total
@@ -80,6 +88,6 @@ def raise_density(largest, interface, way, station, density):
     start, end = sector_of(way, interface, 0.0), sector_of(way, interface, 1.0)
     if start > end:
         start, end = end, start
-    for sector in range(int(math.floor(start)), int(math.floor(end)) + 1):
+    for sector in range(math.floor(start), math.floor(end) + 1):
         place = largest[interface, sector % SECTORS]
         place[station] = max(place[station], density)

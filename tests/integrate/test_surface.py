@@ -1,0 +1,62 @@
+"""A step's energy on the places of a raceway, against the overlap of intervals by brute force."""
+
+import math
+
+import numpy as np
+import pytest
+
+from macroslip.compiled import jit
+from macroslip.integrate.surface import SECTORS, STATIONS, Way, raise_density, spread
+
+WIDTH = 2.0 * math.pi / SECTORS
+
+
+@jit
+def spread_once(surface, interface, way, first, last, powers, energy):
+    spread(surface, interface, way, first, last, powers, energy)
+
+
+@jit
+def raise_once(largest, interface, way, station, density):
+    raise_density(largest, interface, way, station, density)
+
+
+def by_brute_force(start, end, energy):
+    """Energy of each sector from a hundred thousand equal pieces of the way."""
+    places = start + (end - start) * (np.arange(100_000) + 0.5) / 100_000
+    return energy * np.bincount(np.floor(places / WIDTH).astype(int) % SECTORS, minlength=SECTORS) / places.size
+
+
+@pytest.mark.parametrize("interface", [0, 1])
+@pytest.mark.parametrize(
+    ("start", "before", "after"),
+    [(-1.5, 0.0, 0.03), (0.4, 100.0, 101.3), (3.1, 2.0, -0.4), (0.0, 0.0, 40.0), (1.0, 5.0, 5.0)],
+)
+def test_energy_lies_where_the_roller_passes(interface, start, before, after):
+    powers = np.zeros(STATIONS + 2)
+    powers[3], powers[10], powers[STATIONS + 1] = -2.0, 6.0, 1.0
+    surface = np.zeros((2, SECTORS, STATIONS, 2, 2))
+    ratio, first, last, energy = 0.454, 0.25, 0.75, 8.0
+    spread_once(surface, interface, Way(start, ratio, before, after), first, last, powers, energy)
+    turning = ratio if interface == 1 else ratio - 1.0
+    ends = [start + turning * (before + part * (after - before)) for part in (first, last)]
+    np.testing.assert_allclose(surface.sum(axis=(0, 2, 3, 4)), by_brute_force(*ends, energy), atol=2e-3)
+    assert surface.sum() == pytest.approx(energy, rel=1e-12)
+    assert surface[1 - interface].sum() == 0.0
+    # A quarter of it where slip is negative, the rest where it is positive, all in the film regime of the step.
+    assert surface[interface, :, 3, 0, 1].sum() == pytest.approx(0.25 * energy)
+    assert surface[interface, :, 10, 1, 1].sum() == pytest.approx(0.75 * energy)
+
+
+def test_no_power_takes_no_energy():
+    surface = np.zeros((2, SECTORS, STATIONS, 2, 2))
+    spread_once(surface, 0, Way(0.0, 0.45, 0.0, 1.0), 0.0, 1.0, np.zeros(STATIONS + 2), 5.0)
+    assert surface.sum() == 0.0
+
+
+def test_density_is_raised_at_every_sector_passed():
+    largest = np.zeros((2, SECTORS, STATIONS))
+    raise_once(largest, 1, Way(0.5 * WIDTH, 0.5, 0.0, 4.0 * WIDTH), 7, 3.0)
+    raise_once(largest, 1, Way(0.5 * WIDTH, 0.5, 0.0, 0.0), 7, 2.0)
+    assert largest[1, :, 7].tolist() == [3.0, 3.0, 3.0] + [0.0] * (SECTORS - 3)
+    assert largest.sum() == 9.0
