@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -145,7 +146,7 @@ def load_edges(model: RollerModel, motion: Motion, start_angle: float) -> np.nda
 def _coast_middles(model: RollerModel, motion: Motion, start_angle: float, edges: np.ndarray) -> np.ndarray:
     bounds = np.concatenate([[motion.time[0]], edges, [motion.time[-1]]])
     found = []
-    for low, high in zip(bounds[:-1], bounds[1:], strict=True):
+    for low, high in itertools.pairwise(bounds):
         middle = 0.5 * (low + high)
         interval = int(np.searchsorted(motion.time, middle, side="right")) - 1
         free = interference_at(model, motion, start_angle, interval, middle) < 0.0

@@ -94,11 +94,11 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
     return {
         "two_threads_over_one": best["two threads"] / best["one thread"],
         "two_threads_over_one_best_round": max(
-            b["rate"] / a["rate"] for a, b in zip(found["one thread"], found["two threads"])
+            b["rate"] / a["rate"] for a, b in zip(found["one thread"], found["two threads"], strict=False)
         ),
         "two_workers_over_one": best["two workers"] / best["one worker"],
         "two_workers_over_one_best_round": max(
-            b["rate"] / a["rate"] for a, b in zip(found["one worker"], found["two workers"])
+            b["rate"] / a["rate"] for a, b in zip(found["one worker"], found["two workers"], strict=False)
         ),
         "one_worker_over_this_process": best["one worker"] / best["one thread"],
         "hashing_two_over_one": max(found["hashing"]),
@@ -190,21 +190,23 @@ def scheduler(quick: bool) -> dict[str, float]:
 
     count, task = (500 if quick else 3000), {"run": "0" * 32, "load": "x" * 120, "settings": [["a.b", 1.0, "mm"]] * 3}
     found = {}
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", security=True
-    ) as local:
-        with Client(local) as client:
-            for bundle in (1, 10):
-                cluster.work_several = nothing
-                pool = cluster.Dask(client, lambda text: None)
-                pool._bundle = lambda bundle=bundle: bundle
-                started, sent, done = time.perf_counter(), 0, 0
-                while done < count * bundle:
-                    free = min(max(4 * 64 - len(pool._flying), 0) * bundle, count * bundle - sent)
-                    pool.submit([task] * free)
-                    sent += free
-                    done += len(pool.wait())
-                found[f"runs_per_second_bundles_of_{bundle}"] = done / (time.perf_counter() - started)
+    with (
+        LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", security=True
+        ) as local,
+        Client(local) as client,
+    ):
+        for bundle in (1, 10):
+            cluster.work_several = nothing
+            pool = cluster.Dask(client, lambda text: None)
+            pool._bundle = lambda bundle=bundle: bundle
+            started, sent, done = time.perf_counter(), 0, 0
+            while done < count * bundle:
+                free = min(max(4 * 64 - len(pool._flying), 0) * bundle, count * bundle - sent)
+                pool.submit([task] * free)
+                sent += free
+                done += len(pool.wait())
+            found[f"runs_per_second_bundles_of_{bundle}"] = done / (time.perf_counter() - started)
     return found
 
 
@@ -246,7 +248,7 @@ def coordinator(folder: Path, quick: bool) -> dict[str, float]:
                         "values": values | {"simulate_seconds": 1.0, "other_seconds": 0.01},
                     },
                 )
-                for task, one in zip(tasks, key)
+                for task, one in zip(tasks, key, strict=False)
             ]
 
     module.ThisProcess = Pretended

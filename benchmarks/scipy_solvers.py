@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from scipy.integrate import solve_ivp
 
@@ -10,7 +12,7 @@ from benchmarks.outcome import Reference, Solution
 from benchmarks.right_hand_side import EVALUATIONS, jacobian, pack, rates
 
 
-class _TooDear(Exception):
+class _TooDearError(Exception):
     """The run needs more force evaluations than it may."""
 
 
@@ -48,7 +50,7 @@ def solve(
 
     def rate(time, state):
         if data[EVALUATIONS] > most_evaluations:
-            raise _TooDear
+            raise _TooDearError
         found = np.empty(4)
         rates(time, state, found, data)
         return found
@@ -69,11 +71,11 @@ def solve(
     slip = np.full(history.marks.size, np.nan)
     state = np.zeros(4)
     bounds = np.concatenate([[history.start], history.edges if stops else [], [history.end]])
-    for low, high in zip(bounds[:-1], bounds[1:], strict=True):
+    for low, high in itertools.pairwise(bounds):
         inside = (history.marks > low) & (history.marks < high)
         try:
             found = solve_ivp(rate, (low, high), state, t_eval=[*history.marks[inside], high], **options)
-        except _TooDear:
+        except _TooDearError:
             return Solution(np.full(3, np.nan), slip, data[EVALUATIONS])
         if not found.success:
             return Solution(np.full(3, np.nan), slip, data[EVALUATIONS])

@@ -36,11 +36,15 @@ def three_point() -> Figure:
 
 def four_point() -> Figure:
     """Two main bearings, of which one is locating."""
-    figure, axes = _canvas("Four-point mount: two main bearings, drawn with  locating: rear;  the gearbox takes torque only")
+    figure, axes = _canvas(
+        "Four-point mount: two main bearings, drawn with  locating: rear;  the gearbox takes torque only"
+    )
     _rotor(axes)
     _gearbox(axes, 7.0, "gearbox:\ntorque only", supported=False)
     _support(axes, Support(1.8, "front\nfloats along the shaft", "$F_{Y0}$, front"))
-    _support(axes, Support(5.2, "rear\nlocating", "$f_z - W\\,\\cos(tilt) - F_{Y0}$", "$F_{Z0} = f_x + W\\,\\sin(tilt)$"))
+    _support(
+        axes, Support(5.2, "rear\nlocating", "$f_z - W\\,\\cos(tilt) - F_{Y0}$", "$F_{Z0} = f_x + W\\,\\sin(tilt)$")
+    )
     _weight(axes, 3.3)
     _length(axes, 0.0, 1.8, "$h$  hub_to_bearing")
     _length(axes, 1.8, 5.2, "$b$  front_to_rear")

@@ -25,7 +25,7 @@ def test_every_part_of_the_package_is_in_exactly_one_list():
 def copy(tmp_path, monkeypatch):
     """A copy of the package, of which the fingerprint is taken."""
     place = tmp_path / "macroslip"
-    shutil.copytree(ROOT, place, ignore=lambda _, names: [name for name in names if "." in name and ".py" != name[-3:]])
+    shutil.copytree(ROOT, place, ignore=lambda _, names: [name for name in names if "." in name and name[-3:] != ".py"])
     monkeypatch.setattr(fingerprint, "_ROOT", place)
     fingerprint.fingerprint.cache_clear()
     yield place

@@ -92,8 +92,10 @@ class Laws:
 
     @classmethod
     def physical(cls) -> Laws:
-        """All mechanisms: film for every load, starved and heated in the inlet; Roelands; limiting shear; microslip;
-        asperities."""
+        """All mechanisms.
+
+        Film for every load, starved and heated in the inlet; Roelands; limiting shear; microslip; asperities.
+        """
         return cls(
             film="masjedi-khonsari-moes",
             starvation=True,

@@ -1,5 +1,6 @@
 """Flash temperature against Jaeger's moving sources, and heat flow into two half-spaces by differences."""
 
+import itertools
 import math
 
 import numpy as np
@@ -63,7 +64,7 @@ def test_constant_by_quadrature_of_the_limit():
                     epsrel=1e-12)[0]  # fmt: skip
 
     peak = -minimize_scalar(lambda place: -rise(place), bounds=(0, 1), method="bounded", options={"xatol": 1e-9}).fun
-    assert PEAK == pytest.approx((2 / math.pi) ** 1.5 * peak, rel=1e-12, abs=0.0)
+    assert pytest.approx((2 / math.pi) ** 1.5 * peak, rel=1e-12, abs=0.0) == PEAK
 
 
 @pytest.mark.parametrize(("peclet", "error"), [(0.5, 0.137), (1, 0.0625), (2, 0.0231), (5, 0.0041), (10, 0.0009)])
@@ -73,7 +74,7 @@ def test_measured_error_at_low_peclet_number(peclet, error):
 
 def test_never_too_cold():
     errors = [overstated(peclet) for peclet in np.geomspace(0.03, 300, 15)]
-    assert all(before > after > 0 for before, after in zip(errors[:-1], errors[1:], strict=True))
+    assert all(before > after > 0 for before, after in itertools.pairwise(errors))
 
 
 def march(power, speed_1, speed_2):

@@ -85,7 +85,7 @@ def displacement(contact, x, y, modulus):
     return 2.0 / (np.pi * modulus) * (along_chords * measure).sum() * np.pi / 4000
 
 
-@pytest.mark.parametrize("rolling, lateral", [(100.0, 100.0), (31.5, 0.0492), (2.0, 40.0), (0.571, 0.0492)])
+@pytest.mark.parametrize(("rolling", "lateral"), [(100.0, 100.0), (31.5, 0.0492), (2.0, 40.0), (0.571, 0.0492)])
 def test_pressure_displaces_the_half_spaces_by_the_given_paraboloid(rolling, lateral):
     contact = elliptical_contact(rolling, lateral, MODULUS)
     b, a = contact.semi_axis_along, contact.semi_axis_across
@@ -152,7 +152,7 @@ HARRIS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("difference, long_axis, short_axis, approach", HARRIS)
+@pytest.mark.parametrize(("difference", "long_axis", "short_axis", "approach"), HARRIS)
 def test_agrees_with_the_printed_table(difference, long_axis, short_axis, approach):
     total, load = 80.0, 1000.0
     contact = elliptical_contact(total * (1 + difference) / 2, total * (1 - difference) / 2, MODULUS)

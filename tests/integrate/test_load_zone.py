@@ -105,7 +105,7 @@ def test_load_that_comes_and_goes_within_an_interval_is_an_edge(
 
 
 @pytest.mark.parametrize(
-    "speeds, span, angle, ring",
+    ("speeds", "span", "angle", "ring"),
     [
         # The roller swings towards the load and back.
         ([0.5, -0.5], 0.05, -1.0, [[3e-4, 0.0, 0.0], [3e-4, 0.0, 0.0]]),
@@ -187,7 +187,7 @@ def test_edge_at_the_start_is_not_found_again(models):
     assert edge_time(model, motion, angle, 0, edge, 1.0) == 1.0
 
 
-@pytest.mark.parametrize("load, seconds", [(1e3, 3.77e-3), (5e4, 2.25e-11), (1e5, 3.42e-14)])
+@pytest.mark.parametrize(("load", "seconds"), [(1e3, 3.77e-3), (5e4, 2.25e-11), (1e5, 3.42e-14)])
 def test_relaxation_time(models, bearing, lubricant, load, seconds):
     # I/(r² ΣF') with the isothermal patch integral [e^P (P − 1) + 1]/P², written here.
     total = 0.0

@@ -295,7 +295,7 @@ def test_text_under_a_binary_name_and_the_reverse(tmp_path, sample_outb, sample_
 @pytest.mark.parametrize(("file_format", "name_length"), [(1, 10), (2, 10), (3, 10), (4, 15)])
 def test_all_four_binary_formats(tmp_path, sample_out, file_format, name_length):
     """A file of each format, written by its published layout, gives the values put in; short of a sample, an error."""
-    head, names, units, rows = _selection(sample_out, lambda name: True, rows=40)
+    _head, names, units, rows = _selection(sample_out, lambda name: True, rows=40)
     values = np.array(rows, dtype=float)
     time, values = values[:, 0], values[:, 1:]
     low, high = values.min(axis=0), values.max(axis=0)

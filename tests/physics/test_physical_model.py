@@ -7,6 +7,7 @@ away, they are the same within 2 %. The largest and the mean slip are those of t
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -300,7 +301,7 @@ def by_scipy(model, motion, angle, slip, trace_time):
     found, state = [], slip
     ends = np.unique(np.concatenate([motion.time, trace_time]))
     at = {ends[0]: slip}
-    for start, end in zip(ends[:-1], ends[1:], strict=True):
+    for start, end in itertools.pairwise(ends):
         piece = solve_ivp(rate, (start, end), [state], method="Radau", rtol=1e-8, atol=1e-12)
         assert piece.success
         state = float(piece.y[0, -1])

@@ -155,7 +155,7 @@ def test_orbit_energies_add_up_to_the_window(gusty):
     assert (whole <= found.energy * (1 + 1e-12)).all()
     last = float(found.attrs["window_end"] - found.orbit_end[-1])
     share = last / float(found.attrs["window_end"] - found.attrs["window_start"])
-    assert float((whole.sum() / found.energy.sum())) == pytest.approx(1 - share, abs=0.1)
+    assert float(whole.sum() / found.energy.sum()) == pytest.approx(1 - share, abs=0.1)
 
 
 def test_rollers_of_a_row_take_turns_under_a_steady_load():

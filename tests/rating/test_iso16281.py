@@ -65,7 +65,10 @@ def test_laminae_carry_the_load_of_a_hertz_ellipse():
     found = lamina_loads(np.array([load]), np.array([axis]), length)[0]
     edges = np.linspace(0, length / 2, LAMINAE // 2 + 1)
     for k, (start, end) in enumerate(itertools.pairwise(edges)):
-        per_length = lambda x: 0.75 * load / axis * max(0.0, 1 - (x / axis) ** 2)
+
+        def per_length(x):
+            return 0.75 * load / axis * max(0.0, 1 - (x / axis) ** 2)
+
         carried = quad(per_length, start, end, points=[axis] if start < axis < end else None)[0]
         assert found[k] == pytest.approx(carried / (end - start) * length, rel=1e-9, abs=1e-6)
     # Cut off at the ends, what is left carries all; no load, no lamina load.

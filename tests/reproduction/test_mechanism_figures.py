@@ -53,7 +53,7 @@ def numbers():
         one = xr.DataArray(scale * np.array([1.0, 3.0, 5.0]), dims="case")
         rows = xr.concat([one, 2.0 * one], xr.DataArray(ROWS, dims="row", name="row"))
         names = ("both_rows_normalised", "energy_ratio", "peak_power_ratio")
-        data = xr.Dataset({name: one for name in names} | {"peak_power_mean": rows})
+        data = xr.Dataset(dict.fromkeys(names, one) | {"peak_power_mean": rows})
         return data.assign_coords(case=CASES, wind_speed=("case", [12.0, 12.0, 24.0]))
 
     return {"paper": made(1.0), "physical": made(10.0)}

@@ -96,7 +96,7 @@ def test_one_pitch_on_every_roller_has_the_load_of_the_next(direction, magnitude
 
 
 @pytest.mark.parametrize("force", [1.0, 1e3, 4e5])
-@pytest.mark.parametrize("row, sign", [(DOWNWIND, 1.0), (UPWIND, -1.0)])
+@pytest.mark.parametrize(("row", "sign"), [(DOWNWIND, 1.0), (UPWIND, -1.0)])
 def test_thrust_loads_one_row_evenly(force, row, sign):
     d, loads = solve([0.0, 0.0, sign * force])
     each = force / (COUNT * math.sin(ALPHA))

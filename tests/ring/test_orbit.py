@@ -19,7 +19,7 @@ def motion():
 
 
 def integral(start, end):
-    inside = TIME[(TIME > start) & (TIME < end)]
+    inside = TIME[(start < TIME) & (end > TIME)]
     points = inside if inside.size else None
     return quad(lambda t: np.interp(t, TIME, SPEED), start, end, points=points, epsabs=1e-13)[0]
 

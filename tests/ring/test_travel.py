@@ -1,5 +1,6 @@
 """Path and orbits of rollers against dense sums and root finding."""
 
+import itertools
 import math
 
 import numpy as np
@@ -26,7 +27,7 @@ def dense_path(time, speed, ratio, until):
         if speed[k] * speed[k + 1] < 0.0:
             zero = time[k] + (time[k + 1] - time[k]) * speed[k] / (speed[k] - speed[k + 1])
             cuts = [start, *([zero] if start < zero < end else []), end]
-        for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+        for low, high in itertools.pairwise(cuts):
             # The midpoint rule is exact for a linear integrand.
             total += abs(np.interp(0.5 * (low + high), time, speed)) * (high - low)
     return abs(ratio) * total

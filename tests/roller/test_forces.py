@@ -254,7 +254,7 @@ PLACES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("at, slip", PLACES)
+@pytest.mark.parametrize(("at", "slip"), PLACES)
 def test_forces_and_total_slope_in_high_precision(bearing, lubricant, models, at, slip):
     reference = Reference(bearing, lubricant)
     found = slip_forces(models[1], at, slip)

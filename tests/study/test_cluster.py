@@ -18,7 +18,7 @@ psutil = pytest.importorskip("psutil")
 from distributed import Client, default_client  # noqa: E402
 
 from macroslip import InputError, MacroslipError, open_study, run_study  # noqa: E402
-from macroslip.study import cluster as module
+from macroslip.study import cluster as module  # noqa: E402
 from macroslip.study.study_file import study_of  # noqa: E402
 
 

@@ -68,7 +68,7 @@ def test_a_disk_that_is_full_at_any_moment(
     keys = done(out) if (out / "journal.jsonl").exists() else set()
     assert len(keys) >= max(reported, default=0)
     before = identities(out)
-    ended, simulated = resumed(study, out, counted)
+    _ended, simulated = resumed(study, out, counted)
     assert simulated == 4 - len(keys)
     after = identities(out)
     assert all(after[f"{key}.nc"] == before[f"{key}.nc"] for key in keys)

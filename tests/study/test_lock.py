@@ -27,9 +27,11 @@ def holder(tmp_path):
 
 
 def test_a_second_process_is_refused_and_told_who_holds_it(tmp_path, holder):
-    with pytest.raises(InputError, match=f"another process is at work in this folder .process {holder.pid} on "):
-        with locked(tmp_path):
-            pass
+    with (
+        pytest.raises(InputError, match=f"another process is at work in this folder .process {holder.pid} on "),
+        locked(tmp_path),
+    ):
+        pass
 
 
 def test_the_lock_ends_with_its_process(tmp_path, holder):
@@ -42,8 +44,7 @@ def test_the_lock_ends_with_its_process(tmp_path, holder):
 
 def test_a_lock_file_with_anything_in_it_is_no_lock(tmp_path):
     (tmp_path / "lock").write_text('{"process": 1}')
-    with locked(tmp_path), pytest.raises(InputError, match="another process"):
-        with locked(tmp_path):
-            pass
+    with locked(tmp_path), pytest.raises(InputError, match="another process"), locked(tmp_path):
+        pass
     with locked(tmp_path):
         pass

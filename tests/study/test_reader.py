@@ -52,11 +52,11 @@ def test_every_way_of_indexing_gives_the_same(directory):
     study = open_study(directory)
     whole = study.orbit_energy.values
     for key in (
-        (0,), (slice(None, None, 2),), ([3, 0],), (slice(None), 1), (0, 1, [2, 0]), 
+        (0,), (slice(None, None, 2),), ([3, 0],), (slice(None), 1), (0, 1, [2, 0]),
         (slice(1, 4), slice(None), slice(1, 3), [0, 2], 1),
         ([4, 1], 0, 1, 0, 2), (slice(0, 0),),
     ):  # fmt: skip
-        dims = dict(zip(study.orbit_energy.dims, key))
+        dims = dict(zip(study.orbit_energy.dims, key, strict=False))
         np.testing.assert_array_equal(
             study.orbit_energy.isel(dims).values, study.orbit_energy.copy(data=whole).isel(dims).values
         )

@@ -1,5 +1,6 @@
 """Study files: what they make, and what they are refused for."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -54,7 +55,7 @@ def test_runs_are_every_combination(load_files):
     assert len({run.name for run in runs}) == len(runs)
     # Runs on the same loads follow each other.
     loads = [run.load.name for run in runs]
-    assert len([1 for a, b in zip(loads, loads[1:]) if a != b]) == 3
+    assert len([1 for a, b in itertools.pairwise(loads) if a != b]) == 3
     labels = runs[-1].labels
     assert (labels["wind_speed"], labels["seed"], labels["bearing"], labels["model"]) == (
         14.0,

@@ -1,5 +1,7 @@
 """The SKF model: its maker's rule of thumb, limits, exponents of each part, and errors."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -71,7 +73,7 @@ def test_exponents_of_load():
 def test_rolling_grows_with_the_0_6th_power_of_a_slow_speed_and_less_of_a_fast_one():
     assert exponent("rolling", shaft_speed=1e-6) == pytest.approx(0.6, abs=1e-5)
     powers = [exponent("rolling", shaft_speed=speed) for speed in (0.1, 1.0, 2.0, 5.0)]
-    assert all(0.6 > slow > fast for slow, fast in zip(powers[:-1], powers[1:], strict=True))
+    assert all(0.6 > slow > fast for slow, fast in itertools.pairwise(powers))
 
 
 @pytest.mark.parametrize("series", SERIES)

@@ -129,7 +129,7 @@ def test_rising_slip_at_vanishing_load_is_the_peak_of_the_unpressed_film(base, l
     assert heating < 2.27672
 
 
-@pytest.mark.parametrize("load, share, tolerance", [(1e3, 0.058, 0.001), (2e4, 3.32, 0.02), (5e4, 47.4, 0.3)])
+@pytest.mark.parametrize(("load", "share", "tolerance"), [(1e3, 0.058, 0.001), (2e4, 3.32, 0.02), (5e4, 47.4, 0.3)])
 def test_peak_traction_of_the_inner_raceway(base, laws, load, share, tolerance):
     # Unphysical above a few kilonewtons, as the paper's law is: regression by the two-dimensional quadrature.
     film, _, _ = film_law.film_thickness(film_law.prepare("masjedi-khonsari", base[0]), load, RATED_SURFACE_SPEED)

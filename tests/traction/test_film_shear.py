@@ -128,7 +128,7 @@ def test_stress_changes_steadily_with_slip(rheology, viscous, limit, heat):
 @example(LIMITING_SHEAR, 1e300, 1.0, 1e3)
 @settings(deadline=None, max_examples=300)
 def test_no_stress_exceeds_what_the_law_allows(rheology, viscous, limit, heat):
-    stress, by_viscosity, feedback = heated_shear(rheology, viscous, limit, heat)
+    stress, _by_viscosity, feedback = heated_shear(rheology, viscous, limit, heat)
     assert stress >= 0.0 and math.isfinite(stress) and math.isfinite(feedback)
     cool, _ = limited_stress(rheology, viscous, limit)
     assert stress <= cool * (1.0 + 1e-15)
@@ -155,7 +155,7 @@ def test_without_heat_stress_is_that_of_the_rheology(rheology, viscous, limit):
     assert heated_shear(rheology, viscous, limit, 0.0) == pytest.approx((stress, elasticity, 0.0), rel=1e-15)
     # Approached in proportion to heat τ.
     little = heated_shear(rheology, viscous, limit, 1e-6 / stress)
-    assert little[0] == pytest.approx(stress, rel=1e-6) and little[0] < stress or elasticity < 1e-9
+    assert (little[0] == pytest.approx(stress, rel=1e-6) and little[0] < stress) or elasticity < 1e-9
     assert heated_shear(rheology, 0.0, limit, 1e-9) == (0.0, 1.0, 0.0)
 
 

@@ -1,5 +1,6 @@
 """Traction of a whole contact against integration over its area with the local law written anew."""
 
+import itertools
 import math
 
 import numpy as np
@@ -79,7 +80,7 @@ def graded(breaks, panels=8, nodes=6):
     ladder = 0.5 * np.concatenate([[0.0], 6.0 ** np.arange(1.0 - panels, 1.0)])
     ladder = np.concatenate([ladder, 1.0 - ladder[-2::-1]])
     found, weights = [], []
-    for left, right in zip(breaks[:-1], breaks[1:], strict=True):
+    for left, right in itertools.pairwise(breaks):
         edges = left + (right - left) * ladder
         half = 0.5 * np.diff(edges)
         found.append((0.5 * (edges[1:] + edges[:-1])[:, None] + half[:, None] * t).ravel())
@@ -240,7 +241,9 @@ def test_uniform_slopes_are_differences():
             def log_change(*factors):
                 ends = [
                     math.log(
-                        uniform_traction(law, *(x * math.exp(g * y) for x, y in zip((load, film, slip), factors)))[0]
+                        uniform_traction(
+                            law, *(x * math.exp(g * y) for x, y in zip((load, film, slip), factors, strict=False))
+                        )[0]
                     )
                     for g in (s, -s)
                 ]

@@ -126,7 +126,7 @@ CHECK_VALUES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("p, b0, expected", CHECK_VALUES)
+@pytest.mark.parametrize(("p", "b0", "expected"), CHECK_VALUES)
 def test_published_check_values(p, b0, expected):
     assert patch_integral(p, math.sqrt(b0))[0] == pytest.approx(expected, rel=2e-14, abs=0.0)
 

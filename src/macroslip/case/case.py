@@ -247,6 +247,7 @@ class Case:
             ("traces", "no traces" if self.traces is None else f"traces every {self.traces.step:g} s"),
         ]
 
+
 def _rollers(given: str | Iterable[int], count: int) -> str | tuple[int, ...]:
     """Numbers of the rollers as plain integers: NumPy's are welcome."""
     if isinstance(given, str) and given == "all":
@@ -254,7 +255,7 @@ def _rollers(given: str | Iterable[int], count: int) -> str | tuple[int, ...]:
     numbers = () if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
     whole = all(isinstance(number, Integral) and not isinstance(number, bool) for number in numbers)
     _check(
-        whole and 0 < len(set(numbers)) == len(numbers) and 0 <= min(numbers) and max(numbers) < count,
+        whole and 0 < len(set(numbers)) == len(numbers) and min(numbers) >= 0 and max(numbers) < count,
         f"rollers is {shown(given)}",
         "rollers",
         f"all, or a list of different numbers from 0 to {count - 1}",

@@ -150,6 +150,7 @@ class CaseBuilder:
 
     @property
     def start_of_paths(self) -> str:
+        """Where relative paths start, in words."""
         return f"Relative paths start at {self.folder.resolve()}."
 
     def loads(self, given: LoadsKeys) -> HubLoads | BearingLoads:

@@ -322,7 +322,7 @@ def _problems(failure: ValidationError, kind: Any, place: Place, noun: str = "")
     details = failure.errors(include_url=False)
     details.sort(key=lambda detail: detail["type"] != "unexpected_keyword_argument")
     unknown = {
-        detail["loc"][:-1] + (close,)
+        (*detail["loc"][:-1], close)
         for detail in details
         if detail["type"] == "unexpected_keyword_argument"
         for close in get_close_matches(str(detail["loc"][-1]), _siblings(kind, detail["loc"]), n=1)

@@ -67,7 +67,7 @@ def together(problems: Sequence[InputError]) -> InputError:
     return Problems(problems)
 
 
-class Problems(InputError):
+class Problems(InputError):  # noqa: N818, a list of errors as one
     """Several problems as one error.
 
     Attributes

@@ -81,7 +81,10 @@ def _packages() -> Iterator[dict[str, str | None]]:
         return
     for line in wanted:
         requirement, _, marker = line.partition(";")
-        name, bound = re.fullmatch(r"([\w.-]+)(?:\[[\w,]*\])?\s*(.*?)\s*", requirement).groups()
+        parts = re.fullmatch(r"([\w.-]+)(?:\[[\w,]*\])?\s*(.*?)\s*", requirement)
+        if parts is None:
+            continue
+        name, bound = parts.groups()
         extra = re.search(r"extra == ['\"](\w+)['\"]", marker)
         if name == "macroslip" or (extra and extra[1] not in ("figures", "cluster", "cycles", "notebook")):
             continue

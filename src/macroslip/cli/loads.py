@@ -168,9 +168,11 @@ def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
     """Where loads come from, how they are sampled, and their statistics."""
     import numpy as np
 
+    from macroslip.loads import HubLoads
+
     steps = np.diff(read.time)
     quantities = {"shaft speed [rpm]": read.shaft_speed * 30.0 / math.pi}
-    if hasattr(read, "moment"):
+    if isinstance(read, HubLoads):
         names = ("fx [kN]", "fy [kN]", "fz [kN]", "mx [kN m]", "my [kN m]", "mz [kN m]")
         quantities |= dict(zip(names, np.hstack([read.force, read.moment]).T / 1e3, strict=True))
     else:

@@ -70,7 +70,7 @@ class CorrectedFilm(NamedTuple):
 
 @jit_inline
 def thickness(law, load, entrainment_speed):
-    """h [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0."""
+    """H [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0."""
     height, by_speed, by_load = film_law.film_thickness(law.base, load, entrainment_speed)
     factor = law.starvation
     by_log_speed = 0.0

@@ -87,7 +87,7 @@ def prepare(interface: Interface) -> MasjediKhonsari:
 
 @jit_inline
 def thickness(law, load, entrainment_speed):
-    """h [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0, whether in range or not.
+    """H [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0, whether in range or not.
 
     Where roughness dominates, h hardly depends on speed and even falls with it, as U^−0.043.
     """

@@ -75,7 +75,7 @@ def prepare(interface: Interface) -> MasjediKhonsariMoes:
 
 @jit_inline
 def thickness(law, load, entrainment_speed):
-    """h [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0.
+    """H [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0.
 
     Twice continuously differentiable, and rising with speed, for any load and speed.
     """

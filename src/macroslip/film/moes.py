@@ -81,7 +81,7 @@ def _larger(first, second, order):
 
 @jit_inline
 def log_moes(log_load, log_material):
-    """ln N of `moes` and its derivatives by ln M and by ln L, from ln M and ln L; for any finite arguments.
+    """Ln N of `moes` and its derivatives by ln M and by ln L, from ln M and ln L; for any finite arguments.
 
     Examples
     --------
@@ -143,7 +143,7 @@ def prepare(interface: Interface) -> Moes:
 
 @jit_inline
 def log_thickness(law, log_load, log_speed):
-    """ln h and its derivatives by ln u_e and by ln Q, from ln Q [ln N] and ln u_e [ln m/s]."""
+    """Ln h and its derivatives by ln u_e and by ln Q, from ln Q [ln N] and ln u_e [ln m/s]."""
     log_film, by_load, by_material = log_moes(
         law.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed, law.log_material + 0.25 * log_speed
     )
@@ -152,7 +152,7 @@ def log_thickness(law, log_load, log_speed):
 
 @jit_inline
 def thickness(law, load, entrainment_speed):
-    """h [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0, whether in range or not."""
+    """H [m], ∂h/∂u_e [s] and ∂h/∂Q [m/N] at load Q [N] and u_e [m/s], both > 0, whether in range or not."""
     log_height, by_speed, by_load = log_thickness(law, math.log(load), math.log(entrainment_speed))
     height = math.exp(log_height)
     return height, height / entrainment_speed * by_speed, height / load * by_load

@@ -22,6 +22,7 @@ class Status(IntEnum):
     IMPOSSIBLE_SLIP = 5, "slip left the range that friction allows, so the step is unstable; use a smaller one or radau"
 
     def __new__(cls, value: int, sentence: str):
+        """Make a member that carries its sentence."""
         member = int.__new__(cls, value)
         member._value_ = value
         member.sentence = sentence

@@ -38,8 +38,6 @@ _KEYS = frozenset(
         "GENLAB",
         "VARIAB",
         "VARUNIT",
-    )
-    + (
         "AXISLAB",
         "AXIUNIT",
         "AXIMETH",

@@ -117,7 +117,7 @@ def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
 
 
 def _viscosity_ratio(bearing: Bearing, lubricant: Lubricant, history: History) -> float:
-    """kappa at the mean speed; NaN where the shaft stands."""
+    """Kappa at the mean speed; NaN where the shaft stands."""
     mean_speed = 2.0 * math.pi * history.revolutions.sum() / history.duration.sum()
     if mean_speed == 0.0:
         return math.nan

@@ -7,7 +7,7 @@ Pictures need matplotlib, which is imported when the first one is drawn.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
@@ -15,6 +15,7 @@ from macroslip.overview import html_overview
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.projections.polar import PolarAxes
 
 
 def open_result(path: str | Path) -> xr.Dataset:
@@ -116,7 +117,7 @@ class Plot:
 
         return plot_load_zone(axes or _new_axes(), load_zone(self._result), row)
 
-    def orbit(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
+    def orbit(self, row: str = "downwind", *, axes: PolarAxes | None = None) -> PolarAxes:
         """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
 
         Needs traces that begin with the loads.
@@ -129,7 +130,7 @@ class Plot:
         return drawn
 
 
-def _new_axes(projection: str | None = None) -> Axes:
+def _new_axes(projection: str | None = None) -> Any:
     """Axes in a new figure, which a notebook shows by itself."""
     from macroslip.errors import MacroslipError
 

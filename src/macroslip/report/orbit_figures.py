@@ -45,7 +45,7 @@ def plot_varying_over_static(axes: Axes, ratios: Mapping[str, Mapping[str, float
 
     Takes ratios [-] by the name of the static load and by row.
     """
-    for place, (name, rows) in enumerate(ratios.items()):
+    for place, (_name, rows) in enumerate(ratios.items()):
         for k, (row, ratio) in enumerate(rows.items()):
             x = place + 0.34 * (k - 0.5)
             style = {"color": ROW[row]["color"], "marker": ROW[row]["marker"], "linestyle": "none"}

@@ -133,8 +133,11 @@ def truncated_share(load: float, truncation: float) -> float:
 
 
 def highest_load(bearing: Bearing, lubricant: Lubricant, laws: Laws) -> float:
-    """Roller load [N] that a case may not exceed: where the ellipse reaches the roller's ends, or with microslip, which
-    cuts it off there, where a tenth of the load would lie beyond them."""
+    """Roller load [N] that a case may not exceed.
+
+    There the ellipse reaches the roller's ends; with microslip, which cuts it off there, a tenth of the load would lie
+    beyond them.
+    """
     truncation = truncation_load(bearing, lubricant)
     if not laws.microslip:
         return truncation

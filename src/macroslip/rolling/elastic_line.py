@@ -52,7 +52,7 @@ class WholeFilm(NamedTuple):
 
 @jit_inline
 def log_inlet(log_load, log_material):
-    """ln N_E of the inlet and its derivatives by ln M and ln L.
+    """Ln N_E of the inlet and its derivatives by ln M and ln L.
 
     The lower of Biboulet and Houpert's 1.470 and Goksem and Hargreaves' 2.737 L^(−0.342) M^0.0126, joined with order
     10, the order with which Biboulet and Houpert join their limits. In Moes' groups Goksem and Hargreaves' formula is
@@ -79,7 +79,7 @@ def log_inlet(log_load, log_material):
 
 @jit_inline
 def log_whole_film(log_load, log_material):
-    """ln N_E of the whole film and its derivatives by ln M and ln L.
+    """Ln N_E of the whole film and its derivatives by ln M and ln L.
 
     N_E = 2.026 exp(−0.00481 L) (1 + 1.97 M)^(−0.0692 L/(L + 4.71)), a fit.
 
@@ -107,7 +107,7 @@ def log_whole_film(log_load, log_material):
 
 
 def log_elastic(law, log_load, log_material):
-    """ln N_E of a law and its derivatives by ln M and ln L."""
+    """Ln N_E of a law and its derivatives by ln M and ln L."""
     return _FUNCTIONS[type(law)](log_load, log_material)
 
 

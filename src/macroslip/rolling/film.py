@@ -24,7 +24,7 @@ def joined(first, second, order):
 
 @jit_inline
 def log_film(log_rigid, log_load, log_material):
-    """ln N of Moes' blend where the rigid, isoviscous limit is that of the contact itself.
+    """Ln N of Moes' blend where the rigid, isoviscous limit is that of the contact itself.
 
     N = {(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(−7/2) + H_EP^(−7/2))^(−2s/7)}^(1/s), s = (7 + 8 exp(−2 H_EI/H_RI))/5,
     H_EI = 2.621 M^(−1/5), H_RP = 1.287 L^(2/3), H_EP = 1.311 M^(−1/8) L^(3/4)
@@ -71,7 +71,7 @@ def log_film(log_rigid, log_load, log_material):
 
 @jit_inline
 def light_film(law, log_load, log_speed):
-    """ln h of the film of the volume flow [ln m] and its derivatives by ln Q and by ln u.
+    """Ln h of the film of the volume flow [ln m] and its derivatives by ln Q and by ln u.
 
     Moes' blend of a contact `law` (`law.Rolling`), its rigid and isoviscous limit that of the gap of finite length with
     its fullness: 1.2257 h0. From ln Q [ln N] and ln u [ln m/s].

@@ -20,6 +20,7 @@ class Outcome(StrEnum):
     MISSING = "missing", "not computed yet"
 
     def __new__(cls, value: str, sentence: str):
+        """Make a member that carries its sentence."""
         member = str.__new__(cls, value)
         member._value_ = value
         member.sentence = sentence

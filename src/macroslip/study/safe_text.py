@@ -6,12 +6,12 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def safe_text(text: object) -> str:
-    """Write control characters, such as those that steer a terminal, by their numbers.
+    r"""Write control characters, such as those that steer a terminal, by their numbers.
 
     Examples
     --------
-    >>> safe_text("run\\x1b[2J\\n7.outb")
-    'run\\\\x1b[2J\\\\n7.outb'
+    >>> safe_text("run\x1b[2J\n7.outb")
+    'run\\x1b[2J\\n7.outb'
     """
     return "".join(
         character if character.isprintable() else character.encode("unicode_escape").decode() for character in str(text)

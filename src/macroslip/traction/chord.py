@@ -43,7 +43,7 @@ class Fluid(NamedTuple):
 
 
 def chord_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
-    """cos θ and weights of ∫₀^{π/2} f(cos θ) cos θ dθ by Gauss and Legendre."""
+    """Cos θ and weights of ∫₀^{π/2} f(cos θ) cos θ dθ by Gauss and Legendre."""
     t, weights = np.polynomial.legendre.leggauss(nodes)
     cosine = np.cos(0.25 * np.pi * (t + 1.0))
     return cosine, 0.25 * np.pi * weights * cosine
@@ -54,7 +54,7 @@ _COSINES, _WEIGHTS = chord_rule(18)
 
 @jit
 def log_viscosity(fluid, pressure):
-    """ln η [ln(Pa s)] at a pressure [Pa] and d ln η/d ln p [-].
+    """Ln η [ln(Pa s)] at a pressure [Pa] and d ln η/d ln p [-].
 
     Examples
     --------

@@ -105,7 +105,7 @@ def _slip_scale(fluid: Fluid, pressure: float, film_thickness: float) -> float:
 
 @jit
 def _reference(fluid, log_eta, pressure, film_thickness, scale):
-    """ln of the stress to which the table's values refer."""
+    """Ln of the stress to which the table's values refer."""
     if fluid.rheology == NEWTONIAN:
         return log_eta + math.log(scale / film_thickness)
     return math.log(characteristic_stress(fluid, pressure))

@@ -28,7 +28,7 @@ _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
 
 
 def _chords(nodes: int) -> tuple[np.ndarray, np.ndarray]:
-    """sin φ and weights of ∫ cos²φ f(sin φ) dφ over −π/2 to π/2, by Gauss-Chebyshev quadrature of the second kind."""
+    """Sin φ and weights of ∫ cos²φ f(sin φ) dφ over −π/2 to π/2, by Gauss-Chebyshev quadrature of the second kind."""
     angle = np.pi * np.arange(1, nodes + 1) / (nodes + 1)
     return np.cos(angle), np.pi / (nodes + 1) * np.sin(angle) ** 2
 
