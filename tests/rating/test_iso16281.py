@@ -11,6 +11,7 @@ from macroslip.bearing.load_ratings import geometry_factor
 from macroslip.rating.iso16281 import (
     LAMINAE,
     REDUCTION,
+    damage_series,
     lamina_loads,
     reference_life,
     ring_damage,
@@ -100,3 +101,17 @@ def test_rings_together_live_shorter_than_the_weakest():
     assert np.isinf(lives[1, 0]) and reference_life(damages) < lives.min()
     # Weibull's product law with slope 9/8: L^(-9/8) add up.
     assert np.sum((lives / 1e6) ** (-9 / 8)) == pytest.approx((reference_life(damages) / 1e6) ** (-9 / 8))
+
+
+@pytest.mark.parametrize("stationary", [False, True])
+def test_the_damage_of_a_series_is_that_of_its_samples(stationary):
+    rng = np.random.default_rng(7)
+    load = np.maximum(rng.normal(40e3, 40e3, (28, 50)), 0.0)
+    load[:, 7] = 0.0
+    length, semi_axis, rating = 0.106, 1.6e-3, 514e3
+    assert semi_axis * np.cbrt(load.max()) > 0.5 * length  # some ellipses reach beyond the ends
+    per_sample = load.T
+    laminae = lamina_loads(per_sample, semi_axis * np.cbrt(per_sample), length)
+    found = damage_series(load, semi_axis, length, rating, stationary)
+    np.testing.assert_allclose(found[0], ring_damage(laminae, rating / REDUCTION, stationary=stationary), rtol=1e-12)
+    np.testing.assert_allclose(found[1], ring_damage(per_sample[..., None], rating, stationary=stationary), rtol=1e-12)

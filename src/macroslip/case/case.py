@@ -132,6 +132,8 @@ class Case:
     rollers : "all" or sequence of int
         Numbers of the rollers to simulate in each row, from 0.
     traces : Traces, optional
+    rating : bool
+        Whether `macroslip run` and studies rate the bearing beside its slip; `simulate` never does.
 
     Raises
     ------
@@ -157,6 +159,7 @@ class Case:
     window: Window = field(default_factory=Window)
     rollers: str | Sequence[int] = "all"
     traces: Traces | None = None
+    rating: bool = True
 
     def __post_init__(self) -> None:
         for name, kinds in (
@@ -169,6 +172,7 @@ class Case:
             ("laws", (Laws,)),
             ("integrator", (Radau, ExplicitEuler, BackwardEuler)),
             ("window", (Window,)),
+            ("rating", (bool,)),
         ):
             value = getattr(self, name)
             allowed = " or ".join(kind.__name__ for kind in kinds)
@@ -223,6 +227,7 @@ class Case:
             "window": asdict(self.window),
             "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
             "traces": asdict(self.traces) if self.traces else None,
+            "rating": self.rating,
         }
 
     def __repr__(self) -> str:

@@ -197,4 +197,5 @@ _PARTS: dict[str, Callable[[CaseBuilder, Any], dict[str, Any]] | None] = {
     "window": None,
     "rollers": None,
     "traces": None,
+    "rating": None,
 }

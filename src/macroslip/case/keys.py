@@ -139,3 +139,4 @@ class CaseFile:
     window: Window = Window()
     rollers: Annotated[str | list[int], RollerNumbers("numbers of the rollers to simulate in each row, from 0")] = "all"
     traces: Annotated[Traces | None, OrWord("none")] = None
+    rating: Annotated[bool, Flag("whether to rate the bearing beside its slip: safety, lives, pressure, films")] = True

@@ -210,8 +210,14 @@ def fields_of(kind: Any) -> Mapping[str, FieldInfo]:
 
 def sections_of(field: FieldInfo) -> list[type]:
     """Section classes that a field may hold: none for a plain value, several for variants."""
-    kinds = [field.annotation, *get_args(field.annotation)]
-    return [kind for kind in kinds if fields_of(kind)]
+    return [kind for kind in _inside(field.annotation) if fields_of(kind)]
+
+
+def _inside(annotation: Any) -> Iterator[Any]:
+    """Yield an annotation and all that it is made of, as the section of `dict[str, Section | None]`."""
+    yield annotation
+    for part in get_args(annotation):
+        yield from _inside(part)
 
 
 def variants_of(field: FieldInfo) -> Variants | None:

@@ -36,11 +36,12 @@ def run(
 
         load_laws(path)
     checked = read_case(case)
+    from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
 
     with progress_bar(quiet=quiet) as report:
         progress = report and (lambda done, total: report("rollers", done, total))
-        dataset = simulate(checked, threads=threads, progress=progress)
+        dataset = with_rating(simulate(checked, threads=threads, progress=progress), checked)
     # In memory first: the HDF5 library may bring the whole process down when the disk is full.
     content = dataset.to_netcdf(engine="h5netcdf")
     with new_file(output, force=force) as temporary:
@@ -96,6 +97,24 @@ def _summary(dataset: xr.Dataset) -> None:
     numbers = "mean energy per roller [J]", "highest peak power [W]", "lowest spin / pure rolling [1]", "failed rollers"
     headings = [("row", False), *((heading, True) for heading in numbers)]
     table(f"{found['title']}, {window}", headings, rows)
+    _beside(dataset)
+
+
+def _beside(dataset: xr.Dataset) -> None:
+    """Print the numbers beside slip in a line, or why there are none."""
+    from macroslip.cli.printing import number
+
+    if "rating_problem" in dataset.attrs:
+        typer.echo(f"not rated: {dataset.attrs['rating_problem']}")
+    if "static_safety" not in dataset:
+        return
+    life = float(dataset.modified_reference_life.sel(load_along_roller="hertz"))
+    typer.echo(
+        f"beside slip: static safety {number(float(dataset.static_safety))}, L10h {number(float(dataset.basic_life))} h, "
+        f"modified reference life {number(life)} h, largest pressure {number(float(dataset.largest_pressure.max()) / 1e9)} "
+        f"GPa, kappa {number(float(dataset.viscosity_ratio))}, "
+        f"below the minimum load {number(100.0 * float(dataset.share_below_minimum_load))} % of the time"
+    )
 
 
 def _tell_failures(dataset: xr.Dataset) -> bool:

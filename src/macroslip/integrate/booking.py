@@ -13,7 +13,9 @@ from macroslip.integrate.peak import follow_peak, follow_step
 from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak
 from macroslip.integrate.stages import between_stages
+from macroslip.integrate.surface import Way
 from macroslip.integrate.tuning import ASTRAY, PEAK_PARTS, RESOLVED, SLIP_SHARE, SNAP
+from macroslip.ring.orbit import instant, interval_of
 from macroslip.roller.forces import magnitude, net_force, slip_forces
 
 
@@ -92,7 +94,7 @@ def book(record, path, state, step, stages, found, peaks, edge):
         top_power = 0.0
     peaks = Peaks(peaks.samples, orbit, top_power)
     _book_peaks(record, path, state, step, stages, found, peaks, edge)
-    _book_details(record, path.model, step, stages, found, orbit)
+    _book_details(record, path, step, stages, found, orbit)
     return Peaks(peaks.samples, orbit, max(top_power, max(found.inner), max(found.outer)))
 
 
@@ -127,14 +129,30 @@ def _may_peak_inside(path, state, stages, peaks):
 
 
 @jit_part
-def _book_details(record, model, step, stages, found, orbit):
+def _book_details(record, path, step, stages, found, orbit):
     """Book ranges of the film law at the end of the step, and what curved contacts add."""
-    h, at3 = step.length, step.at3
+    model, h, at3 = path.model, step.length, step.at3
     note_state(record, model, at3, stages.f3, stages.v3, h)
     book_stage(record, model, step.at1, stages.f1, stages.v1, h * WEIGHTS[0])
     book_stage(record, model, step.at2, stages.f2, stages.v2, h * WEIGHTS[1])
     book_stage(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])
-    book_step(record, model, at3, stages.f3, stages.v3, h, orbit, (found.inner_energy, found.outer_energy))
+    energies = (_stage_energies(h, found.inner), _stage_energies(h, found.outer))
+    book_step(record, model, at3, stages.f3, stages.v3, h, orbit, energies, _way(path, step))
+
+
+@jit_part
+def _stage_energies(h, power):
+    """What each stage adds to the energy of a step [J]."""
+    return h * WEIGHTS[0] * power[0], h * WEIGHTS[1] * power[1], h * WEIGHTS[2] * power[2]
+
+
+@jit_part
+def _way(path, step):
+    """What the roller passes in a step."""
+    end = instant(path.motion, step.interval, step.times[2])
+    time = step.times[2] - step.length
+    start = instant(path.motion, interval_of(path.motion, time, step.interval), time)
+    return Way(path.start_angle, path.model.orbit_ratio, start.shaft_angle, end.shaft_angle)
 
 
 @jit_part

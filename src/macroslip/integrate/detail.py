@@ -14,6 +14,8 @@ from macroslip.compiled import jit_part
 from macroslip.contact.flash_temperature import flash_temperature
 from macroslip.film.asperity_load import asperity_share
 from macroslip.film.film_law import film_thickness
+from macroslip.integrate.radau_step import WEIGHTS
+from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.integrate.tuning import LOOK_EVERY
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
 from macroslip.traction.slip_field import slip_at
@@ -23,8 +25,6 @@ from macroslip.traction.traction_law import chord_traction, patch_traction_micro
 MECHANISMS = ("sliding", "curvature", "contact angle")
 #: Meaning of `Record.extreme` by position.
 EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
-#: Stations along the roller's length.
-STATIONS = 24
 
 
 @jit_part
@@ -72,27 +72,40 @@ def _raise(record, orbit, interface, flash, density, ratio, film_ratio):
 
 
 @jit_part
-def _spread(station_energy, powers):
-    """Give the stations the energy in the last place of `powers` in proportion to the powers before it."""
+def _spread(record, interface, energies, way):
+    """Spread the step's energies over the stations, and over the places of the raceway that they pass.
+
+    Along the roller in proportion to the powers of `station_work`; along the way every stage has the part of it that its
+    weight is. Without any power yet the energy is kept for later, in the place after the powers.
+    """
+    powers = record.station_work[interface]
     total = 0.0
     for k in range(STATIONS):
-        total += powers[k]
-    if total > 0.0:
-        for k in range(STATIONS):
-            station_energy[k] += powers[STATIONS] * powers[k] / total
-        powers[STATIONS] = 0.0
+        total += abs(powers[k])
+    if total <= 0.0:
+        powers[STATIONS] += energies[0] + energies[1] + energies[2]
+        return
+    energy = powers[STATIONS] + energies[0] + energies[1] + energies[2]
+    for k in range(STATIONS):
+        record.station_energy[interface, k] += energy * abs(powers[k]) / total
+    surface = record.surface_energy
+    spread(surface, interface, way, 0.0, 1.0, powers, powers[STATIONS])
+    spread(surface, interface, way, 0.0, WEIGHTS[0], powers, energies[0])
+    spread(surface, interface, way, WEIGHTS[0], WEIGHTS[0] + WEIGHTS[1], powers, energies[1])
+    spread(surface, interface, way, WEIGHTS[0] + WEIGHTS[1], 1.0, powers, energies[2])
+    powers[STATIONS] = 0.0
 
 
 @jit_part
-def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, energy):
-    """Spread the step's energy over the stations as the power at its end, and raise the orbit's extremes.
+def _book_raceway(record, orbit, interface, contact, load, at, slip, energies, way):
+    """Spread the step's energies as the power at its end lies along the roller, and raise the extremes.
 
-    A step that ends without load spreads it as the last one with load; before that it is kept for the first one.
+    A step that ends without load spreads them as the last one with load; before that they are kept for the first one.
     """
+    ring_speed = at.ring_speed
     powers = record.station_work[interface]
     if load <= 0.0:
-        powers[STATIONS] += energy
-        _spread(record.station_energy[interface], powers)
+        _spread(record, interface, energies, way)
         return
     entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
     film, _, _ = film_thickness(contact.film, load, entrainment)
@@ -112,20 +125,23 @@ def _book_raceway(record, orbit, interface, contact, load, ring_speed, slip, ene
             continue
         station, covered = 0.5 * (first + last), (last - first) / width
         height = 1.0 - station * station / (across * across)
-        speed = abs(slip_at(field, contact.shape.contour_radius, station))
+        local = slip_at(field, contact.shape.contour_radius, station)
+        speed = abs(local)
         chord = math.sqrt(height)
         pull = (1.0 - share) * chord_traction(contact.traction, load, film, across, chord, speed)
         pull += boundary * height * min(speed / contact.asperity_friction.full_slip, 1.0)
-        powers[k] = pull * speed * covered
+        powers[k] = math.copysign(pull * speed * covered, local)
         half_width = along * chord
         roller, ring = ring_speed - slip, ring_speed
         flash = max(
             flash, flash_temperature(pull * speed, half_width, roller, ring, contact.effusivity_1, contact.effusivity_2)
         )
-        density = max(density, pull * speed / (2.0 * half_width))
+        mean = pull * speed / (2.0 * half_width)
+        density = max(density, mean)
+        raise_density(record.surface_density, interface, way, k, mean)
         fastest = max(fastest, speed)
-    powers[STATIONS] += energy
-    _spread(record.station_energy[interface], powers)
+    powers[STATIONS + 1] = 1.0 if film >= contact.roughness else 0.0
+    _spread(record, interface, energies, way)
     _raise(record, orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 
@@ -149,9 +165,9 @@ def _look(record, interface, contact, load, ring_speed, slip, span):
 
 
 @jit_part
-def _book_step(record, model, at, forces, slip, span, orbit, energies):
-    _book_raceway(record, orbit, 0, model.inner, at.inner_load, at.ring_speed, slip, energies[0])
-    _book_raceway(record, orbit, 1, model.outer, at.outer_load, at.ring_speed, slip, energies[1])
+def _book_step(record, model, at, forces, slip, span, orbit, energies, way):
+    _book_raceway(record, orbit, 0, model.inner, at.inner_load, at, slip, energies[0], way)
+    _book_raceway(record, orbit, 1, model.outer, at.outer_load, at, slip, energies[1], way)
     load = abs(forces.cage_load)
     if load > 0.0:
         contact = model.cage
@@ -169,19 +185,27 @@ def _book_step(record, model, at, forces, slip, span, orbit, energies):
         _look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, span)
 
 
+@jit_part
+def in_stages(energy):
+    """The energy of a step with constant power, in the parts of three stages [J]."""
+    return energy * WEIGHTS[0], energy * WEIGHTS[1], energy * WEIGHTS[2]
+
+
 def book_stage(record, model, at, forces, slip, span):
     """Book energies by mechanism for a state that counts for `span` [s]."""
 
 
-def book_step(record, model, at, forces, slip, span, orbit, energies):
-    """Book stations, extremes and now and then the quadrature's error, for a step that ends in this state.
+def book_step(record, model, at, forces, slip, span, orbit, energies, way):
+    """Book stations, places, extremes and now and then the quadrature's error, for a step that ends in this state.
 
     Parameters
     ----------
     orbit : int
         Orbit the step belongs to, or −1.
-    energies : tuple of float
-        Energy of the step at the inner and at the outer raceway [J].
+    energies : tuple of tuple of float
+        Energy of the step's three stages at the inner and at the outer raceway [J].
+    way : Way
+        What the roller passes in the step.
     """
 
 
@@ -198,9 +222,9 @@ def _book_stage_of(record, model, at, forces, slip, span):
 
 
 @overload(book_step)
-def _book_step_of(record, model, at, forces, slip, span, orbit, energies):
+def _book_step_of(record, model, at, forces, slip, span, orbit, energies, way):
     if _is_curved(model):
-        return lambda record, model, at, forces, slip, span, orbit, energies: _book_step(
-            record, model, at, forces, slip, span, orbit, energies
+        return lambda record, model, at, forces, slip, span, orbit, energies, way: _book_step(
+            record, model, at, forces, slip, span, orbit, energies, way
         )
-    return lambda record, model, at, forces, slip, span, orbit, energies: None
+    return lambda record, model, at, forces, slip, span, orbit, energies, way: None

@@ -6,10 +6,11 @@ import math
 
 from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
-from macroslip.integrate.detail import book_stage, book_step
+from macroslip.integrate.detail import book_stage, book_step, in_stages
 from macroslip.integrate.explicit_euler import explicit_euler_step
 from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_traces
 from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, INTERRUPTED, NO_ROOT, NOT_FINITE
+from macroslip.integrate.surface import Way
 from macroslip.ring.orbit import instant, interval_of
 from macroslip.roller.forces import slip_forces, station
 
@@ -57,6 +58,7 @@ def integrate_fixed_step(path, slip, end, record):
         after = min(start + (record.count[0] + 1) * rule.step, end)
         span = after - time
         interval = interval_of(motion, after, interval)
+        turned = instant(motion, interval_of(motion, time, interval), time).shaft_angle
         reached = station(model, path.start_angle, instant(motion, interval, after))
         inner, outer, cage = powers(model, at, forces, slip)
         if rule.implicit:
@@ -90,7 +92,9 @@ def integrate_fixed_step(path, slip, end, record):
                 book_stage(record, model, reached, forces, slip, span)
             else:
                 book_stage(record, model, at, before, slip_before, span)
-            book_step(record, model, reached, forces, slip, span, orbit, (span * inner, span * outer))
+            parts = (in_stages(span * inner), in_stages(span * outer))
+            way = Way(path.start_angle, model.orbit_ratio, turned, instant(motion, interval, after).shaft_angle)
+            book_step(record, model, reached, forces, slip, span, orbit, parts, way)
         time, at = after, reached
         record.count[0] += 1
     record.end[0], record.end[1] = time, slip

@@ -11,7 +11,8 @@ from numba.extending import overload
 
 from macroslip.compiled import jit_part
 from macroslip.film.film_law import film_in_range, film_thickness
-from macroslip.integrate.detail import EXTREMES, MECHANISMS, STATIONS
+from macroslip.integrate.detail import EXTREMES, MECHANISMS
+from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS
 from macroslip.integrate.tuning import SPIN_RATIO_SPEED
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
 
@@ -62,8 +63,13 @@ class Record(NamedTuple):
         Largest flash temperature [K], power per area [W/m²] and slide-roll ratio, and least Λ, in each complete orbit.
     quadrature : ndarray, shape (2, 2)
         Of states looked at: energy by a finer quadrature, and what the one in use is off by [J].
-    station_work : ndarray, shape (2, stations + 1)
-        Work space: power at each station when the raceway last had load [W], and energy not yet given to them [J].
+    surface_energy : ndarray, shape (2, sectors, stations, 2, 2)
+        Energy at the places of the raceways, by sign of slip and film regime [J], see `macroslip.integrate.surface`.
+    surface_density : ndarray, shape (2, sectors, stations)
+        Largest power per area at the places of the raceways, mean over the contact's width [W/m²].
+    station_work : ndarray, shape (2, stations + 2)
+        Work space: power at each station when the raceway last had load, with the sign of slip [W], energy not yet given
+        to them [J], and the film regime they belong to.
     """
 
     edges: np.ndarray
@@ -84,6 +90,8 @@ class Record(NamedTuple):
     station_energy: np.ndarray
     extreme: np.ndarray
     quadrature: np.ndarray
+    surface_energy: np.ndarray
+    surface_density: np.ndarray
     station_work: np.ndarray
 
 
@@ -111,7 +119,9 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray, highest_speed: float) 
         station_energy=np.zeros((2, STATIONS)),
         extreme=extreme,
         quadrature=np.zeros((2, 2)),
-        station_work=np.zeros((2, STATIONS + 1)),
+        surface_energy=np.zeros((2, SECTORS, STATIONS, len(SLIP_SIGNS), len(FILM_REGIMES))),
+        surface_density=np.zeros((2, SECTORS, STATIONS)),
+        station_work=np.zeros((2, STATIONS + 2)),
     )
 
 

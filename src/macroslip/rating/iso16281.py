@@ -15,6 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.compiled import jit
+
 REDUCTION = 0.83
 """lambda nu: reduction of the load rating for edge stress and uneven load along the roller."""
 WEIBULL_SLOPE = 9.0 / 8.0
@@ -143,6 +145,73 @@ def ring_damage(load: NDArray[np.float64], rating: float, *, stationary: bool) -
     exponent = 4.5 if stationary else 4.0
     equivalent = np.mean((load / rating) ** exponent, axis=-2) ** (4.5 / exponent)
     return np.mean(equivalent, axis=-1)
+
+
+@jit
+def damage_series(load, semi_axis, roller_length, rating, stationary):
+    """Damage of one ring of one row over a history, as `lamina_loads` and `ring_damage` give it, in one loop.
+
+    Parameters
+    ----------
+    load : ndarray, shape (Z, n)
+        Loads of the row's rollers [N].
+    semi_axis : float
+        Semi-axis of the contact ellipse along the roller, per Q^(1/3) [m/N^(1/3)].
+    roller_length : float
+        Length L [m].
+    rating : float
+        Q_c of the ring [N], without the division by `REDUCTION`.
+    stationary : bool
+        Whether the ring stands still relative to the load.
+
+    Returns
+    -------
+    ndarray, shape (2, n)
+        With the load along the roller of Hertz, and with load spread evenly.
+
+    Notes
+    -----
+    The inner loop runs over laminae of rollers of samples, 40 million times for ten minutes; NumPy's powers of the same
+    arrays take ten times as long.
+
+    Examples
+    --------
+    >>> even = np.full((28, 1), 100e3)
+    >>> round(damage_series(even, 1e-3, 0.106, 500e3, True)[1, 0] * 5**4.5, 9)
+    1.0
+    """
+    rollers, samples = load.shape
+    count = LAMINAE // 2
+    lamina = 0.5 * roller_length / count
+    found = np.zeros((2, samples))
+    sums = np.empty(count)
+    # The outer ring's exponent is 9/2 for every roller; the inner one's 4, and the sum to the power 9/8.
+    for k in range(samples):
+        sums[:] = 0.0
+        even = 0.0
+        for j in range(rollers):
+            carried = load[j, k]
+            if carried <= 0.0:
+                continue
+            reach = semi_axis * carried ** (1.0 / 3.0)
+            end = min(0.5 * roller_length / reach, 1.0)
+            scale = carried * count * REDUCTION / (rating * (1.5 * end - 0.5 * end * end * end))
+            before = 0.0
+            for i in range(count):
+                place = min((i + 1) * lamina / reach, 1.0)
+                reached = 1.5 * place - 0.5 * place * place * place
+                ratio = scale * (reached - before)
+                fourth = ratio * ratio * ratio * ratio
+                sums[i] += fourth * math.sqrt(ratio) if stationary else fourth
+                before = reached
+            ratio = carried / rating
+            fourth = ratio * ratio * ratio * ratio
+            even += fourth * math.sqrt(ratio) if stationary else fourth
+        power = 1.0 if stationary else 4.5 / 4.0
+        for i in range(count):
+            found[0, k] += (sums[i] / rollers) ** power / count
+        found[1, k] = (even / rollers) ** power
+    return found
 
 
 def reference_life(damage: NDArray[np.float64], axis: int | tuple[int, ...] | None = None) -> NDArray[np.float64]:

@@ -32,8 +32,6 @@ CONTAMINATION = 0.5
 """e_C by default: between slight and typical contamination of a bearing with a pitch above 100 mm; an estimate."""
 WOHLER_EXPONENTS = (4.0, 10.0)
 
-_CHUNK = 1000
-
 
 def rate(
     bearing: Bearing,
@@ -165,15 +163,10 @@ def _ring_damages(bearing: Bearing, lubricant: Lubricant, history: History) -> N
     )
     semi_axes = [raceway.hertz.semi_axis_across for raceway in interfaces(bearing, lubricant)]
     found = np.empty((len(DISTRIBUTIONS), len(ROWS), len(RACEWAYS), history.loads.time.size))
-    for start in range(0, history.loads.time.size, _CHUNK):
-        now = slice(start, start + _CHUNK)
-        load = np.moveaxis(history.roller_load[:, :, now], -1, 1)
+    for row, load in enumerate(history.roller_load):
         for k, rating in enumerate(ratings):
-            laminae = iso16281.lamina_loads(load, semi_axes[k] * np.cbrt(load), bearing.roller_length)
             stationary = RACEWAYS[k] == "outer"
-            explicit = rating / iso16281.REDUCTION
-            found[0, :, k, now] = iso16281.ring_damage(laminae, explicit, stationary=stationary)
-            found[1, :, k, now] = iso16281.ring_damage(load[..., None], rating, stationary=stationary)
+            found[:, row, k] = iso16281.damage_series(load, semi_axes[k], bearing.roller_length, rating, stationary)
     return found
 
 

@@ -164,7 +164,7 @@ def further_blocks(dataset: xr.Dataset, of: str = "") -> tuple[Block, ...]:
     """Energies by mechanism and by station along the roller, where the dataset has such dimensions."""
     pictures = []
     for name, values in dataset.data_vars.items():
-        if "row" not in values.dims or values.attrs.get("units") not in ("J", "J/m"):
+        if "row" not in values.dims or "angle" in values.dims or values.attrs.get("units") not in ("J", "J/m"):
             continue
         if "mechanism" in values.dims and "station" not in values.dims:
             pictures.append(

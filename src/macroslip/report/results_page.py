@@ -12,6 +12,8 @@ from macroslip.report.bearing_section import further_blocks, orbit_blocks, resul
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Table, render
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
+from macroslip.report.rating_section import rating_blocks
+from macroslip.report.surface_section import surface_blocks
 from macroslip.result.orbit_profile import orbit_profile
 
 if TYPE_CHECKING:
@@ -68,6 +70,12 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
             blocks.append(Paragraph(f"Energy over the orbit, films and the moving bearing need traces: {notes[name]}"))
         result = result.drop_dims("time") if "time" in result.dims else result
         sections.append(Section(f"result-{number}", name, (*blocks, *result_blocks(result), *further_blocks(result))))
+        for part, heading, found in (
+            ("surface", "where the surface suffers", surface_blocks(result)),
+            ("rating", "numbers beside slip", rating_blocks(result)),
+        ):
+            if found:
+                sections.append(Section(f"{part}-{number}", f"{name}: {heading}", found))
     for number, (name, study) in enumerate(studies.items()):
         sections.append(Section(f"study-{number}", name, _study_blocks(study)))
     sections.append(provenance_section(results))

@@ -11,7 +11,9 @@ from macroslip.errors import InputError
 from macroslip.report.page import Block, Paragraph, Pictures, Section, Table, Verbatim, render
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
+from macroslip.report.rating_section import rating_summary
 from macroslip.report.style import ROW, finish
+from macroslip.report.surface_section import lifetime_blocks
 from macroslip.study.exceedance import exceedance
 from macroslip.study.export import table
 from macroslip.study.lifetime import lifetime_energy, worst
@@ -63,6 +65,7 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weights | None = None,
         Section("answer", "The answer", tuple(_overview(study))),
         Section("lifetime", "Lifetime energy", tuple(_lifetime(study, weights, years))),
         Section("exceedance", "Exceedance", tuple(_exceedance(study, weights))),
+        *_further(study, weights, years),
         Section("worst", "Worst cases", tuple(_worst(study))),
         Section("failures", "Failures", tuple(_failures(study))),
     ]
@@ -72,6 +75,15 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weights | None = None,
         Section("study", "The study file", (Verbatim(study.attrs["study"], "The study as it was read, as JSON"),))
     )
     return render(title, str(study.attrs["title"]), sections)
+
+
+def _further(study: xr.Dataset, weights: Weights | None, years: float) -> list[Section]:
+    """Maps of the raceways and the rating, where the runs have them."""
+    parts = (
+        ("surface", "Where the surface suffers", lifetime_blocks(study, weights or CLASS_ONE, years)),
+        ("rating", "Numbers beside slip", rating_summary(study)),
+    )
+    return [Section(name, title, blocks) for name, title, blocks in parts if blocks]
 
 
 def _overview(study: xr.Dataset) -> list[Block]:

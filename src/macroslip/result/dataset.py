@@ -1,8 +1,8 @@
 """The result of a case as a labelled dataset.
 
 Dimensions: `row` (downwind, upwind), `roller`, `interface` (inner, outer, cage), `orbit` (complete orbits in the window)
-and, where traces were asked for, `time`. Contacts with microslip or asperities add `raceway` (inner, outer), `mechanism`
-and `station`.
+and, where traces were asked for, `time`. Contacts with microslip or asperities add `raceway` (inner, outer), `mechanism`,
+`station`; their maps of the raceways add `angle`, `slip_sign` and `film_regime`.
 """
 
 from __future__ import annotations
@@ -15,9 +15,11 @@ import numpy as np
 import macroslip
 from macroslip.bearing.frames import ROWS, initial_angles
 from macroslip.case.case import Radau
-from macroslip.integrate.detail import MECHANISMS, STATIONS
+from macroslip.integrate.detail import MECHANISMS
 from macroslip.integrate.record import COUNTS, TRACES, Record
 from macroslip.integrate.status import Status
+from macroslip.integrate.surface import STATIONS
+from macroslip.result import surface_maps
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.contacts import references
 
@@ -82,6 +84,7 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "1",
         "relative error of the film's power by the quadrature in use, from a finer one at states of the run",
     ),
+    **surface_maps.VARIABLES,
     # Traces.
     "spin": (_TRACES, "rad/s", "spin about the roller's axis, relative to the orbiting frame"),
     "spin_pure": (_TRACES, "rad/s", "spin in pure rolling, relative to the orbiting frame"),
@@ -219,6 +222,7 @@ def _contact_details(records: list[list[Record]], failed: np.ndarray) -> dict[st
         **{name: _gathered(records, failed, name) for name in energies},
         **{name: extreme[..., position] for position, name in enumerate(names)},
         "quadrature_error": error,
+        **surface_maps.values(records, failed),
     }
 
 
@@ -262,4 +266,5 @@ def _coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, An
         found["mechanism"] = list(MECHANISMS)
         found["station"] = ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"})
         found["raceway"] = list(INTERFACES[:2])
+        found |= surface_maps.coordinates(case.bearing)
     return found

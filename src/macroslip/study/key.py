@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from macroslip.case.case import Case
 
 #: Modules of this folder whose code is stored in results.
-_STORED_PARTS = ("study/cycles", "study/summary")
+_STORED_PARTS = ("study/cycles", "study/rating_values", "study/summary")
 
 
 def program() -> str:

@@ -17,7 +17,7 @@ from macroslip.study.loads_list import load_list
 from macroslip.study.settings import RECORDS, Setting
 from macroslip.study.study import Study
 from macroslip.study.study_keys import StudyFile, Variations
-from macroslip.study.variation import grid
+from macroslip.study.variation import Sample, grid
 
 _REMEDY = "docs/studies.md has a study file that runs."
 
@@ -94,14 +94,15 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         if f"{noun}s" in values
     }
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
-    parameters = attempt("variations", lambda: _parameters(variations, models))
+    sample = attempt("variations", lambda: _sample(variations, base, records))
+    parameters = attempt("variations", lambda: _parameters(variations, sample, models))
     if problems:
         raise together(problems)
     combinations = [
         [*first, *second, *third]
         for first in grid(variations.grid or {})
         for second in variations.list or [[]]
-        for third in (variations.sample.points() if variations.sample else [[]])
+        for third in (sample.points() if sample else [[]])
     ]
     own = {noun: {_name(mapping, noun, getattr(base, noun)): getattr(base, noun)} for noun in RECORDS}
     return Study(
@@ -121,6 +122,27 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     )
 
 
+def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sample | None:
+    """The sample, with the ranges of the study's bearing and lubricant where it asks for them."""
+    sample = variations.sample
+    asked = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
+    if not asked:
+        return sample
+    if base is None:  # what is wrong with the case comes first
+        return None
+    found = {}
+    for noun in asked:
+        known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
+        if len(known) > 1:
+            raise InputError(
+                f"the sample takes ranges from the {noun}'s file, and the study has {len(known)} of them",
+                where="variations.sample.ranges",
+                remedy=f"Make a study of each {noun}, or give low, high and unit.",
+            )
+        found[noun] = known[0]
+    return sample.with_ranges_of(found)
+
+
 def _name(case: Mapping[str, Any], noun: str, record: Record) -> str:
     """What the study calls the base case's bearing or lubricant."""
     return case.get(noun) or record.name
@@ -137,9 +159,9 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
     return {name: kind.read(name if name in catalogue else folder / name) for name in names}
 
 
-def _parameters(variations: Variations, models: Mapping[str, list[Setting]]) -> dict[str, str]:
+def _parameters(variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
-    ranges = variations.sample.ranges if variations.sample else {}
+    ranges = sample.ranges if sample else {}
     places: dict[str, dict[str, str]] = {
         "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
         "list": {one.key: one.unit for item in variations.list or [] for one in item},

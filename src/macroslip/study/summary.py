@@ -9,6 +9,8 @@ import numpy as np
 
 from macroslip.bearing.geometry import orbit_ratio
 from macroslip.integrate.status import Status
+from macroslip.study.rating_values import VARIABLES as RATING_VARIABLES
+from macroslip.study.rating_values import rating_values
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,6 +45,7 @@ CASE_VARIABLES = {
     "loads_length": ("s", "length of the loads"),
     "shaft_speed_mean": ("rad/s", "mean shaft speed of the loads"),
     "contact_torque": ("N m", "friction torque of the contacts of all rollers: mean over the turns of the shaft"),
+    **RATING_VARIABLES,
     "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
     "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
 }
@@ -116,6 +119,7 @@ def case_values(result: xr.Dataset, case: Case) -> dict[str, float]:
         "loads_length": loads.duration,
         "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
         "contact_torque": bearing.rollers_per_row * float(_orbit_energy(result).sum()) / turned,
+        **rating_values(case),
     }
 
 

@@ -9,11 +9,14 @@ from typing import Annotated
 
 import numpy as np
 
+from macroslip.catalogue import Record
+from macroslip.catalogue.fields import dimensions
 from macroslip.catalogue.forms import Choice, Quantity, Text, Whole
-from macroslip.catalogue.input_section import MappingOf, input_section
+from macroslip.catalogue.input_section import MappingOf, OrWord, input_section
+from macroslip.catalogue.problems import unknown_key
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
-from macroslip.study.settings import Setting
+from macroslip.study.settings import RECORDS, Setting
 
 METHODS = ("latin-hypercube", "sobol")
 SCALES = ("linear", "log")
@@ -53,8 +56,20 @@ class Range:
         return self.low + position * (self.high - self.low)
 
 
-def _checked_range(key: str, interval: Range) -> Range:
-    """Check both ends as values of the parameter."""
+def _checked_range(key: str, interval: Range | None) -> Range | None:
+    """Check both ends as values of the parameter; those of a file are checked with it."""
+    if interval is None:
+        if key.partition(".")[0] not in RECORDS:
+            raise InputError(
+                f"the range of {key} is asked of a file, but it is no value of a bearing or lubricant",
+                allowed="keys such as bearing.roller_length",
+                remedy="Give low, high and unit.",
+            )
+        noun, _, name = key.partition(".")
+        known = dimensions(RECORDS[noun])
+        if name not in known:
+            raise unknown_key(key, (f"{noun}.{one}" for one in known))
+        return None
     for end in (interval.low, interval.high):
         Setting(key, end, interval.unit).check(Place(Source()))
     return interval
@@ -73,18 +88,18 @@ class Sample:
     seed : int
         The same one gives the same points.
     ranges : mapping of str to Range
-        By key of the parameter.
+        By key of the parameter; None, in a file `range`: the range that the bearing's or lubricant's file gives the value.
     """
 
     method: Annotated[str, Choice("how to sample", lambda: METHODS)] = "latin-hypercube"
     count: Annotated[int, Whole("number of points; a power of 2 for sobol", 1, _MOST_POINTS)]
     seed: Annotated[int, Whole("seed: the same one gives the same points")]
     ranges: Annotated[
-        dict[str, Range],
+        dict[str, Range | None],
         MappingOf(
             "interval of each parameter",
-            "a section such as {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}}",
-            Range,
+            "a section such as {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}, bearing.roller_length: range}",
+            Annotated[Range | None, OrWord("range")],
             _checked_range,
         ),
     ]
@@ -98,12 +113,49 @@ class Sample:
                 remedy=f"Take {below} or {2 * below}, or latin-hypercube.",
             )
 
+    def with_ranges_of(self, records: Mapping[str, Record]) -> Sample:
+        """The sample with the ranges that the files of bearing and lubricant give, in place of the word.
+
+        Raises
+        ------
+        InputError
+            If a value has no range there, or is a count.
+
+        Examples
+        --------
+        >>> from macroslip import Bearing
+        >>> sample = Sample(count=2, seed=1, ranges={"bearing.roller_length": None})
+        >>> found = sample.with_ranges_of({"bearing": Bearing.read("skf-240-630-bc")}).ranges["bearing.roller_length"]
+        >>> found.low, found.high, found.unit
+        (96.3, 111.7, 'mm')
+        """
+        found = dict(self.ranges)
+        for key, interval in self.ranges.items():
+            if interval is None:
+                noun, _, name = key.partition(".")
+                entry = records[noun].provenance.get(name)
+                if entry is None or entry.range is None:
+                    raise InputError(
+                        f"{records[noun].name} has no range for {name}",
+                        where=f"variations.sample.ranges.{key}",
+                        remedy="Give low, high and unit, or a range in the file.",
+                    )
+                if isinstance(getattr(records[noun], name), int):
+                    raise InputError(
+                        f"{name} is a count, which an interval cannot sample",
+                        where=f"variations.sample.ranges.{key}",
+                        remedy=f"List its values in variations.grid: {{{key}: {{values: [...]}}}}.",
+                    )
+                unit = "" if entry.unit == "1" else entry.unit
+                found[key] = Range(*entry.range, unit)
+        return Sample(method=self.method, count=self.count, seed=self.seed, ranges=found)
+
     def points(self) -> list[list[Setting]]:
         """The points, each as the settings of all parameters.
 
         Examples
         --------
-        >>> sample = Sample("sobol", 4, 1, {"drivetrain.tilt": Range(0.0, 8.0, "deg")})
+        >>> sample = Sample(method="sobol", count=4, seed=1, ranges={"drivetrain.tilt": Range(0.0, 8.0, "deg")})
         >>> sorted(int(point[0].value // 2) for point in sample.points())  # one in each quarter
         [0, 1, 2, 3]
         """

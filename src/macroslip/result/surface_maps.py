@@ -1,0 +1,159 @@
+"""Where on the raceways energy is dissipated: maps over the angle on the raceway and the place along the roller.
+
+The maps belong to the bearing, not to a roller: what all simulated rollers of a row leave at a place of the raceway. The
+outer raceway stands still, so its angle is φ; the inner one turns, and its angle is counted on the ring, from where +X0
+was at the first sample. Energies are stored, in J, so that sums over a map are the energies of `simulate`; over
+`cell_area` they are energies per area.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.bearing import geometry
+from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.errors import InputError
+from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from macroslip.bearing import Bearing
+    from macroslip.integrate.record import Record
+
+_PLACES = ("row", "raceway", "angle", "station")
+#: As `macroslip.result.dataset.VARIABLES`.
+VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "surface_energy": (
+        (*_PLACES, "slip_sign", "film_regime"),
+        "J",
+        "energy in the window dissipated at each place of a raceway by all simulated rollers of the row, by the sign of "
+        "local slip and by Lambda",
+    ),
+    "surface_power_density": (
+        _PLACES,
+        "W/m2",
+        "largest frictional power per area at each place of a raceway, mean over the width of the contact",
+    ),
+}
+
+
+def values(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
+    """Maps of the rows; NaN for a row with a roller that failed, whose part is missing."""
+    energy = np.array([sum(record.surface_energy for record in line) for line in records])
+    density = np.array([np.max([record.surface_density for record in line], axis=0) for line in records])
+    for number in np.flatnonzero(failed.any(axis=1)):
+        energy[number] = density[number] = np.nan
+    return {"surface_energy": energy, "surface_power_density": density}
+
+
+def coordinates(bearing: Bearing) -> dict[str, Any]:
+    """Angles, areas of the places, and names of what energy is split by."""
+    angle = (np.arange(SECTORS) + 0.5) * (2.0 * math.pi / SECTORS)
+    about = {"units": "rad", "long_name": "angle on the raceway, outer: from +X0 to +Y0, inner: the same on the ring"}
+    area = {"units": "m2", "long_name": "area of a place of the raceway"}
+    return {
+        "angle": ("angle", angle, about),
+        "slip_sign": list(SLIP_SIGNS),
+        "film_regime": list(FILM_REGIMES),
+        "cell_area": (("row", "raceway", "station"), _areas(bearing), area),
+    }
+
+
+def _areas(bearing: Bearing) -> np.ndarray:
+    """Area of a place [m²] over (row, raceway, station): its radius from the bearing's axis changes along the roller."""
+    edges = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
+    middles, width = 0.5 * (edges[1:] + edges[:-1]), bearing.roller_length / STATIONS
+    radii = (geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing))
+    lean = math.sin(bearing.contact_angle)
+    return np.array(
+        [
+            [(radius - AXIAL_SIGNS[row] * middles * lean) * (2.0 * math.pi / SECTORS) * width for radius in radii]
+            for row in ROWS
+        ]
+    )
+
+
+def energy_density(result: xr.Dataset) -> xr.DataArray:
+    """Frictional energy per area of the raceways, e = ∫|τ v| dt.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        From `simulate`, with microslip; or from `macroslip.study.surface.weighted_maps`.
+
+    Returns
+    -------
+    xarray.DataArray
+        [J/m²] over row, raceway, angle and station, and what else `surface_energy` is over but the two it is split by.
+
+    Raises
+    ------
+    InputError
+        If the result has no maps.
+    """
+    _require_maps(result)
+    found = result.surface_energy.sum(("slip_sign", "film_regime"), skipna=False) / result.cell_area
+    return found.assign_attrs(units="J/m2", long_name="frictional energy per area of the raceway")
+
+
+def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
+    """Frictional energy per area of a roller along its axis, of both raceway contacts, mean over its circumference.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        From `simulate`, with microslip.
+    bearing : Bearing
+
+    Returns
+    -------
+    xarray.DataArray
+        [J/m²] over row, station, slip_sign and film_regime; mean over the simulated rollers.
+
+    Raises
+    ------
+    InputError
+        If the result has no maps.
+    """
+    _require_maps(result)
+    area = 2.0 * math.pi * geometry.roller_radius(bearing) * bearing.roller_length / STATIONS
+    energy = result.surface_energy.sum(("raceway", "angle"), skipna=False) / result.sizes["roller"]
+    return (energy / area).assign_attrs(units="J/m2", long_name="frictional energy per area of the roller")
+
+
+def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> xr.DataArray:
+    """Share of a raceway's area on which a map exceeds a threshold of the user's own.
+
+    None is built in: no threshold of damage by frictional power or energy per area could be traced to a primary source.
+
+    Parameters
+    ----------
+    density : xarray.DataArray
+        `surface_power_density` or `energy_density`, over angle and station.
+    area : xarray.DataArray
+        `cell_area`.
+    threshold : float
+        [W/m²] or [J/m²], as the map.
+
+    Returns
+    -------
+    xarray.DataArray
+        [1] over row and raceway.
+    """
+    weight = (area + 0.0 * density).where(density.notnull())
+    return (weight.where(density > threshold, 0.0).sum(("angle", "station")) / weight.sum(("angle", "station"))).rename(
+        "share_above"
+    )
+
+
+def _require_maps(result: xr.Dataset) -> None:
+    if "surface_energy" not in result:
+        raise InputError(
+            "the result has no maps of the raceways",
+            allowed="results of contacts with microslip or asperities",
+            remedy="Write laws: {model: physical} in the case.",
+        )

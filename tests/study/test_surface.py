@@ -1,0 +1,65 @@
+"""Maps over a lifetime: sums against `lifetime_energy`, and the inner ring spread over the angle."""
+
+import numpy as np
+import pytest
+
+from macroslip import InputError, open_study, run_study
+from macroslip.report.study_page import CLASS_ONE, study_page
+from macroslip.result.surface_maps import energy_density
+from macroslip.study.lifetime import lifetime_energy
+from macroslip.study.study_file import study_of
+from macroslip.study.surface import weighted_maps
+from macroslip.study.weights import Given
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("study") / "out"
+    content = {
+        "case": {"rollers": [0], "loads": {"end": "3 s"}, "laws": {"model": "physical"}, "window": {"start": "0 s"}},
+        "loads": {"bundled": ["12A", "18B", "18C"]},
+    }
+    run_study(study_of(content), folder)
+    return open_study(folder)
+
+
+def test_sums_are_the_lifetime_energy_of_the_raceways(study):
+    maps = weighted_maps(study, CLASS_ONE, years=20.0)
+    found = maps.surface_energy.sum(("raceway", "angle", "station", "slip_sign", "film_regime")).isel(group=0)
+    # One roller a row is simulated, so the mean over rollers is that roller; the cage is no raceway.
+    raceways = study.assign(energy_mean=study.energy_inner + study.energy_outer)
+    expected = lifetime_energy(raceways, CLASS_ONE, years=20.0).lifetime_energy.isel(group=0)
+    np.testing.assert_allclose(found.values, expected.values, rtol=1e-9)
+
+
+def test_one_bin_that_is_always_there_is_the_mean_of_its_cases(study):
+    maps = weighted_maps(study, Given({12.0: 0.0, 18.0: 1.0}), years=1.0)
+    cases = study.surface_energy.isel(case=[1, 2]) / study.window_length.isel(case=[1, 2])
+    expected = cases.mean("case").sel(raceway="outer") * 365.25 * 86400.0
+    found = maps.surface_energy.isel(group=0).sel(raceway="outer")
+    np.testing.assert_allclose(found.transpose(*expected.dims).values, expected.values, rtol=1e-12)
+
+
+def test_the_inner_ring_is_alike_all_round_and_the_outer_one_is_not(study):
+    maps = weighted_maps(study, CLASS_ONE)
+    along = energy_density(maps).isel(group=0).sel(row="downwind")
+    inner, outer = along.sel(raceway="inner"), along.sel(raceway="outer")
+    assert float((inner.max("angle") - inner.min("angle")).max()) == 0.0
+    assert float((outer.max("angle") - outer.min("angle")).max()) > 0.0
+    largest = maps.surface_power_density.isel(group=0).sel(raceway="outer")
+    expected = study.surface_power_density.sel(raceway="outer").max("case")
+    np.testing.assert_allclose(largest.transpose(*expected.dims).values, expected.values)
+
+
+def test_the_page_shows_maps_and_ratings(study):
+    page = study_page(study, title="Maps")
+    assert 'id="surface"' in page and 'id="rating"' in page
+    assert "Ratings of 3 of 3 runs" in page
+    assert "downwind row, outer raceway, J/mm²" in page
+
+
+def test_a_study_of_the_paper_has_no_maps(tmp_path):
+    content = {"case": {"rollers": [0], "loads": {"end": "1 s"}}, "loads": {"bundled": ["12A"]}}
+    run_study(study_of(content), tmp_path / "out")
+    with pytest.raises(InputError, match="no maps of the raceways.*model: physical"):
+        weighted_maps(open_study(tmp_path / "out"), CLASS_ONE)
