@@ -67,7 +67,8 @@ def test_shaft_is_in_equilibrium_about_any_point(force, moment, drivetrain, poin
     acting = [(0.0, np.array(force)), (h, bearing), (a, gearbox), (s, weight)]
     assert np.abs(sum(f for _, f in acting)).max() < 1e-4
     for point in ([0, 0, 0], [h, 0, 0], *(np.array(points) * 1e-5)):
-        residual = [*np.array(moment), torque, 0, 0, *sum(np.cross(np.array([x, 0, 0]) - point, f) for x, f in acting)]
+        turning = sum(np.cross(np.array([x, 0, 0]) - point, f) for x, f in acting)
+        residual = np.array(moment) + np.array([torque, 0, 0]) + turning
         assert np.abs(residual).max() < 1e-2  # of terms up to 1e8 N m
 
 
