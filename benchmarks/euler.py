@@ -7,6 +7,7 @@ import numpy as np
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
 from macroslip.integrate.fixed_step import integrate_fixed_step
+from macroslip.integrate.path import FixedStep, Path
 from macroslip.integrate.record import new_record
 from macroslip.integrate.status import COMPLETED
 
@@ -32,9 +33,10 @@ def solve(history: History, reference: Reference, step: float, tolerance: float)
     # Asked for a little early, a step's state is found whatever rounding does to its time.
     times = history.start + step * (np.stack([lower, lower + 1.0], axis=1).ravel() - 0.01)
     times, back = np.unique(times, return_inverse=True)
-    record = new_record(np.array([history.start, history.end]), times)
-    place = history.model, history.motion, history.start_angle, 0.0, history.end
-    status = integrate_fixed_step(*place, step, True, tolerance, np.inf, record)
+    record = new_record(np.array([history.start, history.end]), times, history.limits.speed_scale)
+    rule = FixedStep(step, True, tolerance, np.inf, history.limits.interrupt)
+    path = Path(history.model, history.motion, history.start_angle, rule)
+    status = integrate_fixed_step(path, 0.0, history.end, record)
     around = record.trace[back, 0].reshape(-1, 2)
     share = (history.marks - history.start) / step - lower
     slip = around[:, 0] + share * (around[:, 1] - around[:, 0])

@@ -11,7 +11,7 @@ from benchmarks.histories import History
 from benchmarks.quadrature import patch_by_quadrature
 from benchmarks.scan import timed
 from macroslip.compiled import jit
-from macroslip.ring.load_zone import classify, empty_classes
+from macroslip.integrate.load_zone import classify, empty_classes
 from macroslip.ring.orbit import instant, interval_of
 from macroslip.roller.forces import Station, slip_forces, station
 from macroslip.traction.patch_integral import patch_integral

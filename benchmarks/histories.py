@@ -9,14 +9,14 @@ import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.case.case import Case
-from macroslip.integrate.step_control import Limits
+from macroslip.integrate.load_zone import EDGE, classify, edge_time, empty_classes, interference_at
+from macroslip.integrate.path import Limits
 from macroslip.loads import HubLoads, bundled_cases, main_bearing_load
 from macroslip.mechanisms import Laws
 from macroslip.result.simulate import radau_limits
-from macroslip.ring.load_zone import EDGE, classify, edge_time, empty_classes, interference_at
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
-from macroslip.roller.model import RollerModel, highest_load, roller_model
+from macroslip.roller.model import RollerModel, highest_load, ring_geometry, roller_model
 
 #: Cases, first second and length of the stretches [s], for the full and for the quick run; every case gives both rows.
 FULL = (("12A", "14B", "24A"), 100.0, 30.0)
@@ -110,7 +110,9 @@ def histories_of(
     loads = main_bearing_load(case.loads, case.drivetrain)
     tilt = case.drivetrain.tilt
     models = {row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, laws=laws) for row in ROWS}
-    motion, largest = ring_motion(loads, bearing, models["downwind"], highest_load(bearing, lubricant, laws))
+    motion, largest = ring_motion(
+        loads, bearing, ring_geometry(bearing, models["downwind"]), highest_load(bearing, lubricant, laws)
+    )
     limits = radau_limits(case, motion, models["downwind"], largest)
     found = []
     length = motion.time[-1] - motion.time[0]

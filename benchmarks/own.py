@@ -6,10 +6,11 @@ import numpy as np
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
+from macroslip.integrate.load_zone import empty_classes
+from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import Record, new_record
 from macroslip.integrate.status import COMPLETED
-from macroslip.ring.load_zone import empty_classes
 
 #: Tolerance of the reference.
 REFERENCE_TOLERANCE = 1e-9
@@ -17,11 +18,12 @@ REFERENCE_TOLERANCE = 1e-9
 
 def integrate(history: History, tolerance: float, trace_time: np.ndarray) -> tuple[int, Record]:
     """Status and record of the whole history; a step ends at each trace time [s]."""
-    record = new_record(np.array([history.start, history.end]), trace_time)
+    record = new_record(np.array([history.start, history.end]), trace_time, history.limits.speed_scale)
     stops = np.unique(np.concatenate([trace_time, [history.end]]))
     limits = history.limits._replace(tolerance=tolerance)
+    path = Path(history.model, history.motion, history.start_angle, limits)
     classes = empty_classes(history.motion.time.size)
-    status = integrate_radau(history.model, history.motion, history.start_angle, 0.0, stops, limits, classes, record)
+    status = integrate_radau(path, 0.0, stops, classes, record)
     return status, record
 
 

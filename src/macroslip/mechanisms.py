@@ -8,10 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
-
-#: The traction that is built from viscosity, rheology, heating, microslip and asperities.
-MECHANISMS = "mechanisms"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

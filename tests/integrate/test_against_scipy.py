@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from macroslip.integrate.load_zone import empty_classes, firm_interference
+from macroslip.integrate.path import Limits, Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
 from macroslip.integrate.status import Status
-from macroslip.integrate.step_control import Limits
-from macroslip.ring.load_zone import empty_classes, firm_interference
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.roller.model import roller_model
 
@@ -28,13 +28,15 @@ def solve(bearing, lubricant, displacement, speed, start_angle, slip, times, acc
         tolerance=tolerance,
         max_steps=10**6,
         speed_scale=fastest,
+        energy_scale=fastest**2 / model.mobility,
         longest_step=0.1 * times[-1],
         cold_slip=0.0,
         firm=firm_interference(model, fastest),
+        interrupt=np.zeros(1, dtype=np.int8),
     )
-    record = new_record(np.array([0.0, times[-1]]), np.array(times))
+    record = new_record(np.array([0.0, times[-1]]), np.array(times), fastest)
     status = integrate_radau(
-        model, motion, start_angle, slip, np.array(times), limits, empty_classes(time.size), record
+        Path(model, motion, start_angle, limits), slip, np.array(times), empty_classes(time.size), record
     )
     assert status == Status.COMPLETED
     return record.trace[:, 0], record.energy

@@ -137,3 +137,45 @@ def test_cost_grows_linearly_with_duration():
     ]
     assert evaluations[1] / evaluations[0] == pytest.approx(2.0, rel=0.4)
     assert evaluations[2] / evaluations[1] == pytest.approx(2.0, rel=0.4)
+
+
+@pytest.mark.parametrize("period", [6.0, 8.0, 10.0, 13.0])
+@pytest.mark.parametrize("thrust", [0.0, 100e3, -60e3])
+def test_shaft_reversal_with_microslip_gives_power_and_energy_of_a_tight_tolerance(period, thrust):
+    """A gripped roller's slip passes zero with the shaft's speed; nothing may be made of the ratio of the two there."""
+    time = np.linspace(0.0, 20.0, 1001)
+    speed = 20.0 * 2.0 * np.pi / 60.0 * np.sin(2.0 * np.pi * time / period)
+    loads = BearingLoads(time, speed, np.tile([0.0, -300e3, thrust], (time.size, 1)), "reversing")
+    default, coarse, tight = (
+        run(loads, tolerance, rollers=[7], laws=Laws.physical(), window=Window(start=0.0))
+        for tolerance in (2e-4, 2e-5, 1e-7)
+    )
+    for found in (default, coarse, tight):
+        assert (found.status == Status.COMPLETED).all()
+    for found in (default, coarse):
+        energy, exact = found.energy.sum("interface"), tight.energy.sum("interface")
+        assert float(abs(energy / exact - 1).max()) < 1e-3
+        peak, highest = found.peak_power.max("interface"), tight.peak_power.max("interface")
+        assert peak.size and float(abs(peak / highest - 1).max()) < 0.02
+        # Both spins pass zero at a reversal; their ratio is taken where it means something.
+        assert (abs(found.min_spin_ratio) < 10.0).all()
+
+
+@pytest.mark.parametrize("tolerance", [2e-4, 1e-6, 1e-8])
+def test_start_from_standstill_with_microslip(tolerance):
+    """No energy has been spent yet to which that of the first steps could be compared."""
+    time = np.linspace(0.0, 8.0, 161)
+    speed = np.clip((time - 1.0) / 3.0, 0.0, 1.0)
+    loads = BearingLoads(time, speed, np.tile([0.0, -300e3, 60e3], (time.size, 1)), "starting")
+    found = run(loads, tolerance, rollers=[0, 7, 14], laws=Laws.physical(), window=Window(start=0.0))
+    exact = run(loads, 1e-9, rollers=[0, 7, 14], laws=Laws.physical(), window=Window(start=0.0))
+    assert (found.status == Status.COMPLETED).all() and (exact.status == Status.COMPLETED).all()
+    # A step may be off by ten tolerances of its energy.
+    np.testing.assert_allclose(
+        found.energy.sum("interface"), exact.energy.sum("interface"), rtol=min(10.0 * tolerance, 1e-3)
+    )
+
+
+def test_spin_ratio_of_a_shaft_at_rest_is_not_a_number():
+    rest = run(BearingLoads.constant([0.0, -343e3, 0.0], 0.0, 2.0), rollers=[0], window=Window(start=0.0))
+    assert rest.min_spin_ratio.isnull().all()

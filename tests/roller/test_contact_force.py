@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from macroslip.film.film_law import film_thickness
+from macroslip.integrate.held_contact import slip_variation, steady_slip
 from macroslip.mechanisms import Laws
 from macroslip.roller.contact_force import (
     CurvedContact,
@@ -19,7 +20,6 @@ from macroslip.roller.contact_force import (
 )
 from macroslip.roller.contacts import contact_shape
 from macroslip.roller.forces import Station, slip_forces
-from macroslip.roller.held_contact import slip_variation, steady_slip
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.traction.slip_field import slip_at
 
@@ -154,8 +154,9 @@ def test_slopes_follow_the_film_too(physical, ring, load, slip):
         near = (getattr(at(step), value) - getattr(at(-step), value)) / (2 * step)
         wide = (getattr(at(2 * step), value) - getattr(at(-2 * step), value)) / (4 * step)
         scale = 0.042 * load / 0.02
-        if abs(near - wide) < 1e-3 * (abs(near) + scale):
-            assert getattr(found, slope) == pytest.approx(near, rel=2e-2, abs=3e-2 * scale)
+        # Corners of the quadrature's grid are left out; Hypothesis fails where hardly an example is left.
+        assume(abs(near - wide) < 1e-3 * (abs(near) + scale))
+        assert getattr(found, slope) == pytest.approx(near, rel=2e-2, abs=3e-2 * scale)
 
 
 @rings
@@ -188,10 +189,13 @@ def test_variation_of_slip_covers_every_station(physical, ring, load):
     top = steady_slip(contact, load, 0.5, variation)
     film, _, _ = film_thickness(contact.film, load, 0.4)
     assert film > 0.0
-    if top > 0.0:
-        values = [raceway_force(contact, load, s, -0.4, 0.4, 0.0).pull for s in np.linspace(-top, top, 41)]
-        # But for the table's error where a heavy contact skids.
-        assert (np.maximum.accumulate(values) - values).max() <= 0.01 * 0.042 * load
+    # Of a heavy contact nothing is promised: microslip alone goes beyond the bound, and the range is empty.
+    assert top > 0.0 or load > 1e4
+    values = [
+        raceway_force(contact, load, s, -0.4, 0.4, 0.0).pull for s in np.linspace(-max(top, 0.0), max(top, 0.0), 41)
+    ]
+    # But for the table's error where a heavy contact skids.
+    assert (np.maximum.accumulate(values) - values).max() <= 0.01 * 0.042 * load
 
 
 def test_shape_of_the_base_bearing(bearing, lubricant):

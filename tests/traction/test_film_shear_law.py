@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from macroslip.bearing import Bearing
@@ -201,6 +201,7 @@ def test_no_heat_and_no_slip_are_beyond_the_bound():
     slip=st.floats(-0.06, 0.06).map(lambda x: round(x, 9)),
     ring_speed=st.sampled_from([-0.4, 0.15]),
 )
+@example(load=10**4.625, slip=0.0586, ring_speed=0.15)
 @settings(deadline=None, max_examples=60)
 def test_slopes_are_differences_of_the_function_itself(name, load, slip, ring_speed):
     here = contact(CHOICES[name])
@@ -218,9 +219,13 @@ def test_slopes_are_differences_of_the_function_itself(name, load, slip, ring_sp
     lag = (at(step).lag - at(-step).lag) / (2 * step)
     # Twice as far gives the same where the function is smooth over the step; corners of the grid are left out.
     wider = (at(2 * step).force - at(-2 * step).force) / (4 * step)
-    if abs(wider - force) < 1e-3 * abs(force) + 1e-3 * scale:
-        assert found.force_slope == pytest.approx(force, rel=2e-2, abs=3e-2 * scale)
-        assert found.lag_slope == pytest.approx(lag, rel=2e-2, abs=3e-4 * scale)
+    assume(abs(wider - force) < 1e-3 * abs(force) + 1e-3 * scale)
+    assert found.force_slope == pytest.approx(force, rel=2e-2, abs=3e-2 * scale)
+    # The lag is the force weighted with the arm. Where traction has passed its peak the parts of its slope cancel, and
+    # a share of these parts, not of the sum, is what the table is good to.
+    half = min(law.semi_axis_across * load ** (1 / 3), shape.half_length)
+    parts = scale + half**2 / (2 * shape.contour_radius * shape.roller_radius) * abs(force)
+    assert found.lag_slope == pytest.approx(lag, rel=2e-2, abs=3e-4 * parts)
 
 
 def test_uniform_slopes_are_differences():

@@ -15,9 +15,10 @@ from macroslip.catalogue.forms import Choice, Flag, Form, Quantity, Text, Vector
 from macroslip.catalogue.input_section import OrWord, Variants, input_section
 from macroslip.catalogue.problems import shown
 from macroslip.catalogue.units import FORCE, MOMENT, SPEED, TIME
+from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, bundled_cases
-from macroslip.mechanisms import MECHANISMS, NAMED_SETS, asperity_laws, rheologies, viscosities
+from macroslip.mechanisms import NAMED_SETS, asperity_laws, rheologies, viscosities
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}

@@ -9,9 +9,8 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit
+from macroslip.integrate.tuning import SECANT_ITERATIONS
 from macroslip.roller.forces import net_force, slip_forces
-
-_MOST_ITERATIONS = 200
 
 
 @jit
@@ -58,7 +57,7 @@ def backward_euler_step(model, at, spin, step, tolerance):
     newer_defect = _defect(model, at, spin, newer, step)
     evaluations = 2
     low, high = -math.inf, math.inf
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(SECANT_ITERATIONS):
         for candidate, defect in ((older, older_defect), (newer, newer_defect)):
             if defect <= 0.0 and candidate > low:
                 low = candidate

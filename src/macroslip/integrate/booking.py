@@ -4,22 +4,17 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from macroslip.compiled import jit_part
 from macroslip.integrate.detail import book_stage, book_step
+from macroslip.integrate.held_contact import slips_everywhere
 from macroslip.integrate.peak import follow_peak, follow_step
 from macroslip.integrate.radau_step import WEIGHTS
-from macroslip.integrate.record import add_energy, note_state, powers, raise_peak
+from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak
 from macroslip.integrate.stages import between_stages
-from macroslip.integrate.step_control import SLIP_SHARE
+from macroslip.integrate.tuning import ASTRAY, PEAK_PARTS, RESOLVED, SLIP_SHARE, SNAP
 from macroslip.roller.forces import magnitude, net_force, slip_forces
-
-#: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
-#: must be for the power there to be meaningful.
-_PEAK_PARTS, _RESOLVED = 10, 3.0
-#: Part of the sum of force magnitudes that is unbalanced where a roller with microslip is not at its balance.
-_ASTRAY = 0.1
-#: Part of its slip that a roller keeps, at most, over a step in which it snaps back.
-_SNAP = 0.7
 
 
 class StepPowers(NamedTuple):
@@ -33,12 +28,31 @@ class StepPowers(NamedTuple):
     cage_energy: float
 
 
+class Peaks(NamedTuple):
+    """What is kept from step to step to find peaks of power.
+
+    Attributes
+    ----------
+    samples : ndarray, shape (2, 4)
+        See `macroslip.integrate.peak.start_peak`.
+    orbit : int
+        Orbit of the last step.
+    top_power : float
+        Largest raceway power of that orbit so far [W].
+    """
+
+    samples: np.ndarray
+    orbit: int
+    top_power: float
+
+
 @jit_part
-def step_powers(model, h, at1, at2, at3, stages):
-    """Power at the solved stages of a step of length h [s], and the energy they add up to."""
-    i1, o1, c1 = powers(model, at1, stages.f1, stages.v1)
-    i2, o2, c2 = powers(model, at2, stages.f2, stages.v2)
-    i3, o3, c3 = powers(model, at3, stages.f3, stages.v3)
+def step_powers(model, step, stages):
+    """Power at the solved stages of a step, and the energy they add up to."""
+    h = step.length
+    i1, o1, c1 = powers(model, step.at1, stages.f1, stages.v1)
+    i2, o2, c2 = powers(model, step.at2, stages.f2, stages.v2)
+    i3, o3, c3 = powers(model, step.at3, stages.f3, stages.v3)
     return StepPowers(
         (i1, i2, i3),
         (o1, o2, o3),
@@ -50,80 +64,77 @@ def step_powers(model, h, at1, at2, at3, stages):
 
 
 @jit_part
-def book_energy(record, orbit, new_orbit, before, found):
-    """Book a step's energies; the power `before` it [W] may be the peak of an orbit that has just begun."""
-    add_energy(record, orbit, found.inner_energy, found.outer_energy, found.cage_energy)
-    if new_orbit:
-        raise_peak(record, orbit, 0, before[0])
-        raise_peak(record, orbit, 1, before[1])
-        raise_peak(record, orbit, 2, before[2])
-
-
-@jit_part
-def book_peaks(
-    record,
-    model,
-    motion,
-    start_angle,
-    interval,
-    limits,
-    time,
-    h,
-    slip,
-    at,
-    forces,
-    stages,
-    times,
-    before,
-    found,
-    orbit,
-    peaks,
-    top_power,
-    edge,
-    jumps,
-):
-    """Follow the powers over a step, between the stages too where the roller may just be snapping back.
+def book(record, path, state, step, stages, found, peaks, edge):
+    """Book an accepted step in the window.
 
     Parameters
     ----------
-    interval : int
-        Sample interval of the step.
-    times : tuple of float
-        Of the stages [s].
-    before : tuple of float
-        Powers at the start [W].
-    top_power : float
-        Largest raceway power of the orbit so far [W].
+    state : State
+        Before the step.
+    found : StepPowers
+    peaks : Peaks
+        As the last step left them.
     edge : bool
-        Whether the step lies at an edge of the load zone; snaps happen nowhere else.
-    jumps : bool
-        Whether the roller is without microslip.
+        Whether the step lies at an edge of the load zone; rollers snap back nowhere else.
+
+    Returns
+    -------
+    Peaks
     """
-    sliding = max(_sliding(stages.f1, stages.v1), _sliding(stages.f2, stages.v2), _sliding(stages.f3, stages.v3))
-    resolved = _RESOLVED * SLIP_SHARE * limits.tolerance * limits.speed_scale
-    # A gripped roller with microslip slips less where load decreases, without a snap.
-    astray = jumps or at.elastic_load <= 0.0 or abs(net_force(forces)) > _ASTRAY * magnitude(forces)
-    snapping = astray and abs(slip) > resolved and abs(stages.v3) < _SNAP * abs(slip)
-    if not (edge and (snapping or sliding > 0.5 * top_power)):
-        follow_step(record, orbit, peaks, before, times, found.inner, found.outer, found.cage)
-        return 0
-    for k in range(1, _PEAK_PARTS + 1):
-        part = k / _PEAK_PARTS
-        there, between, _ = between_stages(model, motion, start_angle, interval, time, h, part, slip, at, stages)
-        if abs(between) > resolved:
-            inner, outer, cage = powers(model, there, slip_forces(model, there, between), between)
-            follow_peak(record, orbit, peaks, time + part * h, inner, outer, cage)
-    return _PEAK_PARTS
+    orbit = orbit_at(record, 0.5 * (state.time + step.times[2]), peaks.orbit)
+    before, top_power = state.powers, peaks.top_power
+    add_energy(record, orbit, found.inner_energy, found.outer_energy, found.cage_energy)
+    if orbit != peaks.orbit:
+        # The power before the step may be the peak of an orbit that has just begun.
+        raise_peak(record, orbit, 0, before[0])
+        raise_peak(record, orbit, 1, before[1])
+        raise_peak(record, orbit, 2, before[2])
+        top_power = 0.0
+    peaks = Peaks(peaks.samples, orbit, top_power)
+    _book_peaks(record, path, state, step, stages, found, peaks, edge)
+    _book_details(record, path.model, step, stages, found, orbit)
+    return Peaks(peaks.samples, orbit, max(top_power, max(found.inner), max(found.outer)))
 
 
 @jit_part
-def book_details(record, model, h, orbit, steps, at1, at2, at3, stages, found):
+def _book_peaks(record, path, state, step, stages, found, peaks, edge):
+    """Follow the powers over a step, between the stages too where the roller may just be snapping back."""
+    if not (edge and _may_peak_inside(path, state, stages, peaks)):
+        follow_step(record, peaks.orbit, peaks.samples, state.powers, step.times, found.inner, found.outer, found.cage)
+        return
+    resolved = RESOLVED * SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale
+    for k in range(1, PEAK_PARTS + 1):
+        part = k / PEAK_PARTS
+        there, between, _ = between_stages(path, state, step, stages, state.interval, part)
+        if abs(between) > resolved:
+            inner, outer, cage = powers(path.model, there, slip_forces(path.model, there, between), between)
+            follow_peak(record, peaks.orbit, peaks.samples, state.time + part * step.length, inner, outer, cage)
+    record.count[2] += PEAK_PARTS
+
+
+@jit_part
+def _may_peak_inside(path, state, stages, peaks):
+    """Whether the roller snaps back in the step, or slides with a power near the orbit's largest."""
+    sliding = max(_sliding(stages.f1, stages.v1), _sliding(stages.f2, stages.v2), _sliding(stages.f3, stages.v3))
+    if sliding > 0.5 * peaks.top_power:
+        return True
+    resolved = RESOLVED * SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale
+    jumps = not slips_everywhere(path.model.inner)
+    # A gripped roller with microslip slips less where load decreases, without a snap.
+    forces = state.forces
+    astray = jumps or state.at.elastic_load <= 0.0 or abs(net_force(forces)) > ASTRAY * magnitude(forces)
+    return astray and abs(state.slip) > resolved and abs(stages.v3) < SNAP * abs(state.slip)
+
+
+@jit_part
+def _book_details(record, model, step, stages, found, orbit):
     """Book ranges of the film law at the end of the step, and what curved contacts add."""
+    h, at3 = step.length, step.at3
     note_state(record, model, at3, stages.f3, stages.v3, h)
-    book_stage(record, model, at1, stages.f1, stages.v1, h * WEIGHTS[0])
-    book_stage(record, model, at2, stages.f2, stages.v2, h * WEIGHTS[1])
+    book_stage(record, model, step.at1, stages.f1, stages.v1, h * WEIGHTS[0])
+    book_stage(record, model, step.at2, stages.f2, stages.v2, h * WEIGHTS[1])
     book_stage(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])
-    book_step(record, model, at3, stages.f3, stages.v3, h, orbit, found.inner_energy, found.outer_energy, steps)
+    book_step(record, model, at3, stages.f3, stages.v3, h, orbit, (found.inner_energy, found.outer_energy))
 
 
 @jit_part

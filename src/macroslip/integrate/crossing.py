@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from macroslip.compiled import jit
 from macroslip.integrate.radau_step import NODES
-
-#: Part of a step next to its ends in which a zero counts as lying on the end.
-_AT_END = 0.02
+from macroslip.integrate.tuning import AT_END
 
 
 @jit
@@ -33,7 +31,7 @@ def crossing(g0, g1, g2, g3):
     Returns
     -------
     float
-        Between `_AT_END` and 1 − `_AT_END`, or exactly 1.
+        Between `AT_END` and 1 − `AT_END`, or exactly 1.
 
     Examples
     --------
@@ -56,4 +54,4 @@ def crossing(g0, g1, g2, g3):
             low = middle
         else:
             high = middle
-    return high if _AT_END < high < 1.0 - _AT_END else 1.0
+    return high if AT_END < high < 1.0 - AT_END else 1.0

@@ -14,6 +14,7 @@ from macroslip.compiled import jit_part
 from macroslip.contact.flash_temperature import flash_temperature
 from macroslip.film.asperity_load import asperity_share
 from macroslip.film.film_law import film_thickness
+from macroslip.integrate.tuning import LOOK_EVERY
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
@@ -24,27 +25,39 @@ MECHANISMS = ("sliding", "curvature", "contact angle")
 EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
 #: Stations along the roller's length.
 STATIONS = 24
-#: Steps between two looks at the quadrature's error.
-_LOOK_EVERY = 256
 
 
 @jit_part
-def _add_mechanisms(mechanisms, asperities, interface, contact, ring_speed, slip, spin_force, detail, span):
-    mechanisms[interface, 0] += span * slip * spin_force
-    if contact.shape.microslip:
-        curvature = contact.shape.curvature_ratio * contact.shape.roller_radius
-        mechanisms[interface, 1] += span * ring_speed * curvature * detail.lag
-        mechanisms[interface, 2] -= span * ring_speed * contact.shape.spin_ratio * detail.skew
-    asperities[interface] += span * detail.asperity_power
+def _mechanism_energies(contact, ring_speed, slip, spin_force, detail, span):
+    """Energy in `span` [s] by sliding of the middle, curvature and contact angle [J]."""
+    if not contact.shape.microslip:
+        return span * slip * spin_force, 0.0, 0.0
+    curvature = contact.shape.curvature_ratio * contact.shape.roller_radius
+    return (
+        span * slip * spin_force,
+        span * ring_speed * curvature * detail.lag,
+        -span * ring_speed * contact.shape.spin_ratio * detail.skew,
+    )
+
+
+@jit_part
+def _add(energies, parts):
+    energies[0] += parts[0]
+    energies[1] += parts[1]
+    energies[2] += parts[2]
 
 
 @jit_part
 def _book_stage(record, model, at, forces, slip, span):
     # Passing a record costs more than this work: a count for every array in it.
     energy, rough = record.mechanism_energy, record.asperity_energy
-    _add_mechanisms(energy, rough, 0, model.inner, at.ring_speed, slip, forces.inner, forces.inner_detail, span)
-    _add_mechanisms(energy, rough, 1, model.outer, at.ring_speed, slip, forces.outer, forces.outer_detail, span)
-    _add_mechanisms(energy, rough, 2, model.cage, 0.0, slip - at.ring_speed, forces.cage, forces.cage_detail, span)
+    ring = at.ring_speed
+    _add(energy[0], _mechanism_energies(model.inner, ring, slip, forces.inner, forces.inner_detail, span))
+    _add(energy[1], _mechanism_energies(model.outer, ring, slip, forces.outer, forces.outer_detail, span))
+    _add(energy[2], _mechanism_energies(model.cage, 0.0, slip - ring, forces.cage, forces.cage_detail, span))
+    rough[0] += span * forces.inner_detail.asperity_power
+    rough[1] += span * forces.outer_detail.asperity_power
+    rough[2] += span * forces.cage_detail.asperity_power
 
 
 @jit_part
@@ -136,9 +149,9 @@ def _look(record, interface, contact, load, ring_speed, slip, span):
 
 
 @jit_part
-def _book_step(record, model, at, forces, slip, span, orbit, inner, outer, steps):
-    _book_raceway(record, orbit, 0, model.inner, at.inner_load, at.ring_speed, slip, inner)
-    _book_raceway(record, orbit, 1, model.outer, at.outer_load, at.ring_speed, slip, outer)
+def _book_step(record, model, at, forces, slip, span, orbit, energies):
+    _book_raceway(record, orbit, 0, model.inner, at.inner_load, at.ring_speed, slip, energies[0])
+    _book_raceway(record, orbit, 1, model.outer, at.outer_load, at.ring_speed, slip, energies[1])
     load = abs(forces.cage_load)
     if load > 0.0:
         contact = model.cage
@@ -151,7 +164,7 @@ def _book_step(record, model, at, forces, slip, span, orbit, inner, outer, steps
         flash = flash_temperature(per_length, along, surface, 0.0, contact.effusivity_1, contact.effusivity_2)
         ratio = abs(surface) / entrainment
         _raise(record, orbit, 2, flash, per_length / (2.0 * along), ratio, film / contact.roughness)
-    if steps % _LOOK_EVERY == 0:
+    if record.count[0] % LOOK_EVERY == 0:
         _look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, span)
         _look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, span)
 
@@ -160,17 +173,15 @@ def book_stage(record, model, at, forces, slip, span):
     """Book energies by mechanism for a state that counts for `span` [s]."""
 
 
-def book_step(record, model, at, forces, slip, span, orbit, inner, outer, steps):
+def book_step(record, model, at, forces, slip, span, orbit, energies):
     """Book stations, extremes and now and then the quadrature's error, for a step that ends in this state.
 
     Parameters
     ----------
-    inner, outer : float
-        Energy of the step at the raceways [J].
     orbit : int
         Orbit the step belongs to, or −1.
-    steps : int
-        Number of the step.
+    energies : tuple of float
+        Energy of the step at the inner and at the outer raceway [J].
     """
 
 
@@ -187,9 +198,9 @@ def _book_stage_of(record, model, at, forces, slip, span):
 
 
 @overload(book_step)
-def _book_step_of(record, model, at, forces, slip, span, orbit, inner, outer, steps):
+def _book_step_of(record, model, at, forces, slip, span, orbit, energies):
     if _is_curved(model):
-        return lambda record, model, at, forces, slip, span, orbit, inner, outer, steps: _book_step(
-            record, model, at, forces, slip, span, orbit, inner, outer, steps
+        return lambda record, model, at, forces, slip, span, orbit, energies: _book_step(
+            record, model, at, forces, slip, span, orbit, energies
         )
-    return lambda record, model, at, forces, slip, span, orbit, inner, outer, steps: None
+    return lambda record, model, at, forces, slip, span, orbit, energies: None

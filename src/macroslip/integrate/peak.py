@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from macroslip.compiled import jit, jit_part
 from macroslip.integrate.record import raise_peak
-
-#: A kink has no parabola; what one may add to the samples is bounded by this factor.
-_HIGHEST_RISE = 1.1
+from macroslip.integrate.tuning import HIGHEST_RISE, MOST_UNEVEN
 
 
 @jit_part
@@ -53,9 +51,9 @@ def follow_step(record, orbit, samples, before, times, inner, outer, cage):
     """
     if orbit >= 0:
         peak = record.peak_power[orbit]
-        rises = _HIGHEST_RISE * max(before[0], inner[0], inner[1], inner[2]) > peak[0]
-        rises |= _HIGHEST_RISE * max(before[1], outer[0], outer[1], outer[2]) > peak[1]
-        rises |= _HIGHEST_RISE * max(before[2], cage[0], cage[1], cage[2]) > peak[2]
+        rises = HIGHEST_RISE * max(before[0], inner[0], inner[1], inner[2]) > peak[0]
+        rises |= HIGHEST_RISE * max(before[1], outer[0], outer[1], outer[2]) > peak[1]
+        rises |= HIGHEST_RISE * max(before[2], cage[0], cage[1], cage[2]) > peak[2]
         if rises:
             for stage in range(3):
                 follow_peak(record, orbit, samples, times[stage], inner[stage], outer[stage], cage[stage])
@@ -72,14 +70,14 @@ def follow_peak(record, orbit, samples, time, inner, outer, cage):
     """Take up the powers at a new time; raise the orbit's peaks to the samples and to the parabolas through them."""
     # Where spacing changes much between samples a fast transient has just ended, and a parabola would extrapolate it.
     before, after = samples[1, 0] - samples[0, 0], time - samples[1, 0]
-    even = before > 0.0 and after > 0.0 and before < 4.0 * after and after < 4.0 * before
+    even = before > 0.0 and after > 0.0 and before < MOST_UNEVEN * after and after < MOST_UNEVEN * before
     for interface in range(3):
         power = inner if interface == 0 else (outer if interface == 1 else cage)
         raise_peak(record, orbit, interface, power)
         first, middle = samples[0, interface + 1], samples[1, interface + 1]
         if even and middle > first and middle > power:
             top = vertex(samples[0, 0], first, samples[1, 0], middle, time, power)
-            raise_peak(record, orbit, interface, min(top, _HIGHEST_RISE * middle))
+            raise_peak(record, orbit, interface, min(top, HIGHEST_RISE * middle))
         samples[0, interface + 1] = middle
         samples[1, interface + 1] = power
     samples[0, 0] = samples[1, 0]

@@ -12,6 +12,7 @@ from numba.extending import overload
 from macroslip.compiled import jit_part
 from macroslip.film.film_law import film_in_range, film_thickness
 from macroslip.integrate.detail import EXTREMES, MECHANISMS, STATIONS
+from macroslip.integrate.tuning import SPIN_RATIO_SPEED
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
 
 #: Meaning of `Record.count` by position.
@@ -35,7 +36,9 @@ class Record(NamedTuple):
     orbit_energy, peak_power : ndarray, shape (orbits, 3)
         Energy [J] and largest power (33) [W] in each complete orbit.
     spin_ratio : ndarray, shape (1,)
-        Smallest ω/ω_pure in the window [-].
+        Smallest ω/ω_pure in the window, of states at which the rings move past the roller at `slowest` or more [-].
+    slowest : float
+        Speed of the rings [m/s] from which on the spin ratio has a meaning.
     loaded_time, outside_time : ndarray, shape (3,)
         Time in the window with load on the interface, and the part of it outside the film law's range [s].
     count : ndarray of int, shape (3,)
@@ -68,6 +71,7 @@ class Record(NamedTuple):
     orbit_energy: np.ndarray
     peak_power: np.ndarray
     spin_ratio: np.ndarray
+    slowest: float
     loaded_time: np.ndarray
     outside_time: np.ndarray
     count: np.ndarray
@@ -83,8 +87,8 @@ class Record(NamedTuple):
     station_work: np.ndarray
 
 
-def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
-    """An empty record for the given orbit edges [s] and trace times [s]."""
+def new_record(edges: np.ndarray, trace_time: np.ndarray, highest_speed: float) -> Record:
+    """An empty record for the given orbit edges [s], trace times [s] and largest raceway speed [m/s]."""
     orbits = edges.size - 1
     extreme = np.zeros((orbits, 3, len(EXTREMES)))
     extreme[..., EXTREMES.index("film_ratio")] = np.inf
@@ -94,6 +98,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray) -> Record:
         orbit_energy=np.zeros((orbits, 3)),
         peak_power=np.zeros((orbits, 3)),
         spin_ratio=np.full(1, np.inf),
+        slowest=SPIN_RATIO_SPEED * highest_speed,
         loaded_time=np.zeros(3),
         outside_time=np.zeros(3),
         count=np.zeros(3, dtype=np.int64),
@@ -160,7 +165,7 @@ def raise_peak(record, orbit, interface, power):
 @jit_part
 def note_state(record, model, at, forces, slip, span):
     """Book spin ratio and range of the film law for a state held over `span` [s] of the window."""
-    if at.ring_speed != 0.0:
+    if abs(at.ring_speed) >= record.slowest and at.ring_speed != 0.0:
         ratio = (at.ring_speed - slip) / at.ring_speed
         if ratio < record.spin_ratio[0]:
             record.spin_ratio[0] = ratio
@@ -199,8 +204,17 @@ def _skew_moment(detail):
 
 
 @jit_part
-def write_trace(record, model, index, at, forces, slip):
-    """Write the state at trace time `index`."""
+def write_traces(record, model, first, time, at, forces, slip):
+    """Write the state at all trace times from index `first` on that are not after `time` [s]; the index after them."""
+    index = first
+    while index < record.trace_time.size and record.trace_time[index] <= time:
+        _write_trace(record, model, index, at, forces, slip)
+        index += 1
+    return index
+
+
+@jit_part
+def _write_trace(record, model, index, at, forces, slip):
     row = record.trace[index]
     row[0] = slip
     row[1] = at.ring_speed
@@ -215,4 +229,5 @@ def write_trace(record, model, index, at, forces, slip):
     row[11] = _film(model.outer, at.outer_load, raceway_speed)
     row[12] = _film(model.cage, abs(forces.cage_load), 0.5 * abs(at.ring_speed - slip))
     row[13] = skew_moment(forces.inner_detail)
-    row[14] = skew_moment(forces.outer_detail)
+    # A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer one.
+    row[14] = -skew_moment(forces.outer_detail)

@@ -8,11 +8,8 @@ root found is the continuous one.
 from __future__ import annotations
 
 from macroslip.compiled import jit, jit_part
-from macroslip.roller.held_contact import slip_variation, steady_slip
-
-#: Largest relative change of slip in a step taken where traction may fall with slip, and the change, as part of the
-#: raceway speed, that is always small.
-_HOT_CHANGE, _SMALL_CHANGE = 0.2, 1e-6
+from macroslip.integrate.held_contact import slip_variation, steady_slip
+from macroslip.integrate.tuning import HOT_CHANGE, SMALL_CHANGE
 
 
 @jit
@@ -24,33 +21,23 @@ def rising_at(model, inner_load, outer_load, ring_speed, entrainment_speed):
 
 
 @jit_part
-def _surely_rising(model, at, at1, at2, at3, slip):
+def _surely_rising(model, at, step, slip):
     """Slip up to which traction rises at both raceways for every load met in a step [m/s]; `slip` is the largest there."""
-    inner = max(at.inner_load, at1.inner_load, at2.inner_load, at3.inner_load)
-    outer = max(at.outer_load, at1.outer_load, at2.outer_load, at3.outer_load)
-    ring = max(abs(at.ring_speed), abs(at3.ring_speed))
+    inner = max(at.inner_load, step.at1.inner_load, step.at2.inner_load, step.at3.inner_load)
+    outer = max(at.outer_load, step.at1.outer_load, step.at2.outer_load, step.at3.outer_load)
+    ring = max(abs(at.ring_speed), abs(step.at3.ring_speed))
     return rising_at(model, inner, outer, ring, ring + 0.5 * abs(slip))
 
 
 @jit_part
-def is_continuous(model, limits, scale, slip, at, at1, at2, at3, stages):
-    """Whether the solved stages of a step are sure to be the root that is continuous with the slip before it.
-
-    Parameters
-    ----------
-    scale : float
-        1/(h r²/I_z') [N s/m].
-    slip : float
-        Slip before the step [m/s].
-    at, at1, at2, at3 : Station
-        At the start and at the stages.
-    stages : Stages
-    """
+def is_continuous(path, state, step, stages):
+    """Whether the solved stages of a step are sure to be the root that is continuous with the slip before it."""
     # More than one root is possible only where traction falls with slip faster than the step allows.
-    if min(stages.f1.slope, stages.f2.slope, stages.f3.slope) < -0.5 * scale:
+    if min(stages.f1.slope, stages.f2.slope, stages.f3.slope) < -0.5 * step.scale:
         return False
+    slip, limits = state.slip, path.limits
     largest = max(abs(slip), abs(stages.v1), abs(stages.v2), abs(stages.v3))
-    if largest > limits.cold_slip and largest > _surely_rising(model, at, at1, at2, at3, largest):
+    if largest > limits.cold_slip and largest > _surely_rising(path.model, state.at, step, largest):
         change = max(abs(stages.v1 - slip), abs(stages.v2 - slip), abs(stages.v3 - slip))
-        return change <= _HOT_CHANGE * abs(slip) + _SMALL_CHANGE * limits.speed_scale
+        return change <= HOT_CHANGE * abs(slip) + SMALL_CHANGE * limits.speed_scale
     return True

@@ -6,19 +6,19 @@ import math
 from typing import Any, NamedTuple
 
 from macroslip.compiled import jit_part
+from macroslip.integrate.held_contact import slips_everywhere
 from macroslip.integrate.radau_step import collocation, newton_update, residuals
+from macroslip.integrate.tuning import (
+    BEND_SAFETY,
+    FORCE_TOLERANCE,
+    FORGET,
+    ITERATIONS,
+    LAST_REST,
+    MICROSLIP_FORCE_SHARE,
+    MICROSLIP_FORCE_TOLERANCE,
+)
 from macroslip.ring.orbit import instant
 from macroslip.roller.forces import magnitude, net_force, shifted, slip_forces, station
-
-_ITERATIONS = 12
-#: Part of the sum of force magnitudes that may stay unbalanced at a stage.
-_FORCE_TOLERANCE = 1e-9
-#: The same with microslip, whose power does not hang on the balance of two large forces: half of the tolerance asked for,
-#: and at most this.
-_MICROSLIP_FORCE_SHARE, _MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
-#: Safety factor on the residual foreseen from the curvature of the forces in earlier steps, and what is left of that
-#: curvature when a newer one is smaller.
-_BEND_SAFETY, _FORGET = 10.0, 0.7
 
 
 class Stages(NamedTuple):
@@ -59,30 +59,21 @@ class Stages(NamedTuple):
 def force_tolerance(tolerance, microslip):
     """Part of the sum of force magnitudes that may stay unbalanced, by the tolerance asked of the integration."""
     if not microslip:
-        return _FORCE_TOLERANCE
-    return max(_FORCE_TOLERANCE, min(_MICROSLIP_FORCE_SHARE * tolerance, _MICROSLIP_FORCE_TOLERANCE))
+        return FORCE_TOLERANCE
+    return max(FORCE_TOLERANCE, min(MICROSLIP_FORCE_SHARE * tolerance, MICROSLIP_FORCE_TOLERANCE))
 
 
 @jit_part
-def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, at2, at3, v1, v2, v3, held, bend):
+def solve_stages(path, state, step, guess, held, bend):
     """Solve the stage equations from a first guess.
 
     Parameters
     ----------
-    model : RollerModel
-    speed_scale : float
-        Speed whose rounding errors count [m/s].
-    force_part : float
-        See `force_tolerance`.
-    scale : float
-        1/(h r²/I_z') [N s/m].
-    slip : float
-        Before the step [m/s].
-    forces : SlipForces
+    path : Path
+    state : State
         Before the step.
-    at, at1, at2, at3 : Station
-        At the start and at the stages.
-    v1, v2, v3 : float
+    step : Step
+    guess : tuple of float
         First guess of slip at the stages [m/s].
     held : bool
         Whether microslip holds the roller at its balance: then forces bend from step to step in the same way.
@@ -93,14 +84,18 @@ def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, a
     -------
     Stages
     """
+    model, scale, slip, forces = path.model, step.scale, state.slip, state.forces
+    at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
+    v1, v2, v3 = guess
     d1 = at1.ring_speed - at.ring_speed
     d2 = at2.ring_speed - at.ring_speed
     d3 = at3.ring_speed - at.ring_speed
-    round_off = 4e-15 * scale * (speed_scale + abs(slip))
+    force_part = force_tolerance(path.limits.tolerance, slips_everywhere(model.inner))
+    round_off = 4e-15 * scale * (path.limits.speed_scale + abs(slip))
     converged, unbalanced, evaluations = False, math.inf, 0
     f1, f2, f3 = forces, forces, forces
     s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
-    for iteration in range(_ITERATIONS):
+    for iteration in range(ITERATIONS):
         f1 = slip_forces(model, at1, v1)
         f2 = slip_forces(model, at2, v2)
         f3 = slip_forces(model, at3, v3)
@@ -123,15 +118,17 @@ def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, a
         if iteration > 0:
             foreseen = size * size / unbalanced
             if held and iteration == 1:
-                bend = max(size / (unbalanced * unbalanced), _FORGET * bend if bend < math.inf else 0.0)
+                bend = max(size / (unbalanced * unbalanced), FORGET * bend if bend < math.inf else 0.0)
         else:
-            foreseen = _BEND_SAFETY * bend * size * size if held else math.inf
+            foreseen = BEND_SAFETY * bend * size * size if held else math.inf
         unbalanced = size
         u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
         v1 += u1
         v2 += u2
         v3 += u3
-        if foreseen <= force_part * min(magnitude(f1), magnitude(f2), magnitude(f3)) + round_off:
+        least = min(magnitude(f1), magnitude(f2), magnitude(f3))
+        is_close = iteration == 0 or size <= LAST_REST * least + round_off
+        if is_close and foreseen <= force_part * least + round_off:
             f1, f2, f3 = shifted(f1, u1), shifted(f2, u2), shifted(f3, u3)
             s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
             converged = True
@@ -141,8 +138,9 @@ def solve_stages(model, speed_scale, force_part, scale, slip, forces, at, at1, a
 
 
 @jit_part
-def between_stages(model, motion, start_angle, interval, time, h, part, slip, at, stages):
-    """Station, slip [m/s] and rate of its increment [m/s] at a part of a step from `time` on, which lies in `interval`."""
+def between_stages(path, state, step, stages, interval, part):
+    """Station, slip [m/s] and rate of its increment [m/s] at a part of a step, which lies in `interval` there."""
     increment, rate = collocation(part, stages.s1, stages.s2, stages.s3)
-    there = station(model, start_angle, instant(motion, interval, time + part * h))
-    return there, slip + there.ring_speed - at.ring_speed + increment, rate
+    now = instant(path.motion, interval, state.time + part * step.length)
+    there = station(path.model, path.start_angle, now)
+    return there, state.slip + there.ring_speed - state.at.ring_speed + increment, rate

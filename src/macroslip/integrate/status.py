@@ -30,3 +30,5 @@ class Status(IntEnum):
 
 #: Plain integers for compiled code.
 COMPLETED, STEP_TOO_SMALL, NOT_FINITE, TOO_MANY_STEPS, NO_ROOT, IMPOSSIBLE_SLIP = range(6)
+#: How the integration of a roller ends when the user interrupts; its record is thrown away.
+INTERRUPTED = -1

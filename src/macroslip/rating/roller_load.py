@@ -10,8 +10,8 @@ from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
 from macroslip.loads import BearingLoads
 from macroslip.mechanisms import Laws
 from macroslip.ring.balance import roller_loads
-from macroslip.ring.motion import ring_geometry, ring_motion
-from macroslip.roller.model import highest_load, roller_model
+from macroslip.ring.motion import ring_motion
+from macroslip.roller.model import highest_load, ring_geometry, roller_model
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -54,8 +54,8 @@ def roller_load_history(
     ((2, 28, 21), 100000, 0.0)
     """
     model = roller_model(bearing, lubricant, AXIAL_SIGNS["downwind"], tilt=0.0)
-    motion, _ = ring_motion(loads, bearing, model, highest_load(bearing, lubricant, Laws.physical()))
     ring = ring_geometry(bearing, model)
+    motion, _ = ring_motion(loads, bearing, ring, highest_load(bearing, lubricant, Laws.physical()))
     found = np.empty((motion.time.size, len(ROWS) * bearing.rollers_per_row))
     for line, angle, place in zip(found, motion.shaft_angle, motion.displacement, strict=True):
         roller_loads(ring, angle, place, line)

@@ -109,7 +109,8 @@ def to_dataset(
         rollers,
         np.where(np.isinf(ratio), np.nan, ratio),
         "1",
-        "smallest ratio of spin to spin in pure rolling in the window",
+        "smallest ratio of spin to spin in pure rolling in the window, where the shaft turns at a tenth or more of its "
+        "highest speed",
     )
     with np.errstate(invalid="ignore", divide="ignore"):
         outside = gather("outside_time") / gather("loaded_time")

@@ -9,8 +9,8 @@ import numpy as np
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.ring.balance import roller_loads
-from macroslip.ring.motion import ring_geometry, ring_motion
-from macroslip.roller.model import highest_load, roller_model
+from macroslip.ring.motion import ring_motion
+from macroslip.roller.model import highest_load, ring_geometry, roller_model
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,8 +45,8 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
     """
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
     model = roller_model(case.bearing, case.lubricant, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
-    motion, _ = ring_motion(loads, case.bearing, model, highest_load(case.bearing, case.lubricant, case.laws))
     ring = ring_geometry(case.bearing, model)
+    motion, _ = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.lubricant, case.laws))
     here = np.flatnonzero((motion.time >= start) & (motion.time <= end))[::_EVERY]
     found = np.empty((here.size, len(ROWS) * case.bearing.rollers_per_row))
     for line, k in zip(found, here, strict=True):

@@ -14,17 +14,25 @@ from macroslip.case.case import BackwardEuler, Case, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
+from macroslip.integrate.load_zone import empty_classes, firm_interference
+from macroslip.integrate.path import FixedStep, Limits, Path, longest_step
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import Record, new_record
 from macroslip.integrate.root import rising_at
-from macroslip.integrate.step_control import Limits, longest_step
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.result.dataset import to_dataset
-from macroslip.ring.load_zone import empty_classes, firm_interference
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.ring.travel import orbit_times
-from macroslip.roller.model import RollerModel, highest_load, interfaces, roller_model, truncated_share, truncation_load
+from macroslip.roller.model import (
+    RollerModel,
+    highest_load,
+    interfaces,
+    ring_geometry,
+    roller_model,
+    truncated_share,
+    truncation_load,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -77,26 +85,20 @@ def simulate(
         for row in ROWS
     }
     model = models["downwind"]
-    motion, largest = ring_motion(loads, case.bearing, model, highest_load(case.bearing, case.lubricant, case.laws))
+    ring = ring_geometry(case.bearing, model)
+    motion, largest = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.lubricant, case.laws))
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
-    limits = radau_limits(case, motion, model, largest)
-    largest_slip = _largest_slip(motion, model)
+    limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
 
     def run(row: str, angle: float) -> tuple[int, Record]:
-        record = new_record(edges, trace_time)
-        if limits is not None:
-            classes = empty_classes(motion.time.size)
-            return integrate_radau(models[row], motion, angle, 0.0, stops, limits, classes, record), record
-        implicit = isinstance(case.integrator, BackwardEuler)
-        tolerance = case.integrator.tolerance if implicit else 0.0
-        step = case.integrator.step
-        status = integrate_fixed_step(
-            models[row], motion, angle, 0.0, end, step, implicit, tolerance, largest_slip, record
-        )
-        return status, record
+        record = new_record(edges, trace_time, highest_speed(motion, model))
+        path = Path(models[row], motion, angle, limits)
+        if isinstance(limits, Limits):
+            return integrate_radau(path, 0.0, stops, empty_classes(motion.time.size), record), record
+        return integrate_fixed_step(path, 0.0, end, record), record
 
     angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in ROWS}
     jobs = [(row, number) for row in ROWS for number in case.roller_numbers]
@@ -108,8 +110,11 @@ def simulate(
             results[futures[future]] = future.result()
             if progress:
                 progress(done, len(jobs))
+    except BaseException:
+        # An interrupt, say: the rollers under way look at this in every step.
+        limits.interrupt[0] = 1
+        raise
     finally:
-        # An interrupt waits for the rollers under way only.
         pool.shutdown(cancel_futures=True)
     notes = film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))
     cut_off = truncated_share(largest, truncation_load(case.bearing, case.lubricant))
@@ -125,7 +130,7 @@ def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float)
     """Bounds of the Radau integrator that hold for all rollers of the case; None for the Euler methods."""
     if not isinstance(case.integrator, Radau):
         return None
-    speed = float(np.max(np.abs(motion.shaft_speed))) * model.orbit_ratio * model.outer_radius
+    speed = highest_speed(motion, model)
     heaviest = largest + abs(model.weight_in_plane) + model.centrifugal * (speed / model.outer_radius) ** 2
     # Twice the raceways' speed bounds the slip, and with it the thickest film.
     cold = rising_at(model, heaviest, heaviest, speed, 2.0 * speed) if heaviest else np.inf
@@ -133,10 +138,29 @@ def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float)
         tolerance=float(case.integrator.tolerance),
         max_steps=case.integrator.max_steps,
         speed_scale=speed,
+        energy_scale=speed**2 / model.mobility,
         longest_step=longest_step(motion, model.orbit_ratio),
         cold_slip=float(cold),
         firm=firm_interference(model, speed),
+        interrupt=np.zeros(1, dtype=np.int8),
     )
+
+
+def _fixed_step(case: Case, motion: Motion, model: RollerModel) -> FixedStep:
+    """Rule of the Euler methods."""
+    implicit = isinstance(case.integrator, BackwardEuler)
+    return FixedStep(
+        step=float(case.integrator.step),
+        implicit=implicit,
+        tolerance=float(case.integrator.tolerance) if implicit else 0.0,
+        largest_slip=_largest_slip(motion, model),
+        interrupt=np.zeros(1, dtype=np.int8),
+    )
+
+
+def highest_speed(motion: Motion, model: RollerModel) -> float:
+    """Largest raceway speed |u2| of the history [m/s]."""
+    return float(np.max(np.abs(motion.shaft_speed))) * model.orbit_ratio * model.outer_radius
 
 
 def _largest_slip(motion: Motion, model: RollerModel) -> float:

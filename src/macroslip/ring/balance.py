@@ -185,7 +185,7 @@ def balance(ring, shaft_angle, force, displacement):
 
 
 @jit
-def balance_series(ring, shaft_angle, force, displacement, unbalanced):
+def balance_series(ring, shaft_angle, force, current, displacement, unbalanced):
     """`balance` over a series, each sample started from the one before.
 
     Parameters
@@ -195,12 +195,13 @@ def balance_series(ring, shaft_angle, force, displacement, unbalanced):
         [rad].
     force : ndarray, shape (n, 3)
         [N].
+    current : ndarray, shape (3,)
+        Start of the first sample, overwritten by the displacement of the last [m].
     displacement : ndarray, shape (n, 3)
         Filled with ring displacements [m].
     unbalanced : ndarray, shape (n,)
         Filled with the unbalanced forces that are left [N].
     """
-    current = np.zeros(3)
     for k in range(shaft_angle.size):
         unbalanced[k] = balance(ring, shaft_angle[k], force[k], current)
         for i in range(3):

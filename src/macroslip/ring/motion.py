@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.compiled import jit
 from macroslip.errors import InputError, MacroslipError
 from macroslip.ring.balance import RingGeometry, balance_series, roller_loads
@@ -16,7 +15,6 @@ from macroslip.ring.travel import travel
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.loads import BearingLoads
-    from macroslip.roller.model import RollerModel
 
 #: Largest part of a roller pitch turned between samples of the ring balance; loads sampled more coarsely get samples
 #: in between, because the ring moves with every roller that passes.
@@ -24,22 +22,8 @@ _SAMPLED_PITCH = 0.25
 #: Part of the load that the ring balance may leave unbalanced, and the force [N] below which that does not matter.
 _BALANCE_TOLERANCE = 1e-8
 _NEGLIGIBLE_FORCE = 1e-3
-
-
-def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
-    """What the ring balance needs of a bearing; `model` is a roller of the downwind row."""
-    count = bearing.rollers_per_row
-    angles = np.concatenate([initial_angles(row, count) for row in ROWS])
-    signs = np.repeat([AXIAL_SIGNS[row] for row in ROWS], count)
-    return RingGeometry(
-        cosine=np.cos(angles),
-        sine=np.sin(angles),
-        axial=signs * model.sin_contact_angle,
-        cos_contact_angle=model.cos_contact_angle,
-        radial_play=model.radial_play,
-        stiffness=model.stiffness,
-        orbit_ratio=model.orbit_ratio,
-    )
+#: Samples balanced between two looks for an interrupt: a few tenths of a second.
+_SAMPLES_AT_A_TIME = 20_000
 
 
 @jit
@@ -55,7 +39,7 @@ def largest_load(ring, angle, displacement):
     return largest, sample
 
 
-def ring_motion(loads: BearingLoads, bearing: Bearing, model: RollerModel, highest_load: float) -> tuple[Motion, float]:
+def ring_motion(loads: BearingLoads, bearing: Bearing, ring: RingGeometry, highest_load: float) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
     Parameters
@@ -63,8 +47,7 @@ def ring_motion(loads: BearingLoads, bearing: Bearing, model: RollerModel, highe
     loads : BearingLoads
         Load on the inner ring.
     bearing : Bearing
-    model : RollerModel
-        Of the downwind row.
+    ring : RingGeometry
     highest_load : float
         Roller load [N] that must not be exceeded.
 
@@ -81,11 +64,17 @@ def ring_motion(loads: BearingLoads, bearing: Bearing, model: RollerModel, highe
     MacroslipError
         If a balance did not converge.
     """
-    time, speed, force = _finely_sampled(loads, model.orbit_ratio, bearing.rollers_per_row)
-    ring = ring_geometry(bearing, model)
+    time, speed, force = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)
     displacement, unbalanced = np.empty_like(force), np.empty(time.size)
-    balance_series(ring, angle, force, displacement, unbalanced)
+    largest, sample, current = 0.0, 0, np.zeros(3)
+    # In pieces, so that an interrupt need not wait for the end of a long history.
+    for start in range(0, time.size, _SAMPLES_AT_A_TIME):
+        piece = slice(start, start + _SAMPLES_AT_A_TIME)
+        balance_series(ring, angle[piece], force[piece], current, displacement[piece], unbalanced[piece])
+        load, place = largest_load(ring, angle[piece], displacement[piece])
+        if load > largest:
+            largest, sample = load, start + place
     excess = unbalanced - _BALANCE_TOLERANCE * np.linalg.norm(force, axis=1) - _NEGLIGIBLE_FORCE
     worst = int(np.argmax(excess))
     if not excess[worst] <= 0.0:
@@ -94,7 +83,6 @@ def ring_motion(loads: BearingLoads, bearing: Bearing, model: RollerModel, highe
             f"{force[worst]} N unbalanced. This is a defect of the solver; please report it with the bearing and this "
             "load."
         )
-    largest, sample = largest_load(ring, angle, displacement)
     if largest > highest_load:
         raise InputError(
             f"a roller carries {largest / 1e3:.4g} kN, at which its contact ellipse would reach beyond the roller's "

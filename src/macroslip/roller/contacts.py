@@ -6,13 +6,13 @@ import math
 from typing import TYPE_CHECKING
 
 from macroslip.bearing import geometry
+from macroslip.constants import MECHANISMS
 from macroslip.contact.flash_temperature import effusivity
 from macroslip.contact.shape import ContactShape, common_contour_radius, slipless
 from macroslip.film import asperity_load
 from macroslip.film import film_law as film_law
 from macroslip.film.correction import INLET_HEATING_REFERENCE, prepare_film
 from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
-from macroslip.mechanisms import MECHANISMS
 from macroslip.roller.contact_force import CurvedContact, PlainContact
 from macroslip.traction import traction_law as traction_law
 from macroslip.traction.asperity_friction import AsperityFriction

@@ -5,11 +5,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from macroslip.bearing import geometry, inertia
+from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import effective_modulus, elliptical_contact, series_stiffness
 from macroslip.contact.interface import Interface
 from macroslip.mechanisms import Laws
+from macroslip.ring.balance import RingGeometry
 from macroslip.roller.contacts import prepare_contact
 
 #: Share of a roller's load that may lie beyond its ends.
@@ -137,6 +141,22 @@ def highest_load(bearing: Bearing, lubricant: Lubricant, laws: Laws) -> float:
     # (3t − t³)/2 = 1 − share, with t the half length over the semi-axis.
     part = 2.0 * math.sin(math.asin(1.0 - HIGHEST_TRUNCATED_SHARE) / 3.0)
     return truncation / part**3
+
+
+def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
+    """What the ring balance needs of a bearing; `model` is a roller of the downwind row."""
+    count = bearing.rollers_per_row
+    angles = np.concatenate([initial_angles(row, count) for row in ROWS])
+    signs = np.repeat([AXIAL_SIGNS[row] for row in ROWS], count)
+    return RingGeometry(
+        cosine=np.cos(angles),
+        sine=np.sin(angles),
+        axial=signs * model.sin_contact_angle,
+        cos_contact_angle=model.cos_contact_angle,
+        radial_play=model.radial_play,
+        stiffness=model.stiffness,
+        orbit_ratio=model.orbit_ratio,
+    )
 
 
 def roller_model(

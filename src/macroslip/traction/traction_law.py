@@ -10,8 +10,8 @@ from collections.abc import Callable
 from numba.extending import overload
 
 from macroslip.compiled import depend_on
+from macroslip.constants import MECHANISMS
 from macroslip.contact.law_registry import LawList
-from macroslip.mechanisms import MECHANISMS
 from macroslip.traction.patch import Patch
 
 _laws = LawList("traction", reserved=(MECHANISMS,))

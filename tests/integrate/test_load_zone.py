@@ -9,12 +9,9 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from macroslip.film.film_law import film_thickness
-from macroslip.mechanisms import Laws
-from macroslip.ring.load_zone import (
+from macroslip.integrate.load_zone import (
     EDGE,
     FIRM,
-    FIRM_RATE,
-    FIRM_RATE_MICROSLIP,
     FREE,
     classify,
     edge_time,
@@ -23,6 +20,8 @@ from macroslip.ring.load_zone import (
     interference_at,
     relaxation_rate,
 )
+from macroslip.integrate.tuning import FIRM_RATE, FIRM_RATE_MICROSLIP
+from macroslip.mechanisms import Laws
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.roller.model import interfaces, roller_model
 

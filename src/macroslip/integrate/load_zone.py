@@ -13,17 +13,13 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit, jit_part
+from macroslip.integrate.held_contact import slips_everywhere
+from macroslip.integrate.tuning import FIRM_RATE, FIRM_RATE_MICROSLIP
 from macroslip.ring.orbit import Instant, instant
 from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.forces import interference
-from macroslip.roller.held_contact import slips_everywhere
 
 FREE, EDGE, FIRM = 0, 1, 2
-#: Relaxation rate of slip [1/s] from which on a roller counts as firmly held. Accelerations of a shaft are far below
-#: 1 m/s² at the raceway, so what slip lags behind balance is below 1e-4 m/s divided by this rate in 1e4/s.
-FIRM_RATE = 1e4
-#: The same with microslip, where balance is at a slip of some millimetres per second and power is stationary in it.
-FIRM_RATE_MICROSLIP = 1e3
 
 
 @jit
@@ -149,5 +145,5 @@ def edge_time(model, motion, start_angle, interval, start, end):
 
 
 def empty_classes(samples: int) -> np.ndarray:
-    """Room for `classify`."""
+    """Work space for `classify` over so many samples."""
     return np.empty(samples - 1, dtype=np.int8)

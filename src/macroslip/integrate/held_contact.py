@@ -8,14 +8,9 @@ from numba.extending import overload
 
 from macroslip.compiled import jit, jit_part
 from macroslip.film.film_law import film_thickness
+from macroslip.integrate.tuning import MOST_QUICKENING, STEEPEST, TELLING
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved
 from macroslip.traction.traction_law import rising_slip
-
-#: Power of the load with which the middle of a held contact slips where stress is at its limit: that of the drop of the
-#: contour at the end of the ellipse.
-LIMIT_EXPONENT = 2.0 / 3.0
-#: Change of ln Q below which a step says nothing of the exponent, and how far the exponent may reasonably be.
-_TELLING, _STEEPEST = 1e-3, 3.0
 
 
 @jit
@@ -72,6 +67,8 @@ def held_slip(contact, slip, at, later, exponent):
     """
     if not slips_everywhere(contact) or at.elastic_load <= 0.0 or at.ring_speed == 0.0:
         return slip
+    if abs(later.ring_speed) > MOST_QUICKENING * abs(at.ring_speed):
+        return slip
     return slip * (later.elastic_load / at.elastic_load) ** exponent * (later.ring_speed / at.ring_speed)
 
 
@@ -82,6 +79,6 @@ def held_exponent(at, slip, later, later_slip, exponent):
         return exponent
     change = math.log(later.elastic_load / at.elastic_load)
     ratio = later_slip * at.ring_speed / (slip * later.ring_speed) if slip * later.ring_speed != 0.0 else 0.0
-    if abs(change) < _TELLING or ratio <= 0.0:
+    if abs(change) < TELLING or ratio <= 0.0:
         return exponent
-    return min(max(math.log(ratio) / change, -_STEEPEST), _STEEPEST)
+    return min(max(math.log(ratio) / change, -STEEPEST), STEEPEST)

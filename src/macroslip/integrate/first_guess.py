@@ -1,0 +1,39 @@
+"""Where Newton's iteration for the stages of a step starts."""
+
+from __future__ import annotations
+
+from macroslip.compiled import jit_part
+from macroslip.integrate.held_contact import held_slip, slips_everywhere
+from macroslip.integrate.load_zone import EDGE, FIRM
+from macroslip.integrate.radau_step import NODES
+from macroslip.integrate.tuning import GRIPPED
+from macroslip.roller.forces import net_force
+
+
+@jit_part
+def first_guess(path, state, step, zone, exponent):
+    """Slip at the stages [m/s] to start Newton's iteration from.
+
+    That of a roller which drifts under small forces, changed as the forces at the start say; that of one stuck to the
+    cage, which keeps its spin; else the slip before the step; then, for one that follows its loads, what `held_slip`
+    makes of it with `exponent`.
+    """
+    model, h, slip, forces = path.model, step.length, state.slip, state.forces
+    at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
+    gripped = model.mobility * forces.slope * h
+    v1, v2, v3 = slip, slip, slip
+    if gripped < 1.0 and zone != EDGE:
+        drift = -model.mobility * net_force(forces)
+        v1 = slip + (at1.ring_speed - at.ring_speed) + drift * NODES[0] * h
+        v2 = slip + (at2.ring_speed - at.ring_speed) + drift * NODES[1] * h
+        v3 = slip + (at3.ring_speed - at.ring_speed) + drift * h
+    elif forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope):
+        # What holds the roller is the cage: its spin stays as it is, at zero.
+        v1 = slip + (at1.ring_speed - at.ring_speed)
+        v2 = slip + (at2.ring_speed - at.ring_speed)
+        v3 = slip + (at3.ring_speed - at.ring_speed)
+    if zone == FIRM or (slips_everywhere(model.inner) and gripped > GRIPPED and at3.elastic_load > 0.0):
+        v1 = held_slip(model.inner, v1, at, at1, exponent)
+        v2 = held_slip(model.inner, v2, at, at2, exponent)
+        v3 = held_slip(model.inner, v3, at, at3, exponent)
+    return v1, v2, v3
