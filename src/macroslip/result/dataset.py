@@ -44,6 +44,7 @@ def to_dataset(
     results: dict[tuple[str, int], tuple[int, Record]],
     film_range_notes: list[str],
     truncated_share: float,
+    drag_power: float,
 ) -> xr.Dataset:
     """Collect the records of all rollers.
 
@@ -62,6 +63,8 @@ def to_dataset(
         What lies outside the film law's range whatever the load.
     truncated_share : float
         Largest share of a roller's load that lies beyond its ends [-].
+    drag_power : float
+        Mean power of the lubricant's drag on all rollers of both rows in the window [W].
 
     Returns
     -------
@@ -89,6 +92,20 @@ def to_dataset(
 
     rollers = ("row", "roller")
     put("energy", (*rollers, "interface"), gather("energy"), "J", "energy dissipated by friction in the window")
+    put(
+        "inlet_temperature",
+        (),
+        np.array(case.oil.inlet_temperature),
+        "K",
+        "temperature of the oil at the inlets of the contacts",
+    )
+    put(
+        "rolling_energy",
+        (*rollers, "interface"),
+        gather("rolling_energy"),
+        "J",
+        "energy dissipated by rolling resistance in the window, apart from the energy of friction",
+    )
     put(
         "orbit_energy",
         (*rollers, "orbit", "interface"),
@@ -177,6 +194,8 @@ def to_dataset(
         "window_end": end,
         "film_range_notes": "\n".join(film_range_notes),
         "truncated_share": truncated_share,
+        "rollers_per_row": case.bearing.rollers_per_row,
+        "drag_power": drag_power,
         "input": json.dumps(case.as_dict(), ensure_ascii=False),
         "citations": "\n".join([*citations, _RADAU] if isinstance(case.integrator, Radau) else citations),
     }
@@ -261,6 +280,13 @@ def _put_traces(put: Any, trace: np.ndarray, model: RollerModel, rollers: tuple[
         "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
     )
     put("power", (*dims, "interface"), stack("power", INTERFACES), "W", "frictional power")
+    put(
+        "rolling_power",
+        (*dims, "interface"),
+        stack("rolling", INTERFACES),
+        "W",
+        "power of rolling resistance, apart from that of friction",
+    )
     put(
         "film_thickness",
         (*dims, "interface"),
