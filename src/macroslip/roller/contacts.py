@@ -166,6 +166,8 @@ def prepare_contact(
     if laws.asperities == "none" and not isinstance(traction, FilmShear):
         return PlainContact(film, traction)
     friction = 0.0
+    # The film of a roller in its pocket is that of `films`, of tens of micrometres: no asperity touches.
+    floating = interface.name == "cage" and laws.rolling != "none"
     if laws.asperities != "none":
         friction = lubricant.boundary_friction
     known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None
@@ -173,7 +175,7 @@ def prepare_contact(
     return CurvedContact(
         film=film,
         traction=traction,
-        asperity_load=asperity_load.prepare(laws.asperities, interface),
+        asperity_load=asperity_load.prepare("none" if floating else laws.asperities, interface),
         asperity_friction=AsperityFriction(friction, _FULL_SLIP, hertz.semi_axis_across),
         shape=contact_shape(bearing, interface, axial_sign, microslip=laws.microslip),
         semi_axis_across=hertz.semi_axis_across,
