@@ -1,4 +1,4 @@
-"""Draws the pictures of frames.md and bearings.md, as SVG, into the folder of this file: python docs/drawings.py
+"""Draws the pictures of frames.md, mounts.md and bearings.md, as SVG, into the folder of this file: python docs/drawings.py
 
 The axial view is to scale, and its roller loads are computed with the program.
 """
@@ -13,6 +13,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon, Rectangle, Wedge
+from mount_drawings import four_point, three_point
 
 from macroslip import Bearing, BearingLoads, Case, Traces, simulate
 from macroslip.bearing import geometry
@@ -327,6 +328,8 @@ PICTURES = {
     "frames-axial.svg": axial_view,
     "frames-roller.svg": one_roller,
     "bearing.svg": bearing_section,
+    "mount-three-point.svg": three_point,
+    "mount-four-point.svg": four_point,
 }
 
 

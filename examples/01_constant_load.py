@@ -1,6 +1,6 @@
 """One roller under a constant downward load: it coasts through the unloaded top and is caught again at the bottom.
 
-python examples/01_constant_load.py
+    python examples/01_constant_load.py
 """
 
 import numpy as np

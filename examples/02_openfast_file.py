@@ -1,6 +1,6 @@
 """From an OpenFAST output file to the slip of every roller.
 
-python examples/02_openfast_file.py tests/data/sample14B.outb
+    python examples/02_openfast_file.py tests/data/sample14B.outb
 """
 
 import sys

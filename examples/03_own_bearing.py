@@ -1,6 +1,6 @@
 """A bearing of one's own: from a file with a provenance tag at every value, or by changing one value.
 
-python examples/03_own_bearing.py
+    python examples/03_own_bearing.py
 """
 
 import json

@@ -1,6 +1,6 @@
 """The same loads with a thin, a middling and a thick oil.
 
-python examples/04_compare_lubricants.py
+    python examples/04_compare_lubricants.py
 """
 
 from macroslip import Case, HubLoads, Lubricant, simulate

@@ -3,6 +3,7 @@
 The public names are imported when they are first used, so that `import macroslip` is quick.
 """
 
+import os
 from importlib import import_module
 from typing import Any
 
@@ -15,6 +16,7 @@ _HOMES = {
     "BearingLoads": "macroslip.loads",
     "Drivetrain": "macroslip.loads",
     "main_bearing_load": "macroslip.loads",
+    "support_loads": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
     "Laws": "macroslip.mechanisms",
     "load_laws": "macroslip.plugins",
@@ -35,6 +37,10 @@ _HOMES = {
     "MacroslipError": "macroslip.errors",
 }
 _FOLDERS = ("film", "traction", "hertz")
+
+# Numba cannot be imported with a number of threads below 1, as some containers set it; its threads are not used here.
+if os.environ.get("NUMBA_NUM_THREADS", "").strip().lstrip("-").isdecimal() and int(os.environ["NUMBA_NUM_THREADS"]) < 1:
+    del os.environ["NUMBA_NUM_THREADS"]
 
 __all__ = ["__version__", *_HOMES, *_FOLDERS]
 

@@ -1,35 +1,35 @@
-"""How physics functions are compiled: lazily, without fast-math, cached on disk, releasing the GIL.
-
-Numba's cache notices a change in the file of the function it compiled, but not in the files of the functions that were
-inlined into it. A stale kernel would be a wrong number without a sign, so the cache key here also holds a hash of all
-sources a kernel can be made of, and of every law registered by the user.
-"""
+"""How physics functions are compiled: lazily, without fast-math, cached on disk, releasing the GIL."""
 
 from __future__ import annotations
 
 import contextlib
 import functools
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numba
 import numpy as np
-from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.extending import register_jitable
 
-from macroslip.fingerprint import KERNEL_PARTS, fingerprint
+from macroslip.kernel_cache import kernel_folder
 
-_extra_sources: list[str] = []
+_own_laws: list[str] = []
+_stored: list[Any] = []
 
 
 def depend_on(*functions: Callable) -> None:
     """Make kernels depend on the files that hold these compiled functions: a law of the user's own, say.
 
+    From then on kernels are read from a folder of their own, and written there: what is stored holds the types of all
+    kernels of a function, and a process that does not know such a law could not read it.
+
     A function typed at a prompt has no file; then its bytecode and constants stand for it. The module's name counts
     too: kernels are stored with the names of their types, and a process that gave the module another name would not
     find them.
     """
+    before = len(_own_laws)
     for function in functions:
         plain = getattr(function, "py_func", function)
         path = Path(plain.__code__.co_filename)
@@ -41,59 +41,41 @@ def depend_on(*functions: Callable) -> None:
             else repr((plain.__code__.co_code, plain.__code__.co_consts))
         )
         source = f"{plain.__module__}\n{text}"
-        if source not in _extra_sources:
-            _extra_sources.append(source)
+        if source not in _own_laws:
+            _own_laws.append(source)
+    if len(_own_laws) > before:
+        with _storing() as folder:
+            for dispatcher in _stored if folder else ():
+                dispatcher.enable_caching()
 
 
-class _IndexFile(IndexDataCacheFile):
-    """Index of one function's kernels. One that names classes this version no longer has is as good as none."""
-
-    def _load_index(self):
-        try:
-            return super()._load_index()
-        except (AttributeError, ImportError):
-            return {}
-
-
-class _PackageCache(FunctionCache):
-    """Numba's cache of one function, outdated by any change of the sources a kernel can be made of.
-
-    Kernels compiled while laws of the user's own are registered go into an index of their own: an index holds the
-    types of all its kernels, and a process that does not know such a law could not read it.
-    """
-
-    def __init__(self, function: Callable):
-        super().__init__(function)
-        # The stamp outdates the whole index, so that kernels of older sources are overwritten and do not pile up.
-        self._stamp = (self._cache_file._source_stamp, fingerprint(*KERNEL_PARTS))
-        self._files: dict[str, _IndexFile] = {}
-
-    def _use_file(self) -> None:
-        laws = hashlib.sha256("\0".join(sorted(_extra_sources)).encode()).hexdigest()[:12] if _extra_sources else ""
-        if laws not in self._files:
-            base = self._impl.filename_base + (f"-{laws}" if laws else "")
-            self._files[laws] = _IndexFile(self._cache_path, base, self._stamp)
-        self._cache_file = self._files[laws]
-
-    def load_overload(self, sig, target_context):
-        self._use_file()
-        return super().load_overload(sig, target_context)
-
-    def save_overload(self, sig, data):
-        self._use_file()
-        # A kernel that cannot be stored, on a full disk say, is compiled again next time.
-        with contextlib.suppress(OSError):
-            super().save_overload(sig, data)
+@contextlib.contextmanager
+def _storing() -> Iterator[Path | None]:
+    """Let numba store what is decorated in the block in the folder for these sources and laws, if there is one."""
+    laws = hashlib.sha256("\0".join(sorted(_own_laws)).encode()).hexdigest()[:12] if _own_laws else ""
+    folder, before = kernel_folder(laws), numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder or before)
+    try:
+        yield folder
+    finally:
+        numba.config.CACHE_DIR = before
 
 
-#: Options of everything that is compiled. No function is handed to C, so none gets an entry for it.
-_OPTIONS = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+#: Options of everything that is compiled.
+_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
 
 
-def _cached(function: Callable, **options) -> Callable:
-    dispatcher = numba.njit(**_OPTIONS, **options)(function)
-    dispatcher._cache = _PackageCache(function)
-    return dispatcher
+def _cached(function: Callable, **options: Any) -> Callable:
+    with _storing() as folder:
+        if folder is not None:
+            # Numba refuses to store a function that has no file, and one whose folder in ours cannot be written.
+            with contextlib.suppress(RuntimeError):
+                dispatcher = numba.njit(cache=True, **_OPTIONS, **options)(function)
+                stored = getattr(dispatcher, "stats", None)
+                if stored and Path(stored.cache_path).is_relative_to(folder):
+                    _stored.append(dispatcher)
+                    return dispatcher
+    return numba.njit(**_OPTIONS, **options)(function)
 
 
 def jit(function: Callable) -> Callable:
@@ -112,7 +94,7 @@ def jit_part(function: Callable) -> Callable:
     It gets no compiled entry from Python; with a roller's model or record for an argument that takes longer to compile
     than the function itself.
     """
-    return register_jitable(**_OPTIONS, no_cpython_wrapper=True, forceinline=True)(function)
+    return register_jitable(**_OPTIONS, forceinline=True)(function)
 
 
 def elementwise(function: Callable) -> Callable:

@@ -18,7 +18,8 @@ KERNEL_PARTS = (
 RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "mechanisms", "rating", "result")
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
-    "__init__", "cli", "errors", "files", "fingerprint", "machine", "plugins", "report", "reproduction", "study", "torque",
+    "__init__", "cli", "errors", "files", "fingerprint", "kernel_cache", "machine", "plugins", "report", "reproduction",
+    "study", "torque",
 )  # fmt: skip
 _ROOT = Path(__file__).parent
 

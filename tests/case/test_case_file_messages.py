@@ -45,7 +45,7 @@ def told(tmp_path):
         (
             "rollers: all\n",
             "case.yaml: 'loads' is missing (loads, from exactly one source). Allowed: a section with the keys bundled, "
-            "file, bearing_file, hub, main_bearing, start, end. Add it.",
+            "file, bearing_file, hub, main_bearing, start, end, shaft_speed. Add it.",
         ),
         (
             "loads: {bundled: 14B, file: x.outb}\n",

@@ -1,5 +1,6 @@
 """`macroslip init` writes a case file that runs, and whose every key is explained."""
 
+import pytest
 from ruamel.yaml import YAML
 
 from macroslip.case.keys import CaseFile
@@ -51,6 +52,10 @@ def test_the_values_of_the_template_are_the_defaults(folder, macroslip):
     macroslip("init")
     case = read_case("case.yaml").as_dict()
     plain = Case(loads=HubLoads.bundled("14B").window(0.0, 60.0)).as_dict()
+    # The shaft's mass is an estimate for the rotor of the load cases, and marked as such; by default there is none.
+    assert case["drivetrain"].pop("shaft_mass") == pytest.approx(0.0142 * 70.0**2.888, rel=1e-3)
+    assert case["drivetrain"].pop("shaft_mass_station") == pytest.approx(0.5 * (1.26 + 2.2))
+    assert plain["drivetrain"].pop("shaft_mass") == plain["drivetrain"].pop("shaft_mass_station") == 0.0
     assert case == plain
 
 

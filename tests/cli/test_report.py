@@ -31,6 +31,23 @@ def test_one_file_and_a_page_of_ones_own_choice(ran, macroslip):
     assert "data-view" not in (ran / "page.html").read_text(encoding="utf-8").split("</header>")[1].split("<script>")[0]
 
 
+def test_the_folder_of_a_study(folder, macroslip):
+    text = "case: {rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A, 18B]}\n"
+    (folder / "study.yaml").write_text(text, encoding="utf-8")
+    assert macroslip("study", "study.yaml", "-o", "out", "--quiet").code == 0
+    done = macroslip("report", "out", "--title", "Mine", "--weibull", 9, 2)
+    assert (done.code, done.out, done.err) == (0, "written: out/report.html\n", "")
+    page = (folder / "out" / "report.html").read_text(encoding="utf-8")
+    for words in ("Lifetime energy", "Exceedance", "Worst cases", "No run failed", "scale 9 m/s"):
+        assert words in page
+    assert macroslip("study", "study.yaml", "-o", "out", "--resume", "--quiet").code == 0, "the page is in no way"
+
+
+def test_weights_belong_to_studies(ran, macroslip):
+    done = macroslip("report", "out", "--weibull", 9, 2)
+    assert done.code == 2 and "--weibull is given for results that are no study" in done.err
+
+
 @pytest.mark.parametrize(
     ("place", "message"),
     [

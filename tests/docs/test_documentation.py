@@ -229,20 +229,6 @@ def test_results_page_has_the_sentence_of_every_status():
     assert [status for status in Status if f"| {int(status)} | {status.sentence} |" not in text] == []
 
 
-def test_results_page_names_what_reproduce_writes():
-    text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-    source = (ROOT / "src" / "macroslip" / "study" / "reproduce.py").read_text(encoding="utf-8")
-    summary = re.search(r"summary = plain\(\s*\{(.*?)\n            \}", source, re.DOTALL).group(1)
-    names = re.findall(r'^ {16}"(\w+)":', summary, re.MULTILINE)
-    figures = {name.removeprefix("figure_") for name in re.findall(r'"(\w+)"\]?(?::| =) lambda', source)}
-    study = re.findall(
-        r'put\(\s*"(\w+)"', (ROOT / "src/macroslip/reproduction/paper_study.py").read_text(encoding="utf-8")
-    )
-    assert len(names) > 5 and len(figures) == 20 and len(study) > 4
-    missing = [name for name in [*names, *study] if f"`{name}`" not in text]
-    assert missing + [name for name in figures if f"`{name}`" not in text and f"`figure_{name}`" not in text] == []
-
-
 def test_pages_of_the_models_name_modules_that_exist():
     text = (ROOT / "docs" / "model.md").read_text(encoding="utf-8")
     text += (ROOT / "docs" / "physical.md").read_text(encoding="utf-8")

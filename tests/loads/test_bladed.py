@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
+from macroslip.case.case_file import read_case
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads
+from macroslip.study.build import read_loads
+from macroslip.study.study_file import read_study
 
 HUB = ["Mx", "My", "Mz", "Myz", "Fx", "Fy", "Fz", "Fyz"]
 
@@ -85,6 +88,29 @@ def test_the_speed_may_be_given(tmp_path, truth):
     assert "loads.shaft_speed" in message
     read = HubLoads.read(header, shaft_speed=2.1)
     assert (read.shaft_speed == 2.1).all()
+
+
+def test_a_case_and_a_study_may_give_the_speed(tmp_path, truth):
+    header = _run(tmp_path, truth, with_speed=False)
+    case = tmp_path / "case.yaml"
+    case.write_text(f"loads: {{file: {header.name}, shaft_speed: 20 rpm, end: 5 s}}\n")
+    read = read_case(case).loads
+    assert read.shaft_speed == pytest.approx(20.0 * np.pi / 30.0)
+    assert read.duration == pytest.approx(5.0, abs=0.1)
+    assert "given" in read.reading[-1]
+    study = tmp_path / "study.yaml"
+    study.write_text(f"case: {{loads: {{shaft_speed: 20 rpm}}}}\nloads: {{files: {header.name}}}\n")
+    found = read_study(study)
+    assert found.cut == {"shaft_speed": pytest.approx(20.0 * np.pi / 30.0)}
+    assert read_loads("file", str(header), found.cut).shaft_speed == pytest.approx(20.0 * np.pi / 30.0)
+
+
+@pytest.mark.parametrize("source", ["bundled: 14B", "bearing_file: x.csv"])
+def test_only_hub_loads_from_a_file_take_a_speed(tmp_path, source):
+    case = tmp_path / "case.yaml"
+    case.write_text(f"loads: {{{source}, shaft_speed: 20 rpm}}\n")
+    with pytest.raises(InputError, match=r"shaft_speed is given, but .* has its own\. Remove loads\.shaft_speed"):
+        read_case(case)
 
 
 def test_a_binary_that_is_cut_off(tmp_path, truth):

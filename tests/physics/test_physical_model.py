@@ -166,8 +166,7 @@ def test_traces_stay_within_the_laws(blown):
 def test_net_skew_moment_of_a_held_roller_is_the_small_difference_of_its_raceways():
     """Traction that drives the spin acts along +x' at the inner raceway and along −x' at the outer one.
 
-    Forces along x' balance, and so nearly do the moments they make about the contact normal: both are moments of the
-    same stations on the same axis, of the parts of traction that change sign along it.
+    So the moments have opposite signs, and the net one is smaller than either.
     """
     loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.1, 8.0)
     case = Case(loads=loads, rollers=[0], laws=Laws.physical(), traces=Traces(step=0.02, start=3.0))
@@ -182,7 +181,8 @@ def test_net_skew_moment_of_a_held_roller_is_the_small_difference_of_its_raceway
         force = raceway_force(contact, load, slip, ring_speed, abs(ring_speed - 0.5 * slip), 0.0)
         along_x += sign * force.detail.skew
     inner, outer = at.skew_moment.values
-    assert abs(along_x) < 0.3 * abs(inner)
+    # As a sum of like signs it would be larger than either.
+    assert abs(along_x) < min(abs(inner), abs(outer))
     assert inner * outer < 0.0
     assert inner + outer == pytest.approx(along_x, abs=0.02 * abs(inner))
 

@@ -4,16 +4,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from macroslip import Laws, Window
 from macroslip.reproduction.dissipation import PARTS, dissipation, explained, knows_mechanisms, reasons
 from macroslip.reproduction.paper_numbers import paper_numbers
-from macroslip.reproduction.paper_study import run_study
-from macroslip.reproduction.verdicts import AGREES, Statement
+from macroslip.reproduction.statement import AGREES, Statement
 
 
 @pytest.fixture(scope="module")
-def study():
-    return run_study(["12C", "14A", "24A"], rollers=[0, 14], window=Window(end=20.0), laws=Laws.physical())
+def study(small_paper_study):
+    return small_paper_study("study_physical", ("12C", "14A", "24A"), window={"end": "20 s"})
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +76,9 @@ def test_reasons_hold_the_numbers(study):
 
 
 def test_statements_get_reasons_and_keep_their_verdicts(study):
-    statements = [Statement(paper=f"{k}", verdict=AGREES, found="so", because="old") for k in range(8)]
+    subjects = ("Euler", "energy", "rows", "peaks", "peak ratio", "unloaded", "static", "cage")
+    statements = {one: Statement(paper=one, verdict=AGREES, found="so", because="old") for one in subjects}
     found = explained(statements, study, paper_numbers(study))
-    assert [one.verdict for one in found] == [AGREES] * 8
-    assert [one.because == "old" for one in found] == [k in (4, 7) for k in range(8)]
+    assert [one.verdict for one in found.values()] == [AGREES] * 8
+    assert {subject for subject, one in found.items() if one.because == "old"} == {"unloaded", "Euler"}
+    assert found["cage"].because == reasons(study, paper_numbers(study))["cage"]

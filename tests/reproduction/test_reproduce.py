@@ -1,6 +1,5 @@
 """The reproduction: numbers of the study, turns, experiments, verdicts and what is written."""
 
-import dataclasses
 import importlib.util
 import json
 from functools import partial
@@ -15,21 +14,21 @@ from macroslip.errors import InputError
 from macroslip.files import published_together
 from macroslip.reproduction import headline, model_run, single_roller, verdicts
 from macroslip.reproduction import reproduce as module
-from macroslip.reproduction.model_run import Model
 from macroslip.reproduction.paper_numbers import paper_numbers
-from macroslip.reproduction.paper_study import run_study
-from macroslip.reproduction.sensitivity import VARIATIONS, sensitivity
 from macroslip.reproduction.single_roller import inflexion_angle, static_load, static_turn, trace_turn
 from macroslip.reproduction.solver_experiments import nonlinear_tolerance, step_size
 from macroslip.reproduction.stability import compare_stability
-from macroslip.reproduction.uncertainty import uncertainty
+from macroslip.reproduction.statement import AGREES, DIFFERS, NOT_COMPUTED, PARTLY, UNKNOWN
 
 SMALL = {"rollers": [0, 14], "window": Window(end=30.0)}
-
-
-@pytest.fixture(scope="module")
-def study():
-    return run_study(["12C", "14A", "14B"], **SMALL)
+#: Studies of the reproduction, made small.
+SHORT = {"rollers": [0, 14], "window": {"end": "30 s"}}
+STUDIES = {
+    "study": {"bundled": ["12C", "14A", "14B"], **SHORT},
+    "detail": {"window": {"end": "30 s"}},
+    "sensitivity": {"points": 4, **SHORT},
+    "uncertainty": {"bundled": ["12B", "24B"], "points": 3, "loads": {"end": "14 s"}},
+}
 
 
 @pytest.fixture(scope="module")
@@ -71,11 +70,6 @@ def test_study_holds_what_the_simulation_gives(study):
     assert all(variable.attrs["units"] for variable in study.data_vars.values())
 
 
-def test_a_window_without_an_orbit_is_refused():
-    with pytest.raises(InputError, match="no complete orbit"):
-        run_study(["14B"], rollers=[0], window=Window(start=1.0, end=2.0))
-
-
 def test_numbers_are_normalised_by_the_reference_case(study):
     numbers = paper_numbers(study)
     assert (numbers.energy_normalised.sel(case="12C") == 1.0).all()
@@ -98,26 +92,26 @@ def test_a_failed_roller_is_seen_and_never_averaged_over(study):
     numbers = paper_numbers(failed)
     assert np.isnan(numbers.energy.sel(case="14B", row="upwind"))
     assert np.isfinite(numbers.energy.sel(case="14B", row="downwind"))
-    assert verdicts.energy_between_rows(numbers).verdict == verdicts.UNKNOWN
-    assert verdicts.energy_over_wind_speed(numbers, failed).verdict == verdicts.UNKNOWN
-    assert verdicts.peak_power_between_rows(numbers).verdict == verdicts.UNKNOWN
+    assert verdicts.energy_between_rows(numbers).verdict == UNKNOWN
+    assert verdicts.energy_over_wind_speed(numbers, failed).verdict == UNKNOWN
+    assert verdicts.peak_power_between_rows(numbers).verdict == UNKNOWN
     assert "FAILED INTEGRATIONS: 1 in study" in headline.failure_line({"study": 1, "experiments": 0}, 12)
 
 
 def test_energy_verdicts_follow_the_numbers(study):
     numbers = paper_numbers(study)
     ten = numbers.assign(energy_ratio=xr.full_like(numbers.energy_ratio, 9.0))
-    assert verdicts.energy_between_rows(ten).verdict == verdicts.AGREES
-    assert verdicts.energy_between_rows(numbers).verdict == verdicts.DIFFERS
+    assert verdicts.energy_between_rows(ten).verdict == AGREES
+    assert verdicts.energy_between_rows(numbers).verdict == DIFFERS
 
     speeds = np.arange(12.0, 25.0, 2.0)
     case = {"wind_speed": ("case", speeds), "row": ["downwind", "upwind"]}
     falling = xr.Dataset({"both_rows_normalised": ("case", 1.0 / speeds)}, case)
     rising = xr.Dataset({"both_rows_normalised": ("case", speeds)}, case)
     orbits = xr.Dataset({"orbits": ("case", speeds), "orbit_energy": (("case", "row"), np.ones((7, 2)))}, case)
-    assert verdicts.energy_over_wind_speed(falling, orbits).verdict == verdicts.AGREES
+    assert verdicts.energy_over_wind_speed(falling, orbits).verdict == AGREES
     found = verdicts.energy_over_wind_speed(rising, orbits)
-    assert found.verdict == verdicts.DIFFERS
+    assert found.verdict == DIFFERS
     assert "24 and 22 m/s" in found.found
     assert "0.0 % downwind and 0.0 % upwind, the number of orbits by 100.0 %" in found.because
 
@@ -132,12 +126,12 @@ def test_reasons_are_given_only_where_the_numbers_bear_them_out(study):
 
 
 def test_dominance_verdict_follows_the_numbers(study):
-    assert verdicts.cage_dominates(study).verdict == verdicts.AGREES
+    assert verdicts.cage_dominates(study).verdict == AGREES
     swapped = study.assign(energy=study.energy.isel(interface=[2, 1, 0]).assign_coords(interface=study.interface))
     found = verdicts.cage_dominates(swapped)
-    assert found.verdict == verdicts.DIFFERS
+    assert found.verdict == DIFFERS
     assert "downwind the inner interface takes most" in found.because
-    assert verdicts.cage_dominates(with_failed_roller(study)).verdict == verdicts.UNKNOWN
+    assert verdicts.cage_dominates(with_failed_roller(study)).verdict == UNKNOWN
 
 
 def test_peak_power_verdicts_follow_the_numbers():
@@ -154,14 +148,14 @@ def test_peak_power_verdicts_follow_the_numbers():
 
     level = np.array([1.0, 1.2, 0.9, 1.1, 1.0, 1.05, 0.95])
     agreeing = numbers(level, level, 50.0 / speeds)
-    assert verdicts.peak_power_over_wind_speed(agreeing).verdict == verdicts.AGREES
-    assert verdicts.peak_power_between_rows(agreeing).verdict == verdicts.AGREES
+    assert verdicts.peak_power_over_wind_speed(agreeing).verdict == AGREES
+    assert verdicts.peak_power_between_rows(agreeing).verdict == AGREES
     rising = numbers(speeds, speeds, 5.0 * speeds / 24.0)
-    assert verdicts.peak_power_over_wind_speed(rising).verdict == verdicts.PARTLY
-    assert verdicts.peak_power_between_rows(rising).verdict == verdicts.PARTLY
+    assert verdicts.peak_power_over_wind_speed(rising).verdict == PARTLY
+    assert verdicts.peak_power_between_rows(rising).verdict == PARTLY
     contrary = numbers(speeds, 0.01 * speeds, speeds)
-    assert verdicts.peak_power_over_wind_speed(contrary).verdict == verdicts.DIFFERS
-    assert verdicts.peak_power_between_rows(contrary).verdict == verdicts.DIFFERS
+    assert verdicts.peak_power_over_wind_speed(contrary).verdict == DIFFERS
+    assert verdicts.peak_power_between_rows(contrary).verdict == DIFFERS
 
 
 def test_ratio_to_static_verdict_follows_the_numbers(study):
@@ -171,8 +165,8 @@ def test_ratio_to_static_verdict_follows_the_numbers(study):
         scale: verdicts.varying_over_static(numbers, "14B", {"downward": {"downwind": energy / scale}})
         for scale in (1.0, 100.0)
     }
-    assert found[1.0].verdict == verdicts.DIFFERS
-    assert found[100.0].verdict == verdicts.AGREES
+    assert found[1.0].verdict == DIFFERS
+    assert found[100.0].verdict == AGREES
     assert found[100.0].numbers["downward_downwind"] == pytest.approx(100.0)
 
 
@@ -203,12 +197,12 @@ def test_a_turn_needs_a_whole_turn(varying):
 
 def test_unloaded_roller_verdict_follows_the_turn(downward):
     inflexion = inflexion_angle(downward)
-    assert verdicts.unloaded_roller(downward, inflexion).verdict == verdicts.AGREES
-    assert verdicts.unloaded_roller(downward, float("nan")).verdict == verdicts.PARTLY
+    assert verdicts.unloaded_roller(downward, inflexion).verdict == AGREES
+    assert verdicts.unloaded_roller(downward, float("nan")).verdict == PARTLY
     gripped = downward.assign_attrs(lowest_spin_ratio=1.0, recovery_time_s=float("nan"))
-    assert verdicts.unloaded_roller(gripped, 90.0).verdict == verdicts.DIFFERS
+    assert verdicts.unloaded_roller(gripped, 90.0).verdict == DIFFERS
     failed = downward.assign_attrs(lowest_spin_ratio=float("nan"))
-    assert verdicts.unloaded_roller(failed, inflexion).verdict == verdicts.UNKNOWN
+    assert verdicts.unloaded_roller(failed, inflexion).verdict == UNKNOWN
 
 
 def test_inflexion_is_the_steepest_rise_of_spin():
@@ -226,11 +220,11 @@ def test_explicit_euler_is_lost_where_the_step_exceeds_the_relaxation_time(exper
     assert stability.attrs["limit_relaxation_time_s"] <= 0.5e-3
     assert limit <= lost < limit + 5.0
     assert stability.deviation_explicit.sel(angle=slice(None, limit)).max() < 0.02
-    assert verdicts.euler_stability(stability).verdict == verdicts.AGREES
+    assert verdicts.euler_stability(stability).verdict == AGREES
     stable = stability.assign_attrs(largest_deviation_explicit=0.01, status_explicit=0)
-    assert verdicts.euler_stability(stable).verdict == verdicts.PARTLY
+    assert verdicts.euler_stability(stable).verdict == PARTLY
     overflowed = stability.assign_attrs(largest_deviation_explicit=float("nan"), status_explicit=2)
-    assert verdicts.euler_stability(overflowed).verdict == verdicts.AGREES
+    assert verdicts.euler_stability(overflowed).verdict == AGREES
 
 
 def test_a_loose_iteration_adds_energy_only_to_a_gripped_roller_under_varying_load(experiments):
@@ -244,7 +238,7 @@ def test_a_loose_iteration_adds_energy_only_to_a_gripped_roller_under_varying_lo
     tame = found.assign(ratio=found.ratio.clip(max=2.0))
     assert "is 2 times at a relative change of 1e-06" in headline.tolerance_line(tame)
     failed = found.assign(ratio=found.ratio * np.nan)
-    assert verdicts.UNKNOWN in headline.tolerance_line(failed)
+    assert UNKNOWN in headline.tolerance_line(failed)
 
 
 def test_a_coarse_step_misses_the_peak(experiments):
@@ -254,21 +248,16 @@ def test_a_coarse_step_misses_the_peak(experiments):
     assert "10 ms" in headline.step_line(found)
 
 
-@pytest.fixture(scope="module")
-def table():
-    return sensitivity(Case(loads=HubLoads.bundled("14B"), **SMALL), VARIATIONS[:2])
-
-
 def fewer_turns(result, laws, threads, report):
     """One turn in the place of all, traced at samples 18 times as far apart as others are."""
     from unittest.mock import patch
 
     with patch.object(single_roller, "_FINE", 2):
         turn = static_turn(model_run.varying_load(), "downwind", thrust=False, laws=laws)
-    titles = [f"static: {name}, {row}" for name in model_run.STATIC_LOADS for row in ("downwind", "upwind")]
-    titles += [f"{figure}: {row} row" for figure in ("typical", "peak") for row in ("downwind", "upwind")]
     report(1, 1)
-    return dict.fromkeys(titles, turn)
+    rows = ("downwind", "upwind")
+    static = {f"{name}, {row}": turn for name in model_run.STATIC_LOADS for row in rows}
+    return {"static": static} | {figure: {f"{row} row": turn for row in rows} for figure in ("typical", "peak")}
 
 
 def only(monkeypatch, **models):
@@ -277,13 +266,10 @@ def only(monkeypatch, **models):
 
 
 @pytest.fixture
-def quick(monkeypatch, study, table, experiments):
-    """The reproduction under one model, with a small study, a short part of its case, and short experiments."""
-    only(monkeypatch, paper=Model(laws=Laws.paper()))
-    monkeypatch.setattr(model_run, "run_study", lambda **options: study)
-    short = {"window": SMALL["window"]}
-    monkeypatch.setattr(model_run, "simulate", lambda case, threads: simulate(dataclasses.replace(case, **short)))
-    monkeypatch.setattr(model_run, "sensitivity", lambda *arguments, **options: table)
+def quick(monkeypatch, small, experiments):
+    """The reproduction under one model, with small studies and short experiments."""
+    only(monkeypatch, paper=Laws.paper())
+    monkeypatch.setattr(model_run, "reproduction_study", lambda name: small(name, **STUDIES[name.partition("_")[0]]))
     monkeypatch.setattr(module, "_experiments", lambda *arguments: experiments)
     return partial(module.reproduce, threads=1)
 
@@ -321,29 +307,20 @@ def test_everything_is_written_says_the_same_and_is_used_again(quick, study, mon
     assert (target / "report.html").stat().st_size < 8e6
     assert all(one["models"]["paper"]["verdict"] in page for one in summary["statements"])
 
-    def recomputed(*arguments, **options):
-        pytest.fail("computed again")
-
-    for name in ("run_study", "simulate", "sensitivity"):
-        monkeypatch.setattr(model_run, name, recomputed)
     # What is drawn follows from what was read, and was drawn above.
     monkeypatch.setattr(module, "_save", lambda *arguments: None)
     monkeypatch.setattr(module, "_write_report", lambda *arguments: None)
     again = quick(target)
-    assert again["reused"] == ["study-paper", "detail-paper", "turns-paper", "sensitivity-paper"]
+    assert again["reused"] == ["study_paper", "detail_paper", "sensitivity_paper"]
     changing = ("seconds", "reused")
     assert {key: one for key, one in again.items() if key not in changing} == {
         key: one for key, one in summary.items() if key not in changing
     }
 
 
-def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study, monkeypatch, tmp_path):
-    inside = run_study(["12C", "14A", "14B"], laws=Laws.physical(), **SMALL)
+def test_the_physical_model_gets_its_own_column_sections_and_files(quick, monkeypatch, tmp_path):
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
-    only(monkeypatch, paper=Model(laws=Laws.paper()), physical=Model(laws=Laws.physical(), sensitivity_end=30.0))
-    monkeypatch.setattr(model_run, "run_study", lambda laws, **options: study if laws == Laws.paper() else inside)
-    small = {"samples": 2, "cases": ("12B", "24B"), "rollers": (0,), "end": 14.0}
-    monkeypatch.setattr(model_run, "uncertainty", lambda laws, **options: uncertainty(laws, **small))
+    only(monkeypatch, paper=Laws.paper(), physical=Laws.physical())
     calls = []
     summary = quick(tmp_path / "results", progress=lambda *call: calls.append(call))
     assert len(summary["headline"]) == 10
@@ -353,7 +330,7 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study,
     assert "microslip" not in first["paper"]["because"]
     assert "anywhere in their ranges" in rows["physical"]["found"]
     assert "anywhere in their ranges" not in rows["paper"]["found"]
-    assert euler["physical"]["verdict"] == verdicts.NOT_COMPUTED
+    assert euler["physical"]["verdict"] == NOT_COMPUTED
     assert "paper: " in summary["headline"][1] and "; physical: " in summary["headline"][1]
     for name in (
         "study_physical.nc",
@@ -366,6 +343,11 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study,
         "friction_torque.svg",
     ):
         assert (tmp_path / "results" / name).is_file()
+    documented = (Path(__file__).parents[2] / "docs" / "results.md").read_text(encoding="utf-8")
+    figures = {path.stem.removesuffix("_physical") for path in (tmp_path / "results").glob("*.png")}
+    with xr.open_dataset(tmp_path / "results" / "study_physical.nc", engine="h5netcdf") as stored:
+        names = [*summary, *stored.data_vars, *(name.removeprefix("figure_") for name in figures)]
+    assert [name for name in names if f"`{name}`" not in documented and f"`figure_{name}`" not in documented] == []
     torque = summary["figures"]["friction_torque_physical"]["data_vars"]["torque"]
     assert 1.0 < torque["data"] < 1e3
     assert torque["attrs"]["units"] == "N m"
@@ -385,16 +367,9 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, study,
         assert words in page
 
 
-def test_every_fourth_roller_stands_for_the_row():
-    physical = model_run.MODELS["physical"]
-    assert physical.rollers == (0, 4, 8, 12, 16, 20, 24)
-    assert physical.laws == Laws.physical()
-    assert model_run.MODELS["paper"] == Model(laws=Laws.paper())
-
-
 def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
-    monkeypatch.setattr(model_run, "run_study", lambda **options: with_failed_roller(study))
+    monkeypatch.setattr(model_run, "paper_study", lambda directory: with_failed_roller(study))
     monkeypatch.setattr(module, "_save", lambda *arguments: None)
     summary = quick(tmp_path / "results")
     assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
@@ -420,8 +395,9 @@ def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(quick, monke
     monkeypatch.setattr(paper_figures, "turns_figure", broken)
     with pytest.raises(RuntimeError, match="out of paper"):
         quick(target)
-    left = sorted(str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*"))
-    assert left == (["results", "results/summary.json"] if exists else [])
+    left = sorted(str(path.relative_to(tmp_path)) for path in [*tmp_path.iterdir(), *target.iterdir()])
+    # What was computed stays, for the next run to go on from.
+    assert left == ["results", "results/studies", *(["results/summary.json"] if exists else [])]
 
 
 def test_files_of_a_broken_move_lack_their_last(monkeypatch, tmp_path):
@@ -444,7 +420,7 @@ def test_files_of_a_broken_move_lack_their_last(monkeypatch, tmp_path):
 
 
 def test_a_file_in_the_way_is_refused_before_computing(monkeypatch, tmp_path):
-    monkeypatch.setattr(model_run, "run_study", lambda **options: pytest.fail("computed"))
+    monkeypatch.setattr(model_run, "computed", lambda *arguments, **options: pytest.fail("computed"))
     (tmp_path / "results").write_text("")
     with pytest.raises(InputError, match="not a folder"):
         module.reproduce(tmp_path / "results")
@@ -453,7 +429,7 @@ def test_a_file_in_the_way_is_refused_before_computing(monkeypatch, tmp_path):
 def test_missing_matplotlib_is_told_before_computing(monkeypatch, tmp_path):
     find = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "matplotlib" else find(name))
-    monkeypatch.setattr(model_run, "run_study", lambda **options: pytest.fail("computed"))
+    monkeypatch.setattr(model_run, "computed", lambda *arguments, **options: pytest.fail("computed"))
     with pytest.raises(MacroslipError, match=r"pip install 'macroslip\[figures\]'"):
         module.reproduce(tmp_path / "results")
     assert not (tmp_path / "results").exists()

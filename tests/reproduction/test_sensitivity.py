@@ -5,50 +5,48 @@ import dataclasses
 import numpy as np
 import pytest
 
-from macroslip import Case, HubLoads, InputError, Laws, simulate
-from macroslip.film import film_law as film_law
-from macroslip.reproduction.sensitivity import (
-    LIMITING_SHEAR,
-    STARVED,
-    VARIATIONS,
-    Variation,
-    film_factor,
-    sensitivity,
-    variations_of,
-    with_film_factor,
-    with_inlet_temperature,
-)
-from macroslip.roller.contacts import prepare_contact
-from macroslip.roller.model import interfaces
+from macroslip import simulate
+from macroslip.reproduction.sensitivity import VARIATIONS, sensitivity
+from macroslip.reproduction.studies import base_case, computed, reproduction_study
 
-BY_NAME = {one.name: one for one in VARIATIONS}
+SHORT = {"rollers": [0, 14], "loads": {"end": "16 s"}}  # holds a roller load of 110 kN
 
 
 @pytest.fixture(scope="module")
-def case():
-    return Case(loads=HubLoads.bundled("14B").window(0.0, 20.0), rollers=[0, 14])
+def made(small):
+    return small("sensitivity_paper", **SHORT)
 
 
 @pytest.fixture(scope="module")
-def table(case):
-    calls = []
-    found = sensitivity(case, progress=lambda *call: calls.append(call))
-    assert calls == [(k, 10) for k in range(1, 11)]
-    return found
+def table(made, tmp_path_factory):
+    directory = tmp_path_factory.mktemp("sensitivity") / "out"
+    computed(made, directory, may_fail=True)
+    return sensitivity(directory, base_case(made))
 
 
 def energy(case):
     return simulate(case).energy.sum("interface").mean("roller").values
 
 
-def test_every_bar_is_a_run_of_its_own(case, table):
+def test_every_bar_is_a_run_of_its_own(made, table):
+    case = base_case(made)
     np.testing.assert_array_equal(table.energy.sel(variation="osculation", level="base"), energy(case))
     own = dataclasses.replace(case, bearing=case.bearing.replace(diametral_clearance=4e-4))
     np.testing.assert_array_equal(table.energy.sel(variation="diametral clearance", level="high"), energy(own))
     far = dataclasses.replace(case, drivetrain=dataclasses.replace(case.drivetrain, bearing_to_gearbox=1.8))
     np.testing.assert_array_equal(table.energy.sel(variation="bearing to gearbox", level="low"), energy(far))
-    assert table.value.sel(variation="inlet temperature").values.tolist() == pytest.approx([20.0, 35.0, 60.0])
+    warm = dataclasses.replace(case, lubricant=case.lubricant.at("60 degC"))
+    np.testing.assert_array_equal(table.energy.sel(variation="inlet temperature", level="high"), energy(warm))
     assert (table.failed == 0).all()
+
+
+def test_base_values_are_those_of_the_case_and_lie_between(table):
+    values = {str(name): table.value.sel(variation=name).values.tolist() for name in table.variation.values}
+    assert values["diametral clearance"] == pytest.approx([0.0, 0.2, 0.4])
+    assert values["inlet temperature"] == pytest.approx([20.0, 35.0, 60.0])
+    assert values["bearing to gearbox"] == pytest.approx([1.8, 2.2, 2.6])
+    assert values["film factor"] == [0.7, 1.0, 1.0]
+    assert "limiting shear" not in values
 
 
 def test_a_colder_oil_and_a_thinner_film_cost_energy(table):
@@ -59,70 +57,42 @@ def test_a_colder_oil_and_a_thinner_film_cost_energy(table):
     assert (film.sel(level="high") == film.sel(level="base")).all()
 
 
-def test_temperature_changes_viscosity_by_the_oils_own_law(case):
-    warm = with_inlet_temperature(case, case.lubricant.inlet_temperature + 10.0)
-    assert warm.lubricant.viscosity == pytest.approx(0.54 * np.exp(-0.56))
-    assert warm.lubricant.pressure_viscosity == case.lubricant.pressure_viscosity
-    assert warm.bearing == case.bearing
+def test_a_refused_value_is_named_and_the_one_before_it_is_the_limit(table):
+    osculation = table.sel(variation="osculation")
+    assert osculation.value.values.tolist() == [0.97, 0.98, 0.985]
+    assert str(osculation.refused.values).startswith("0.99 is refused: ")
+    assert "contact ellipse would reach beyond the roller's ends" in str(osculation.refused.values)
+    assert not any(table.refused.drop_sel(variation="osculation").values)
 
 
-def films(case):
-    found = interfaces(case.bearing, case.lubricant)
-    return [prepare_contact(case.laws, case.bearing, case.lubricant, one, 1).film for one in found]
-
-
-def test_the_film_is_thinner_by_the_factor_and_in_nothing_else(case):
-    thin = with_film_factor(case, STARVED)
-    assert (film_factor(case), film_factor(thin)) == (1.0, STARVED)
-    for laws in zip(films(case), films(thin), strict=True):
-        for load, speed in ((10.0, 0.4), (5e4, 0.4), (5e4, 1e-3)):
-            full, starved = (film_law.film_thickness(law, load, speed) for law in laws)
-            np.testing.assert_allclose(starved, STARVED * np.array(full), rtol=1e-12)
-            assert film_law.film_in_range(laws[0], load, speed) == film_law.film_in_range(laws[1], load, speed)
-
-
-def test_limiting_shear_is_varied_where_it_acts(case):
-    physical = dataclasses.replace(case, laws=Laws.physical(), rollers=(0,))
-    assert variations_of(case) == VARIATIONS
-    assert variations_of(physical)[-1] is LIMITING_SHEAR
-    assert film_factor(physical) == physical.lubricant.starvation
-    table = sensitivity(physical, [LIMITING_SHEAR])
-    downwind = table.energy.sel(row="downwind", variation="limiting shear")
+def test_limiting_shear_is_varied_where_it_acts(small, tmp_path):
+    made = small("sensitivity_physical", **SHORT | {"rollers": [0], "window": {}})
+    computed(made, tmp_path / "out", may_fail=True)
+    downwind = sensitivity(tmp_path / "out", base_case(made)).energy.sel(row="downwind", variation="limiting shear")
     assert (np.diff(downwind.sel(level=["low", "base", "high"])) > 0.0).all()
 
 
-def clearance(low, high):
-    return dataclasses.replace(BY_NAME["diametral clearance"], low=low, high=high)
+@pytest.mark.parametrize("model", ["paper", "physical"])
+def test_every_point_changes_one_value_with_what_follows_from_it(model):
+    together = {
+        "bearing.osculation_inner": "bearing.osculation_outer",
+        "laws.starvation": "lubricant.starvation",
+    }
+    base, *points = reproduction_study(f"sensitivity_{model}").variations
+    assert base == []
+    for point in points:
+        keys = {together.get(one.key, one.key) for one in point}
+        assert len(keys) == 1
+        assert keys <= {one.key for one in VARIATIONS}
 
 
-def test_a_refused_value_is_halved_and_said(case):
-    table = sensitivity(case, [clearance(0.2, 8.0)])
-    # 8 mm is beyond what a bearing may have; 4.1 mm is not.
-    assert table.value.values.tolist() == [[0.2, 0.2, pytest.approx(4.1)]]
-    assert str(table.refused.values[0]).startswith("8 mm is refused: diametral_clearance is")
-    assert (table.energy.sel(level="low") == table.energy.sel(level="base")).all()
-
-
-def test_osculation_beyond_the_rollers_ends_is_refused_and_said():
-    loads = HubLoads.bundled("14B").window(0.0, 16.0)  # holds a roller load of 110 kN
-    table = sensitivity(Case(loads=loads, rollers=[0]), [BY_NAME["osculation"]])
-    assert table.value.values.tolist() == [[0.97, 0.98, pytest.approx(0.985)]]
-    assert "contact ellipse would reach beyond the roller's ends" in str(table.refused.values[0])
-
-
-def test_what_is_refused_all_the_way_is_an_error(case):
-    with pytest.raises(InputError, match="diametral_clearance"):
-        sensitivity(case, [clearance(-100.0, 0.2)])
-
-
-def test_a_variation_of_ones_own(case):
-    density = Variation(
-        name="roller density",
-        unit="kg/m3",
-        low=7000.0,
-        high=8000.0,
-        base=lambda case: case.bearing.density,
-        apply=lambda case, value: dataclasses.replace(case, bearing=case.bearing.replace(density=value)),
-    )
-    table = sensitivity(case, [density])
-    assert (table.energy.sel(level="low") < table.energy.sel(level="high")).all()
+@pytest.mark.parametrize("model", ["paper", "physical"])
+def test_osculation_is_that_of_both_raceways(model):
+    points = [{one.key: one.value for one in point} for point in reproduction_study(f"sensitivity_{model}").variations]
+    pairs = [
+        (point["bearing.osculation_inner"], point["bearing.osculation_outer"])
+        for point in points
+        if "bearing.osculation_inner" in point
+    ]
+    assert len(pairs) >= 2
+    assert all(inner == outer for inner, outer in pairs)

@@ -1,13 +1,13 @@
-"""The sample over uncertain values: seeded, from real runs, with every sample accounted for."""
+"""The sample over uncertain values: from real runs, with every sample accounted for."""
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from macroslip import Case, HubLoads, InputError, Laws, simulate
-from macroslip.reproduction import uncertainty as module
-from macroslip.reproduction.uncertain_values import OSCULATION, VALUES, with_values
-from macroslip.reproduction.uncertainty import draw, uncertainty
+from macroslip import simulate
+from macroslip.reproduction.statement import DIFFERS, Statement
+from macroslip.reproduction.studies import base_case, computed
+from macroslip.reproduction.uncertain_values import VALUES
+from macroslip.reproduction.uncertainty import uncertainty
 from macroslip.reproduction.uncertainty_summary import (
     drivers,
     quantities,
@@ -15,37 +15,52 @@ from macroslip.reproduction.uncertainty_summary import (
     uncertainty_summary,
     with_uncertainty,
 )
-from macroslip.reproduction.verdicts import DIFFERS, Statement
+from macroslip.study.build import template
+from macroslip.study.study_file import study_of
 
-SMALL = {"cases": ("12B", "24B"), "rollers": (0,), "end": 14.0}
+SHORT = {"loads": {"end": "14 s"}}
+
+
+def sampled(made, directory):
+    computed(made, directory, may_fail=True)
+    return uncertainty(directory)
 
 
 @pytest.fixture(scope="module")
-def sample():
-    return uncertainty(Laws.physical(), samples=4, **SMALL)
+def made(small):
+    return small("uncertainty_physical", bundled=["12B", "24B"], points=5, **SHORT)
 
 
-def test_the_sample_is_the_same_every_time_and_fills_the_ranges():
-    drawn = draw(64)
-    np.testing.assert_array_equal(drawn, draw(64))
-    low, high = (np.array([getattr(one, name) for one in VALUES]) for name in ("low", "high"))
-    unit = (drawn - low) / (high - low)
-    # Of a Sobol sequence of 64, every value has one point in each 64th of its range.
-    assert all(sorted((64 * column).astype(int)) == list(range(64)) for column in unit.T)
+@pytest.fixture(scope="module")
+def sample(made, tmp_path_factory):
+    return sampled(made, tmp_path_factory.mktemp("uncertainty") / "out")
 
 
-def test_every_sample_is_a_run_of_its_own(sample):
+def test_every_sample_is_a_run_of_its_own(made, sample):
+    from dataclasses import replace
+
+    from macroslip import HubLoads
+
     assert (sample.outcome == 0).all()
     assert sample.sizes["sample"] == 5
-    case = Case(loads=HubLoads.bundled("24B").window(None, 14.0), laws=Laws.physical(), rollers=(0,))
+    records = {noun: getattr(base_case(made), noun) for noun in ("bearing", "lubricant")}
     for k in (0, 3):
-        values = dict(zip(sample.parameter.values.tolist(), sample.value.values[k].tolist(), strict=True))
-        result = simulate(with_values(case, values) if k else case)
+        case, _ = template(made.case, list(made.variations[k]), records)
+        result = simulate(replace(case, loads=HubLoads.bundled("24B").window(None, 14.0)))
         found = sample.sel(case="24B").isel(sample=k)
         np.testing.assert_allclose(found.orbit_energy, result.orbit_energy.mean(("roller", "orbit")), rtol=1e-12)
         peak = result.peak_power.max("interface").mean(("roller", "orbit"))
         np.testing.assert_allclose(found.peak_power, peak, rtol=1e-12)
         assert float(found.window_energy) == pytest.approx(float(result.energy.sum()), rel=1e-12)
+
+
+def test_values_carry_the_names_of_their_keys(made, sample):
+    point = {one.key: one.value for one in made.variations[2]}
+    found = dict(zip(sample.parameter.values.tolist(), sample.value.values[2].tolist(), strict=True))
+    assert found["hub to bearing"] == point["drivetrain.hub_to_bearing"]
+    assert found["roller diameter"] == pytest.approx(1e3 * point["bearing.roller_diameter"])
+    assert found["inlet temperature"] == pytest.approx(point["lubricant.at"] - 273.15)
+    assert all(one.low <= found[one.name] <= one.high for one in VALUES)
 
 
 def test_the_torque_is_work_over_angle(sample):
@@ -55,16 +70,12 @@ def test_the_torque_is_work_over_angle(sample):
     np.testing.assert_allclose(sample.torque.sel(sample=0), work / (2.0 * np.pi * turns), rtol=1e-5)
 
 
-def test_results_do_not_depend_on_threads(sample):
-    one = uncertainty(Laws.physical(), samples=4, threads=1, **SMALL)
-    xr.testing.assert_identical(one, sample)
-
-
-def test_a_refused_sample_is_counted_with_its_reason(monkeypatch):
-    drawn = draw(2)
-    drawn[1, [one.name for one in VALUES].index(OSCULATION)] = 0.999
-    monkeypatch.setattr(module, "draw", lambda samples: drawn)
-    found = uncertainty(Laws.physical(), samples=2, cases=("12B",), rollers=(0,), end=14.0)
+def test_a_refused_sample_is_counted_with_its_reason(made, tmp_path):
+    content = dict(made.content)
+    refused = {"bearing.osculation_inner": 0.999, "bearing.osculation_outer": 0.999}
+    points = [*content["variations"]["list"][:2], content["variations"]["list"][2] | refused]
+    content |= {"loads": {"bundled": ["12B"]}, "variations": {"list": points}}
+    found = sampled(study_of(content), tmp_path / "out")
     assert found.outcome.values.tolist() == [0, 0, 2]
     assert "beyond the roller's ends" in str(found.reason.values[2])
     assert np.isnan(found.orbit_energy[2]).all()
@@ -73,23 +84,14 @@ def test_a_refused_sample_is_counted_with_its_reason(monkeypatch):
     assert sample_size(summary) == "1 of 2 samples completed, 0 failed, 1 were refused"
 
 
-def test_a_failed_roller_takes_its_sample_out_and_is_counted(monkeypatch):
-    def failing(case, threads):
-        result = simulate(case, threads=threads)
-        if case.lubricant.limiting_shear != 0.042:
-            result.status[0, 0] = 3
-        return result
-
-    monkeypatch.setattr(module, "simulate", failing)
-    found = uncertainty(Laws.physical(), samples=1, cases=("12B",), rollers=(0,), end=14.0)
+def test_a_failed_roller_takes_its_sample_out_and_is_counted(made, tmp_path):
+    content = dict(made.content)
+    point = content["variations"]["list"][1] | {"integrator.max_steps": 5}
+    content |= {"loads": {"bundled": ["12B"]}, "variations": {"list": [{}, point]}}
+    found = sampled(study_of(content), tmp_path / "out")
     assert found.outcome.values.tolist() == [0, 1]
     assert uncertainty_summary(found).attrs["failed"] == 1
     assert np.isnan(uncertainty_summary(found).range).all()
-
-
-def test_a_window_must_lie_in_the_loads():
-    with pytest.raises(InputError, match="the window ends at 700 s"):
-        uncertainty(Laws.physical(), samples=1, end=700.0)
 
 
 def synthetic(sample, count=32):
@@ -135,8 +137,10 @@ def test_ranges_drivers_and_trends_follow_the_numbers(sample):
 
 
 def test_statements_tell_what_the_sample_says(sample):
-    statements = [Statement(paper=f"{k}", verdict=DIFFERS, found=f"found {k}") for k in range(8)]
+    subjects = ("energy", "rows", "peaks", "peak ratio", "unloaded", "static", "cage", "Euler")
+    statements = {one: Statement(paper=one, verdict=DIFFERS, found=f"found {one}") for one in reversed(subjects)}
     told = with_uncertainty(statements, uncertainty_summary(synthetic(sample)))
-    assert "100 % of the samples" in told[0].found
-    assert told[1].found.startswith("found 1; 1 to ")
-    assert [one.found for k, one in enumerate(told) if k not in (0, 1, 3)] == [f"found {k}" for k in (2, 4, 5, 6, 7)]
+    assert "100 % of the samples" in told["energy"].found
+    assert told["rows"].found.startswith("found rows; 1 to ")
+    changed = {subject for subject, one in told.items() if one.found != f"found {subject}"}
+    assert changed == {"energy", "rows", "peak ratio"}

@@ -7,7 +7,9 @@ import pytest
 import xarray as xr
 
 from macroslip import BearingLoads, Case, InputError, MacroslipError, open_study, run_study, simulate
+from macroslip.study.reader import stored_results
 from macroslip.study.study_file import study_of
+from macroslip.study.summary import ALWAYS_KEPT
 
 
 def test_results_are_those_of_simulate(tmp_path, load_files, content):
@@ -21,6 +23,58 @@ def test_results_are_those_of_simulate(tmp_path, load_files, content):
         for name in ("energy", "min_spin_ratio", "status", "end_slip", "steps"):
             np.testing.assert_array_equal(one[name].values, expected[name].values.astype(float))
         np.testing.assert_allclose(one.energy_mean, expected.energy.sum("interface").mean("roller"), rtol=1e-14)
+
+
+def test_several_runs_at_once_store_the_same(tmp_path, load_files, content):
+    study = study_of(content, load_files)
+    for name, threads in (("one", 1), ("many", 6)):
+        ended = run_study(study, tmp_path / name, threads=threads)
+        assert (ended.progress.computed, ended.progress.failed) == (4, 0)
+    stored = [
+        {path.name: path.read_bytes() for path in (tmp_path / name).glob("cases/*/*.nc")} for name in ("one", "many")
+    ]
+    assert len(stored[0]) == 4 and stored[0] == stored[1]
+    assert "1 at once with 1 threads each" in (tmp_path / "one" / "log.txt").read_text()
+    assert "3 at once with 2 threads each" in (tmp_path / "many" / "log.txt").read_text()
+
+
+def test_only_what_is_to_be_kept_is_stored(tmp_path, load_files, content):
+    run_study(study_of(content, load_files), tmp_path / "all")
+    run_study(study_of(content | {"keep": ["energy"]}, load_files), tmp_path / "some")
+    whole, some = open_study(tmp_path / "all"), open_study(tmp_path / "some")
+    of_results = {name for name, one in some.data_vars.items() if "roller" in one.dims}
+    assert of_results == {"energy", *ALWAYS_KEPT} and "orbit_energy" in whole
+    np.testing.assert_array_equal(some.energy, whole.energy)
+    np.testing.assert_array_equal(some.peak_power_mean, whole.peak_power_mean)
+
+
+def test_a_failed_roller_is_told_whatever_is_kept(tmp_path, load_files, content):
+    failing = content | {"keep": ["energy"], "models": {"short": {"integrator.max_steps": 1}}}
+    ended = run_study(study_of(failing, load_files), tmp_path / "out")
+    assert ended.progress.failed == 4
+    assert {outcome for _, outcome, _ in ended.failures} == {"rollers failed"}
+    assert "2 of 2 rollers failed" in ended.failures[0][2]
+
+
+def test_results_one_by_one_are_whole(tmp_path, load_files, content):
+    bad = content | {"models": {"base": {}, "refused": {"bearing.osculation_outer": 1.5}}}
+    run_study(study_of(bad, load_files), tmp_path / "out")
+    study = open_study(tmp_path / "out")
+    found = dict(stored_results(tmp_path / "out"))
+    assert sorted(found) == np.flatnonzero(study.outcome.values == "completed").tolist() and len(found) == 4
+    for number, result in found.items():
+        np.testing.assert_array_equal(result.energy, study.energy.isel(case=number))
+        assert json.loads(result.attrs["input"])["rollers"] == [0]
+
+
+def test_the_torque_of_the_contacts_is_their_power_over_the_speed(tmp_path):
+    study = study_of({"case": {"rollers": [0, 14], "loads": {"end": "30 s"}}, "loads": {"bundled": ["14B"]}})
+    run_study(study, tmp_path / "out")
+    one = open_study(tmp_path / "out").isel(case=0)
+    # Two rollers stand for 28 of each row; whole orbits take a whole part of the shaft's angle.
+    work = 14 * float(one.orbit_energy.sum())
+    seconds = float(one.orbit_end[-1] - one.orbit_start[0])
+    assert float(one.contact_torque) == pytest.approx(work / seconds / float(one.shaft_speed_mean), rel=0.05)
 
 
 def test_unchanged_runs_are_never_computed_again(tmp_path, load_files, content, counted, identities, journal, resumed):
@@ -76,7 +130,7 @@ def test_a_study_may_grow_and_shrink(tmp_path, load_files, content, counted, res
 def test_a_changed_program_computes_all_again(tmp_path, load_files, content, counted, monkeypatch, resumed):
     out = tmp_path / "out"
     run_study(study_of(content, load_files), out)
-    monkeypatch.setattr("macroslip.study.key._sources", lambda: "another program")
+    monkeypatch.setattr("macroslip.study.key.fingerprint", lambda *parts: "another program")
     assert resumed(study_of(content, load_files), out, counted)[1] == 4
 
 

@@ -18,7 +18,7 @@ def check(key, value, unit=""):
         ("bearing.diametral_clearance", 0.2, "mm"), ("bearing.rollers_per_row", 27, ""), ("drivetrain.tilt", 4, "deg"),
         ("forces.drag", False, ""), ("integrator.tolerance", 1e-4, ""), ("integrator.step", 1.0, "ms"),
         ("laws.film", "masjedi-khonsari", ""), ("window.start", "auto", ""), ("traces", "none", ""),
-        ("rollers", [0, 1], ""),
+        ("rollers", [0, 1], ""), ("lubricant.at", 50, "degC"),
     ],
 )  # fmt: skip
 def test_what_a_case_file_takes_is_taken(key, value, unit):
@@ -32,6 +32,7 @@ def test_what_a_case_file_takes_is_taken(key, value, unit):
         ("bearing.diametral_clearance", 0.2, "", "unit"),
         ("bearing.diametral_clearance", "wide", "", "a number with its unit"),
         ("bearing.diametral_clearance", 0.2, "kg", "unit"),
+        ("lubricant.at", 50, "mm", "unit"),
         ("bearing", "other", "", "its own key in a study: bearings"),
         ("loads.start", 3.0, "s", "its own key in a study: loads"),
         ("drivetrain.tlt", 4, "deg", "Did you mean 'drivetrain.tilt'"),
@@ -74,3 +75,14 @@ def test_settings_reach_the_case():
 def test_values_that_do_not_go_together_are_told():
     with pytest.raises(InputError, match="rollers"):
         template({}, [Setting("bearing.rollers_per_row", 60)], {})
+
+
+def test_a_lubricant_at_another_temperature_has_what_follows_from_it():
+    before = Lubricant.read("vg460-pao")
+    settings = [Setting("lubricant.at", 50.0, "degC"), Setting("lubricant.limiting_shear", 0.05)]
+    after = replaced(before, settings)
+    warm = before.at("50 degC")
+    assert (after.viscosity, after.pressure_viscosity) == (warm.viscosity, warm.pressure_viscosity)
+    assert after.limiting_shear == 0.05 and after.viscosity < before.viscosity
+    alone = replaced(before, [Setting("lubricant.inlet_temperature", 50.0, "degC")])
+    assert (alone.inlet_temperature, alone.viscosity) == (323.15, before.viscosity)

@@ -146,6 +146,10 @@ def test_a_table_gives_files_and_fields(load_files):
         ),
         ("loads: {bundled: all}\nvariations:\n  sample: {count: 5, seed: 1}\n", ["ranges' is missing"]),
         ("loads: {bundled: all, units: {size: m}}\n", ["units names size"]),
+        (
+            "loads: {bundled: all}\nkeep: [energy, enrgy]\n",
+            ["line 2", "keep", "'enrgy'", "a list of variables", "orbit_energy"],
+        ),
         ("loads: [1]\n", ["it is \\[1\\]"]),
         ("- 1\n", ["a mapping"]),
     ],
@@ -178,3 +182,23 @@ def test_files_whose_fields_cannot_be_read_are_told(load_files, content):
     (load_files / "runs" / "12mps_seedX.csv").touch()
     study = study_of(content, load_files)
     assert len(study) == 4 and "1 files" in study.loads.remarks[0] and "12mps_seedX.csv" in study.loads.remarks[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("loads: {files: .}\n", ["line 1", "'.' is a folder", "runs/*.outb"]),
+        ('loads: {files: "a\\0{seed:d}.csv"}\n', ["loads.files", "zero byte"]),
+        ("loads: {files: 's{seed:d}.csv'}\n", ["the field seed of s99999999999999999999.csv", "9007199254740992"]),
+        ("loads: {bundled: 14B}\nvariations:\n  sample: {count: 1e18, seed: 1, ranges: {drivetrain.tilt: {low: 1, high: "
+         "2, unit: deg}}}\n", ["variations.sample.count: it is 1e+18. Allowed: a whole number."]),
+        ("loads: {bundled: 14B}\nvariations:\n  sample: {count: 4, seed: 1, ranges: {drivetrain.tilt: {low: a, hgh: 2}}}\n",
+         ["2 problems", "Did you mean 'high'?", "ranges.drivetrain.tilt.low: it is 'a'. Allowed: a number without unit."]),
+    ],
+)  # fmt: skip
+def test_hostile_values_are_refused_in_one_paragraph(tmp_path, text, words):
+    (tmp_path / "s99999999999999999999.csv").touch()
+    with pytest.raises(InputError) as caught:
+        read_study(write(tmp_path, text))
+    message = str(caught.value)
+    assert "\n" not in message and [word for word in words if word not in message] == []

@@ -64,6 +64,19 @@ def outer_contact_radius(bearing: Bearing) -> float:
     return bearing.pitch_radius + roller_radius(bearing) * math.cos(bearing.contact_angle)
 
 
+def orbit_ratio(bearing: Bearing) -> float:
+    """Orbital speed of the rollers over the speed of the inner ring in pure rolling, r~_in/(r~_in + r~_out) [-].
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> round(orbit_ratio(Bearing.read("skf-240-600-bc")), 6)
+    0.453939
+    """
+    inner = inner_contact_radius(bearing)
+    return inner / (inner + outer_contact_radius(bearing))
+
+
 def roller_contour_radius(bearing: Bearing) -> float:
     """Radius of the roller's barrel contour [m]: one contour, set by the osculation at the outer raceway sphere.
 

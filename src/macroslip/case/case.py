@@ -237,7 +237,9 @@ class Case:
                 "40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine.",
             )
         elif given is not None:
-            _check(isinstance(given, Real) and not isinstance(given, bool), f"it is {shown(given)}", "temperature", words)
+            _check(
+                isinstance(given, Real) and not isinstance(given, bool), f"it is {shown(given)}", "temperature", words
+            )
             object.__setattr__(self, "temperature", float(given))
             self.lubricant.at(float(given))
 

@@ -158,6 +158,13 @@ class CaseBuilder:
         cut = {key: getattr(given, key) for key in ("start", "end") if getattr(given, key) is not None}
         value, place = getattr(given, source), self.place.inside("loads", source)
         try:
+            if given.shaft_speed is not None:
+                if source != "file":
+                    raise InputError(
+                        f"shaft_speed is given, but {source} has its own",
+                        remedy="Remove loads.shaft_speed; it serves hub loads from a file only.",
+                    )
+                cut["shaft_speed"] = given.shaft_speed
             if source in ("hub", "main_bearing"):
                 if cut:
                     raise InputError(

@@ -66,12 +66,15 @@ class LoadsKeys:
     """Where the loads come from, and what to read of them."""
 
     bundled: Annotated[str | None, Choice("load case that comes with the package", bundled_cases)] = None
-    file: Annotated[str | None, Text("hub loads: OpenFAST output (.outb, .out) or a table (.parquet, .csv)")] = None
+    file: Annotated[str | None, Text("hub loads: output of OpenFAST, Bladed or HAWC2, or a table")] = None
     bearing_file: Annotated[str | None, Text("main-bearing loads: a table (.parquet, .csv)")] = None
     hub: ConstantHubLoads | None = None
     main_bearing: ConstantBearingLoads | None = None
     start: Annotated[float | None, Quantity("first time to read", TIME)] = None
     end: Annotated[float | None, Quantity("last time to read", TIME)] = None
+    shaft_speed: Annotated[
+        float | None, Quantity("constant shaft speed in place of the one in the file", SPEED, -100.0, 100.0)
+    ] = None
 
 
 @input_section("forces", "forces on the rollers that can be switched off")

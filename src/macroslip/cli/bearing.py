@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from macroslip.cli.failure import command
-from macroslip.cli.new_file import check_new_file, new_file
 from macroslip.errors import InputError, MacroslipError
+from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -74,7 +74,7 @@ def estimate(
     )
     size = " x ".join(f"{1e3 * one:g}" for one in (page.bore, page.outside, page.width))
     found = estimate_bearing(page, output.stem, f"Estimated from its maker's page, {size} mm", seed=seed)
-    _write(output, found.bearing)
+    _write(output, found.bearing, force)
     _report(found, output)
 
 
@@ -86,7 +86,7 @@ def init(
     from macroslip.bearing import Bearing
 
     check_new_file(path, force=force)
-    _write(path, Bearing.read(_BASE).replace(name=path.stem, title=f"Started from {_BASE}"))
+    _write(path, Bearing.read(_BASE).replace(name=path.stem, title=f"Started from {_BASE}"), force)
     typer.echo(
         f"written: {path}\nlook at it:  macroslip bearing show {path}\nuse it:      bearing: {path}, in a case file"
     )
@@ -114,7 +114,7 @@ def draw(
         raise MacroslipError(
             f"drawings need {missing.name}, which is not installed: pip install 'macroslip[figures]'."
         ) from None
-    with new_file(output) as temporary:
+    with new_file(output, force=force) as temporary:
         figure.savefig(temporary, format=output.suffix[1:])
     typer.echo(f"written: {output}")
 
@@ -136,8 +136,8 @@ def _si(option: str, text: str | None, dimension: Dimension) -> float | None:
     return None if text is None else _required(option, text, dimension)
 
 
-def _write(path: Path, bearing: Bearing) -> None:
-    with new_file(path) as temporary:
+def _write(path: Path, bearing: Bearing, force: bool) -> None:
+    with new_file(path, force=force) as temporary:
         temporary.write_text(bearing.as_yaml(), encoding="utf-8")
 
 

@@ -19,7 +19,10 @@ loads = typer.Typer(name="loads", help="Load histories.", no_args_is_help=True, 
 
 
 def inspect(
-    file: Annotated[Path, typer.Argument(help="OpenFAST output (.outb, .out) or table (.parquet, .csv).")],
+    file: Annotated[Path, typer.Argument(help="Output of OpenFAST, Bladed or HAWC2, or a table.")],
+    shaft_speed: Annotated[
+        str | None, typer.Option(help="Constant shaft speed of a file without one, such as '20 rpm'.")
+    ] = None,
 ) -> None:
     """Show what was read from a load file, its statistics, and the load on the main bearing."""
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
@@ -27,7 +30,7 @@ def inspect(
     if _holds_bearing_loads(file):
         _describe(BearingLoads.read(file), "load on the main bearing", "shaft speed, F_X0, F_Y0, F_Z0")
         return
-    hub_loads = HubLoads.read(file)
+    hub_loads = HubLoads.read(file, shaft_speed=_speed(shaft_speed))
     _describe(hub_loads, "hub loads in non-rotating shaft axes", "shaft speed, fx, fy, fz, mx, my, mz")
     drivetrain = Drivetrain()
     bearing = main_bearing_load(hub_loads, drivetrain)
@@ -36,6 +39,16 @@ def inspect(
 
 
 command(loads, inspect)
+
+
+def _speed(text: str | None) -> float | None:
+    """A speed with its unit, in rad/s."""
+    from macroslip.catalogue.quantity import parse_quantity
+    from macroslip.catalogue.units import SPEED
+
+    if text is None:
+        return None
+    return SPEED.to_si(*parse_quantity(text, SPEED, "--shaft-speed"))
 
 
 def _holds_bearing_loads(file: Path) -> bool:
@@ -67,6 +80,8 @@ def _describe(read: HubLoads | BearingLoads, kind: str, channels: str) -> None:
     typer.echo(f"source    {read.source}")
     typer.echo(f"kind      {kind}")
     typer.echo(f"channels  {channels}")
+    for line in getattr(read, "reading", ()):
+        typer.echo(f"read      {line}")
     typer.echo(f"samples   {read.time.size}")
     typer.echo(f"time      {read.time[0]:.6g} s to {read.time[-1]:.6g} s")
     typer.echo(f"step      {step}")

@@ -8,19 +8,26 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.errors import MacroslipError
+from macroslip.errors import InputError, MacroslipError
 from macroslip.files import check_new_file, new_file
 
 PAGE = "report.html"
 
 
 def report(
-    results: Annotated[Path, typer.Argument(help="A file that `macroslip run` wrote, or a folder of such files.")],
+    results: Annotated[
+        Path,
+        typer.Argument(help="A file that `macroslip run` wrote, a folder of such files, or the folder of a study."),
+    ],
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="The page to write; report.html beside the results if not given."),
     ] = None,
     title: Annotated[str, typer.Option("--title", help="Heading of the page.")] = "Slip of the rollers",
+    weibull: Annotated[
+        tuple[float, float] | None,
+        typer.Option(help="Of a study: scale [m/s] and shape of the distribution of the wind speed."),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the page if it exists.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only.")] = False,
 ) -> None:
@@ -30,19 +37,45 @@ def report(
     for name in ("matplotlib", "jinja2"):
         if importlib.util.find_spec(name) is None:
             raise MacroslipError(f"a report needs {name}, which is not installed: pip install 'macroslip[figures]'")
-    from macroslip.report.read import read_results
-    from macroslip.report.results_page import results_page
+    from macroslip.report.study_page import is_study
 
     if output is None:
         output = (results if results.is_dir() else results.parent) / PAGE
-    found = read_results(results)
-    check_new_file(output, force=force, inputs=[results] if results.is_file() else results.glob("*.nc"))
-    page = results_page(found, title=title)
+    make = _of_study if is_study(results) else _of_results
+    if results.exists():
+        check_new_file(output, force=force, inputs=[results] if results.is_file() else results.glob("*.nc"))
+    page, failed = make(results, title, weibull)
     with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8")
     if not quiet:
         typer.echo(f"written: {output}")
-    failed = sum(int((one.status != 0).sum()) for one in found.values())
     if failed:
-        tell(f"failed: {failed} of {sum(int(one.status.size) for one in found.values())} rollers; the page says which.")
+        tell(f"failed: {failed}; the page says which.")
         raise typer.Exit(ROLLERS_FAILED)
+
+
+def _of_results(results: Path, title: str, weibull: tuple[float, float] | None) -> tuple[str, str]:
+    """The page on results, and what failed."""
+    from macroslip.report.read import read_results
+    from macroslip.report.results_page import results_page
+
+    if weibull:
+        raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
+    found = read_results(results)
+    page = results_page(found, title=title)
+    failed = sum(int((one.status != 0).sum()) for one in found.values())
+    rollers = sum(int(one.status.size) for one in found.values())
+    return page, f"{failed} of {rollers} rollers" if failed else ""
+
+
+def _of_study(results: Path, title: str, weibull: tuple[float, float] | None) -> tuple[str, str]:
+    """The page on a study, and what failed."""
+    from macroslip.report.study_page import study_page
+    from macroslip.study.outcome import Outcome
+    from macroslip.study.reader import open_study
+    from macroslip.study.weights import Weibull
+
+    study = open_study(results)
+    failed = int((study.outcome != str(Outcome.COMPLETED)).sum())
+    page = study_page(study, title=title, weights=Weibull(*weibull) if weibull else None)
+    return page, f"{failed} of {study.sizes['case']} runs failed or are missing" if failed else ""

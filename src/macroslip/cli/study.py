@@ -71,7 +71,7 @@ def study(
 
 def _dry_run(checked: Study, workers: int | None, threads: int | None) -> None:
     from macroslip.cli.printing import table
-    from macroslip.result.simulate import usable_processors
+    from macroslip.machine import usable_processors
     from macroslip.study.estimate import estimate
     from macroslip.study.progress import duration
     from macroslip.study.safe_text import safe_text

@@ -1,52 +1,83 @@
-"""From the hub to the main bearing: statics of a shaft on a three-point mount."""
+"""From the hub to the main bearing: statics of a shaft on a three-point or a four-point mount."""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from macroslip.catalogue.forms import Quantity
+from macroslip.catalogue.forms import Choice, Quantity
 from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.units import ANGLE, LENGTH, MASS
 from macroslip.constants import GRAVITY
+from macroslip.errors import InputError
 from macroslip.loads.bearing_loads import BearingLoads
 from macroslip.loads.hub_loads import HubLoads
+
+MOUNTS = ("three-point", "four-point")
+BEARINGS = ("front", "rear")
+_FOUR_POINT_KEYS = ("front_to_rear", "locating", "bearing")
+
+
+def _end_of_shaft(given: Mapping[str, Any]) -> float:
+    """Farthest place of the shaft's mass: the gearbox's support, or 10 m behind the rear bearing."""
+    if given.get("mount") == "four-point":
+        return given["hub_to_bearing"] + (given.get("front_to_rear") or 0.0) + 10.0
+    return given["hub_to_bearing"] + given["bearing_to_gearbox"]
 
 
 @input_section("drivetrain", "supports and mass of the shaft")
 class Drivetrain:
     """Where the shaft is supported and what it weighs.
 
-    Lengths are measured along the shaft, positive downwind. Valid for an upwind rotor on a three-point mount.
+    Lengths are measured along the shaft, positive downwind. Valid for an upwind rotor. On a three-point mount one main
+    bearing and the gearbox carry the shaft. On a four-point mount two main bearings carry it, and the gearbox takes
+    nothing but torque.
 
     Parameters
     ----------
+    mount : str
+        `three-point` or `four-point`.
     hub_to_bearing : float [m]
-        Hub centre to main-bearing centre, 0 to 20 m. The default 1.26 m is an engineering estimate for the WindPACT
-        1.5 MW turbine, whose published model gives no bearing position.
+        Hub centre to main-bearing centre, on a four-point mount to the front one, 0 to 20 m. The default 1.26 m is an
+        engineering estimate for the WindPACT 1.5 MW turbine, whose published model gives no bearing position.
     bearing_to_gearbox : float [m]
-        Main-bearing centre to the plane of the gearbox's support, above 0 up to 20 m. Default 2.2 m, an estimate as
-        well.
+        Three-point mount: main-bearing centre to the plane of the gearbox's support, above 0 up to 20 m. Default 2.2 m,
+        an estimate as well.
+    front_to_rear : float [m]
+        Four-point mount: centre of the front main bearing to that of the rear one, above 0 up to 20 m.
+    locating : str
+        Four-point mount: which bearing carries all thrust, `front` or `rear`; the other one floats along the shaft.
+    bearing : str
+        Four-point mount: which bearing is simulated, `front` or `rear`.
     tilt : float [rad]
         Shaft tilt, positive when the hub end is up, at most 0.3 rad (17°) either way. OpenFAST's ShftTilt has the
         opposite sign. Directs the weight of the shaft and of the rollers.
     shaft_mass : float [kg]
         Mass of the shaft with what is fixed to it, except the rotor, whose weight is in the hub loads. 0 to 1e6 kg.
     shaft_mass_station : float [m]
-        Distance of that mass behind the hub centre, between the hub and the gearbox's support.
+        Distance of that mass behind the hub centre: on a three-point mount up to the gearbox's support, on a four-point
+        mount up to 10 m behind the rear bearing.
 
     Raises
     ------
     InputError
-        A value outside its range.
+        A value outside its range; keys of a four-point mount that are missing there, or given on a three-point mount.
     """
 
+    mount: Annotated[str, Choice("what carries the shaft", lambda: MOUNTS)] = "three-point"
     hub_to_bearing: Annotated[float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)] = 1.26
     bearing_to_gearbox: Annotated[
         float, Quantity("distance from main bearing to gearbox support", LENGTH, 0.0, 20.0, above=True)
     ] = 2.2
+    front_to_rear: Annotated[
+        float | None, Quantity("distance from front to rear main bearing", LENGTH, 0.0, 20.0, above=True)
+    ] = None
+    locating: Annotated[str | None, Choice("main bearing that carries thrust", lambda: BEARINGS)] = None
+    bearing: Annotated[str | None, Choice("main bearing that is simulated", lambda: BEARINGS)] = None
     tilt: Annotated[float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)] = math.radians(5.0)
     shaft_mass: Annotated[float, Quantity("mass of the shaft without rotor", MASS, 0.0, 1e6)] = 0.0
     shaft_mass_station: Annotated[
@@ -55,36 +86,49 @@ class Drivetrain:
             "distance of that mass behind the hub centre",
             LENGTH,
             0.0,
-            lambda given: given["hub_to_bearing"] + given["bearing_to_gearbox"],
-            note=", from the hub to the gearbox's support",
+            _end_of_shaft,
+            note=", from the hub to the end of the shaft",
         ),
     ] = 0.0
 
+    def __post_init__(self) -> None:
+        given = [key for key in _FOUR_POINT_KEYS if getattr(self, key) is not None]
+        missing = [key for key in _FOUR_POINT_KEYS if key not in given]
+        if self.mount == "four-point" and missing:
+            raise InputError(
+                f"the mount is four-point, and {' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
+                allowed="front_to_rear: a length; locating and bearing: front or rear",
+                remedy="Add what is missing.",
+            )
+        if self.mount == "three-point" and given:
+            raise InputError(
+                f"the mount is three-point, which has no {' and no '.join(given)}",
+                remedy="Write mount: four-point, or remove what belongs to it.",
+            )
 
-def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
-    """Load on the inner ring of the main bearing, from the loads at the hub.
 
-    Free body: the shaft, cut at the hub, at the main bearing and at the gearbox. With x downwind along the shaft from
-    the hub centre, z up and y = z × x, and with h = `hub_to_bearing`, g = `bearing_to_gearbox`, a = h + g, on it act
+def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDArray[np.float64]]:
+    """Load of the shaft on each of its two supports, from the loads at the hub.
+
+    Free body: the shaft, cut at the hub and at both supports. With x downwind along the shaft from the hub centre, z up
+    and y = z × x, and with h = `hub_to_bearing`, b the distance between the supports and a = h + b, on it act
 
     * at x = 0 the rotor: force (fx, fy, fz), moment (mx, my, mz);
     * at x = s the weight W = m·9.81 m/s² of the shaft, (W sin tilt, 0, −W cos tilt): with the hub end up, the shaft
       points downwind and down, so its weight has a part along +x;
-    * at x = h the main bearing: a force (Rx, Ry, Rz), and no moment, because the bearing is spherical;
-    * at x = a the gearbox on its torque arms: a force across the shaft (0, Gy, Gz) and the torque −mx.
+    * at x = h and x = a the supports, each with a force and no moment, because the bearings are spherical. One of the
+      two carries thrust: the main bearing of a three-point mount, the locating bearing of a four-point mount;
+    * the gearbox with the torque −mx. On a three-point mount its torque arms are the support at x = a. On a four-point
+      mount it is held against rotation only.
 
-    The shaft is in equilibrium: its inertia forces are neglected. The axial forces give Rx = −(fx + W sin tilt): all
-    thrust goes to the main bearing. A force F at x has the moment (x − a) x̂ × F = (x − a) (0, −Fz, Fy) about the
-    gearbox support, where the gearbox's own force has none, so that
+    The shaft is in equilibrium: its inertia forces are neglected. A force F at x has the moment (x − a) x̂ × F = (x − a)
+    (0, −Fz, Fy) about the second support, whose own force has none there. The load of the shaft **on** the first
+    support, in the bearing frame (X0, Y0, Z0) = (y, z, x), is therefore
 
-        about y:   my + a fz − (a − s) W cos tilt + g Rz = 0,
-        about z:   mz − a fy − g Ry = 0.
+        F_X0 = (a fy − mz)/b
+        F_Y0 = (a fz + my − (a − s) W cos tilt)/b
 
-    The load **on** the inner ring is −R, in the bearing frame (X0, Y0, Z0) = (y, z, x):
-
-        F_X0 = (a fy − mz)/g
-        F_Y0 = (a fz + my − (a − s) W cos tilt)/g
-        F_Z0 = fx + W sin tilt
+    and what the forces across the shaft leave goes to the second one. Thrust is F_Z0 = fx + W sin tilt.
 
     Parameters
     ----------
@@ -92,6 +136,53 @@ def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoa
         Loads of the rotor on the shaft, n samples.
     drivetrain : Drivetrain
         Support positions and shaft mass.
+
+    Returns
+    -------
+    dict
+        (n, 3) [N] by the name of the support: `bearing` and `gearbox` on a three-point mount, `front` and `rear` on a
+        four-point mount.
+
+    Notes
+    -----
+    Valid while the frequency content lies below the first bending mode of the shaft. Seats that give way or are out of
+    line change nothing: two supports without moment are statically determinate.
+
+    Examples
+    --------
+    A rotor of 263 kN on two main bearings, 1.5 m apart, of which the rear one is locating:
+
+    >>> rotor = HubLoads.constant([164.4e3, 0.0, -263.0e3], [0.0, 0.0, 0.0], 2.143, 1.0)
+    >>> two = Drivetrain(mount="four-point", hub_to_bearing=1.2, front_to_rear=1.5, locating="rear", bearing="front")
+    >>> for name, force in support_loads(rotor, two).items():
+    ...     print(name, (force[0] / 1e3).round(1), "kN")
+    front [   0.  -473.4    0. ] kN
+    rear [  0.  210.4 164.4] kN
+    """
+    four_point = drivetrain.mount == "four-point"
+    span = drivetrain.front_to_rear if four_point else drivetrain.bearing_to_gearbox
+    arm = drivetrain.hub_to_bearing + span
+    weight = drivetrain.shaft_mass * GRAVITY
+    fx, fy, fz = hub_loads.force.T
+    _, my, mz = hub_loads.moment.T
+    weight_moment = (arm - drivetrain.shaft_mass_station) * weight * math.cos(drivetrain.tilt)
+    thrust = fx + weight * math.sin(drivetrain.tilt)
+    x, y, none = (arm * fy - mz) / span, (arm * fz + my - weight_moment) / span, np.zeros_like(thrust)
+    first_carries = not four_point or drivetrain.locating == "front"
+    first = np.column_stack([x, y, thrust if first_carries else none])
+    second = np.column_stack([fy - x, fz - weight * math.cos(drivetrain.tilt) - y, none if first_carries else thrust])
+    return dict(zip(BEARINGS if four_point else ("bearing", "gearbox"), (first, second), strict=True))
+
+
+def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
+    """Load on the inner ring of the simulated main bearing, from the loads at the hub; see `support_loads`.
+
+    Parameters
+    ----------
+    hub_loads : HubLoads
+        Loads of the rotor on the shaft, n samples.
+    drivetrain : Drivetrain
+        Mount and shaft mass; on a four-point mount also which bearing it is.
 
     Returns
     -------
@@ -103,11 +194,6 @@ def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoa
     InputError
         The load is beyond 1e8 N, as a support distance close to zero makes it.
 
-    Notes
-    -----
-    Valid while the frequency content lies below the first bending mode of the shaft, and for a gearbox support that
-    carries no bending moment and no thrust.
-
     Examples
     --------
     Mean loads of the WindPACT 1.5 MW turbine at 14 m/s:
@@ -116,13 +202,7 @@ def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoa
     >>> print((main_bearing_load(loads, Drivetrain()).force[0] / 1e3).round(2), "kN")
     [ -20.25 -343.45  164.4 ] kN
     """
-    span = drivetrain.bearing_to_gearbox
-    arm = drivetrain.hub_to_bearing + span
-    weight = drivetrain.shaft_mass * GRAVITY
-    fx, fy, fz = hub_loads.force.T
-    _, my, mz = hub_loads.moment.T
-    weight_moment = (arm - drivetrain.shaft_mass_station) * weight * math.cos(drivetrain.tilt)
-    force = np.column_stack(
-        [(arm * fy - mz) / span, (arm * fz + my - weight_moment) / span, fx + weight * math.sin(drivetrain.tilt)]
-    )
-    return BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, f"main bearing under {hub_loads.source}")
+    name = drivetrain.bearing or "bearing"
+    force = support_loads(hub_loads, drivetrain)[name]
+    which = f"{name} main bearing" if drivetrain.bearing else "main bearing"
+    return BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, f"{which} under {hub_loads.source}")

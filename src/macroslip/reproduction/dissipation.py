@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     import xarray as xr
 
-    from macroslip.reproduction.verdicts import Statement
+    from macroslip.reproduction.statement import Statement
 
 #: Parts of a row's energy, in the order of the stacked figure.
 PARTS = (
@@ -33,7 +34,7 @@ def dissipation(study: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     study : xarray.Dataset
-        From `run_study`, with microslip.
+        From `paper_study`, with microslip.
 
     Returns
     -------
@@ -94,7 +95,7 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
     Parameters
     ----------
     study : xarray.Dataset
-        From `run_study`, with microslip.
+        From `paper_study`, with microslip.
     numbers : xarray.Dataset
         From `paper_numbers`.
 
@@ -163,15 +164,11 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
     }
 
 
-#: Subject of `reasons` for the paper's statements, in the order of `macroslip.reproduction.model_run.statements`.
-_SUBJECTS = ("energy", "rows", "peaks", "peak ratio", "", "static", "cage", "")
-
-
-def explained(found: list[Statement], study: xr.Dataset, numbers: xr.Dataset) -> list[Statement]:
+def explained(found: Mapping[str, Statement], study: xr.Dataset, numbers: xr.Dataset) -> dict[str, Statement]:
     """The statements with what was measured inside the contacts as their reasons."""
     from dataclasses import replace
 
     words = reasons(study, numbers)
-    return [
-        replace(one, because=words[subject]) if subject else one for one, subject in zip(found, _SUBJECTS, strict=True)
-    ]
+    return {
+        subject: replace(one, because=words[subject]) if subject in words else one for subject, one in found.items()
+    }

@@ -8,28 +8,28 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.report.wording import told
-from macroslip.reproduction.verdicts import UNKNOWN, Statement
+from macroslip.reproduction.statement import UNKNOWN, Statement
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-def statement_lines(statements: Mapping[str, list[Statement]]) -> list[str]:
+def statement_lines(statements: Mapping[str, Mapping[str, Statement]]) -> list[str]:
     """Every statement of the paper in one line, with what each model gives.
 
     Parameters
     ----------
     statements : mapping
-        Statements by model, in the same order under each.
+        Statements by model and subject.
     """
     several = len(statements) > 1
     found = []
-    for together in zip(*statements.values(), strict=True):
+    for subject, first in next(iter(statements.values())).items():
         parts = [
-            f"{f'{model}: ' if several else 'Converged: '}{one.found} ({one.verdict})"
-            for model, one in zip(statements, together, strict=True)
+            f"{f'{model}: ' if several else 'Converged: '}{of_model[subject].found} ({of_model[subject].verdict})"
+            for model, of_model in statements.items()
         ]
-        found.append(f"Paper: {together[0].paper}. {'; '.join(parts)}.")
+        found.append(f"Paper: {first.paper}. {'; '.join(parts)}.")
     return found
 
 

@@ -4,27 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from macroslip.bearing.frames import ROWS
-from macroslip.case.case import Case, Traces, Window
-from macroslip.loads import Drivetrain, HubLoads, bundled_cases, main_bearing_load
+from macroslip.case.case import Case
+from macroslip.loads import Drivetrain, HubLoads, main_bearing_load
+from macroslip.machine import usable_processors
 from macroslip.mechanisms import Laws
 from macroslip.reproduction import verdicts
 from macroslip.reproduction.dissipation import explained, knows_mechanisms
 from macroslip.reproduction.paper_numbers import paper_numbers
-from macroslip.reproduction.paper_study import run_study
-from macroslip.reproduction.reuse import Reuse
-from macroslip.reproduction.sensitivity import sensitivity, variations_of
+from macroslip.reproduction.paper_study import paper_study
+from macroslip.reproduction.sensitivity import sensitivity
 from macroslip.reproduction.single_roller import inflexion_angle, peak_turn, static_turn, typical_turn
-from macroslip.reproduction.uncertain_values import VALUES
-from macroslip.reproduction.uncertainty import CASES, END, ROLLERS, SAMPLES, SEED, uncertainty
+from macroslip.reproduction.statement import Statement, not_computed
+from macroslip.reproduction.studies import base_case, computed, reproduction_study
+from macroslip.reproduction.uncertainty import uncertainty
 from macroslip.reproduction.uncertainty_summary import uncertainty_summary, with_uncertainty
 from macroslip.result.orbit_profile import orbit_profile
-from macroslip.result.simulate import simulate, usable_processors
+from macroslip.study.reader import stored_results
+from macroslip.study.study import Study
 from macroslip.torque import TorqueHistory, computed_torque, torque_histories
 
 if TYPE_CHECKING:
@@ -33,31 +36,8 @@ if TYPE_CHECKING:
     from macroslip.loads import BearingLoads
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Model:
-    """A model of the reproduction, and how much of the work it gets.
-
-    Parameters
-    ----------
-    laws : Laws
-    rollers : "all" or tuple of int
-        Rollers of each row in the study and the sensitivity.
-    sensitivity_end : float, optional
-        End of the sensitivity's window [s]; None: the end of the loads.
-    """
-
-    laws: Laws
-    rollers: str | tuple[int, ...] = "all"
-    sensitivity_end: float | None = None
-
-
-#: Models by name. A roller under `physical` takes about ten times as long as under `paper`.
-MODELS: Mapping[str, Model] = MappingProxyType(
-    {
-        "paper": Model(laws=Laws.paper()),
-        "physical": Model(laws=Laws.physical(), rollers=tuple(range(0, 28, 4)), sensitivity_end=200.0),
-    }
-)
+#: Mechanisms of the models by name. A roller under `physical` takes about ten times as long as under `paper`.
+MODELS: Mapping[str, Laws] = MappingProxyType({"paper": Laws.paper(), "physical": Laws.physical()})
 #: The model of the paper, under which the numerical experiments are computed.
 PAPER = "paper"
 #: The case shown in detail, whose means are the static load.
@@ -65,8 +45,6 @@ DETAILED_CASE = "14B"
 STATIC_LOADS = {"downward": False, "downward and thrust": True}
 #: Part of the detailed case whose friction torque is drawn [s].
 TORQUE_WINDOW = (300.0, 360.0)
-#: Time between the samples of the traces [s]; that of the loads.
-TRACE_STEP = 0.05
 
 #: What is computed under each model, in its order, and what that takes of the time under `paper` and others, in
 #: proportion.
@@ -88,7 +66,7 @@ class ModelRun:
     Parameters
     ----------
     study : xarray.Dataset
-        From `run_study`.
+        From `paper_study`.
     numbers : xarray.Dataset
         From `paper_numbers`.
     turns : dict
@@ -114,67 +92,45 @@ def stage_label(stage: str, model: str) -> str:
     return stage if model == PAPER else f"{stage} ({model})"
 
 
-def compute_model(name: str, reuse: Reuse, threads: int | None, report: Progress) -> ModelRun:
-    """Compute one model, or read what is known of it.
+def compute_model(
+    name: str, directory: Path, threads: int | None, report: Progress, reused: list[str] | None = None
+) -> ModelRun:
+    """Compute one model; studies go on from what is there of them.
 
     Parameters
     ----------
     name : str
         One of `MODELS`.
-    reuse : Reuse
+    directory : Path
+        Folder with a folder for the results of every study.
     threads : int or None
     report : callable
         Called as report(label, done, total) with the labels of `MODEL_STAGES`.
+    reused : list of str, optional
+        Takes the names of studies whose results were all there.
     """
-    model = MODELS[name]
-    laws = model.laws
+    laws = MODELS[name]
 
-    def told(stage: str) -> Callable[[int, int], None]:
+    def of(stage: str) -> Callable[[int, int], None]:
         return lambda done, total: report(stage_label(stage, name), done, total)
 
-    loads = HubLoads.bundled(DETAILED_CASE)
-    whole = [Case(loads=HubLoads.bundled(one), laws=laws, rollers=model.rollers).as_dict() for one in bundled_cases()]
-    study = reuse.part(
-        f"study-{name}",
-        whole,
-        lambda: {"study": run_study(rollers=model.rollers, laws=laws, threads=threads, progress=told("study"))},
-    )["study"]
-    told("study")(1, 1)
-    traced = Case(loads=loads, traces=Traces(step=TRACE_STEP), laws=laws)
-    profile = reuse.part(f"detail-{name}", traced.as_dict(), lambda: _detail(simulate(traced, threads=threads)))
-    told("one case in detail")(1, 1)
-    stored = reuse.part(
-        f"turns-{name}", traced.as_dict(), lambda: _turns(profile["result"], laws, threads, told("single rollers"))
-    )
-    turns: dict[str, dict[str, xr.Dataset]] = {}
-    for title, turn in stored.items():
-        group, _, rest = title.partition(": ")
-        turns.setdefault(group, {})[rest] = turn
-    told("single rollers")(1, 1)
-    varied = Case(loads=loads, laws=laws, rollers=model.rollers, window=Window(end=model.sensitivity_end))
-    variations = variations_of(varied)
-    limits = [[one.name, one.low, one.high] for one in variations]
-    table = reuse.part(
-        f"sensitivity-{name}",
-        [varied.as_dict(), limits],
-        lambda: {"table": sensitivity(varied, variations, threads=threads, progress=told("sensitivity"))},
-    )["table"]
-    told("sensitivity")(1, 1)
+    def results_of(prefix: str, stage: str, *, may_fail: bool = False) -> tuple[Study, Path]:
+        title = f"{prefix}_{name}"
+        study, folder = reproduction_study(title), directory / title
+        if not computed(study, folder, may_fail=may_fail, threads=threads, progress=of(stage)) and reused is not None:
+            reused.append(title)
+        return study, folder
+
+    study = paper_study(results_of("study", "study")[1])
+    _, traced = next(stored_results(results_of("detail", "one case in detail")[1]))
+    profile = orbit_profile(traced) | {"torque": computed_torque(traced)}
+    of("one case in detail")(1, 1)
+    turns = _turns(profile["result"], laws, threads, of("single rollers"))
+    varied, folder = results_of("sensitivity", "sensitivity", may_fail=True)
+    table = sensitivity(folder, base_case(varied))
     sample = None
     if laws.microslip:
-        sample = reuse.part(
-            f"uncertainty-{name}",
-            [
-                [Case(loads=HubLoads.bundled(one), laws=laws).as_dict() for one in CASES],
-                ROLLERS,
-                END,
-                SAMPLES,
-                SEED,
-                [asdict(one) for one in VALUES],
-            ],
-            lambda: {"sample": uncertainty(laws, threads=threads, progress=told("uncertainty"))},
-        )["sample"]
-        told("uncertainty")(1, 1)
+        sample = uncertainty(results_of("uncertainty", "uncertainty", may_fail=True)[1])
     return ModelRun(
         study=study, numbers=paper_numbers(study), turns=turns, profile=profile, sensitivity=table, uncertainty=sample
     )
@@ -192,30 +148,29 @@ def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
     return torque_histories(computed, varying_load(), case.bearing, case.lubricant)
 
 
-def _detail(result: xr.Dataset) -> dict[str, xr.Dataset]:
-    return orbit_profile(result) | {"torque": computed_torque(result)}
-
-
 def _turns(
     result: xr.Dataset, laws: Laws, threads: int | None, report: Callable[[int, int], None]
-) -> dict[str, xr.Dataset]:
-    """Traced turns by "figure: column"; the static ones of both rows under "static"."""
+) -> dict[str, dict[str, xr.Dataset]]:
+    """Traced turns by figure and column; the static ones of both rows under "static"."""
     varying = varying_load()
     jobs = {
-        f"static: {name}, {row}": partial(static_turn, varying, row, thrust=thrust, laws=laws)
+        ("static", f"{name}, {row}"): partial(static_turn, varying, row, thrust=thrust, laws=laws)
         for name, thrust in STATIC_LOADS.items()
         for row in ROWS
     }
     for name, trace in (("typical", typical_turn), ("peak", peak_turn)):
-        jobs |= {f"{name}: {row} row": partial(trace, varying, result, row, laws) for row in ROWS}
+        jobs |= {(name, f"{row} row"): partial(trace, varying, result, row, laws) for row in ROWS}
     with ThreadPoolExecutor(threads or usable_processors()) as pool:
-        futures = {title: pool.submit(job) for title, job in jobs.items()}
+        futures = {place: pool.submit(job) for place, job in jobs.items()}
         for done, _ in enumerate(as_completed(futures.values()), start=1):
             report(done, len(jobs))
-        return {title: future.result() for title, future in futures.items()}
+        turns: dict[str, dict[str, xr.Dataset]] = {}
+        for (figure, column), future in futures.items():
+            turns.setdefault(figure, {})[column] = future.result()
+        return turns
 
 
-def statements(run: ModelRun, experiments: Mapping[str, xr.Dataset]) -> list[verdicts.Statement]:
+def statements(run: ModelRun, experiments: Mapping[str, xr.Dataset]) -> dict[str, Statement]:
     """The paper's statements, judged by what was computed under one model.
 
     Parameters
@@ -226,28 +181,25 @@ def statements(run: ModelRun, experiments: Mapping[str, xr.Dataset]) -> list[ver
 
     Returns
     -------
-    list of Statement
-        Eight, in the same order for every model; where a statement needs what was not computed, "not computed".
+    dict of str to Statement
+        By subject, the same eight for every model; where one needs what was not computed, "not computed".
     """
     static = run.turns["static"]
     energies = {name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in ROWS} for name in STATIC_LOADS}
     thrust = energies["downward and thrust"]["downwind"]
     downward = static["downward, downwind"]
-    found = [
-        verdicts.energy_over_wind_speed(run.numbers, run.study),
-        verdicts.energy_between_rows(run.numbers, thrust),
-        verdicts.peak_power_over_wind_speed(run.numbers),
-        verdicts.peak_power_between_rows(run.numbers, experiments.get("step_size")),
-    ]
-    found.append(verdicts.unloaded_roller(downward, inflexion_angle(downward)))
-    found.append(
-        verdicts.varying_over_static(run.numbers, DETAILED_CASE, energies, experiments.get("nonlinear_tolerance"))
-    )
-    found.append(verdicts.cage_dominates(run.study))
-    if "A1" in experiments:
-        found.append(verdicts.euler_stability(experiments["A1"]))
-    else:
-        found.append(verdicts.not_computed(verdicts.EULER))
+    found = {
+        "energy": verdicts.energy_over_wind_speed(run.numbers, run.study),
+        "rows": verdicts.energy_between_rows(run.numbers, thrust),
+        "peaks": verdicts.peak_power_over_wind_speed(run.numbers),
+        "peak ratio": verdicts.peak_power_between_rows(run.numbers, experiments.get("step_size")),
+        "unloaded": verdicts.unloaded_roller(downward, inflexion_angle(downward)),
+        "static": verdicts.varying_over_static(
+            run.numbers, DETAILED_CASE, energies, experiments.get("nonlinear_tolerance")
+        ),
+        "cage": verdicts.cage_dominates(run.study),
+        "Euler": verdicts.euler_stability(experiments["A1"]) if "A1" in experiments else not_computed(verdicts.EULER),
+    }
     if knows_mechanisms(run.study):
         found = explained(found, run.study, run.numbers)
     return with_uncertainty(found, uncertainty_summary(run.uncertainty)) if run.uncertainty is not None else found

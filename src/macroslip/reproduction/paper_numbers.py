@@ -23,7 +23,7 @@ def paper_numbers(study: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     study : xarray.Dataset
-        From `run_study`.
+        From `paper_study`.
 
     Returns
     -------

@@ -9,10 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import macroslip
-from macroslip.case.case import Case
 from macroslip.errors import MacroslipError
 from macroslip.files import published_together
-from macroslip.reproduction import verdicts
 from macroslip.reproduction.dissipation import dissipation, knows_mechanisms
 from macroslip.reproduction.headline import failure_line, numerical_line, statement_lines
 from macroslip.reproduction.model_run import (
@@ -30,10 +28,11 @@ from macroslip.reproduction.model_run import (
     statements,
     varying_load,
 )
-from macroslip.reproduction.reuse import Reuse
 from macroslip.reproduction.single_roller import largest_peak, static_load
-from macroslip.reproduction.solver_experiments import STEPS, TOLERANCES, nonlinear_tolerance, step_size
+from macroslip.reproduction.solver_experiments import nonlinear_tolerance, step_size
 from macroslip.reproduction.stability import compare_stability
+from macroslip.reproduction.statement import Statement
+from macroslip.reproduction.studies import FOLDER
 from macroslip.reproduction.summary import (
     CONVENTIONS,
     as_json,
@@ -64,14 +63,14 @@ def stages() -> dict[str, float]:
 def reproduce(directory: Path, *, threads: int | None = None, progress: Progress | None = None) -> dict[str, Any]:
     """Reproduce the paper's study and figures with converged solutions, and judge its statements.
 
-    What an earlier run into the same folder computed is used again as long as its inputs, this program and the
-    libraries that compute are the same.
+    Its studies are computed as any study is: a run that was stopped goes on where it ended, and what an earlier run into
+    the same folder computed is used again as long as its inputs and this program are the same.
 
     Parameters
     ----------
     directory : Path
-        Folder for `report.html`, `summary.json`, `study.nc`, the figures (PNG and SVG) and, under `reuse`, what a later
-        run may use again. Files of an earlier run are overwritten, all at the end; others stay.
+        Folder for `report.html`, `summary.json`, `study.nc`, the figures (PNG and SVG) and, under `studies`, the
+        results of the studies. Files of an earlier run are overwritten, all at the end; others stay.
     threads : int, optional
         Threads over rollers; the number of usable processors by default.
     progress : callable, optional
@@ -81,7 +80,8 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Progress
     -------
     dict
         What `summary.json` holds: `headline`, `statements`, `failed_rollers`, `conventions`, `figures` with every
-        plotted number and its units, `seconds` by stage, and what was `reused`. NaN is None.
+        plotted number and its units, `seconds` by stage, and the studies whose results were there and are `reused`.
+        NaN is None.
 
     Raises
     ------
@@ -104,10 +104,10 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Progress
             progress(stage, done, total)
 
     directory = Path(directory)
+    reused: list[str] = []
     with published_together(directory, SUMMARY) as folder:
-        reuse = Reuse(directory, folder)
-        runs = {name: compute_model(name, reuse, threads, report) for name in MODELS}
-        experiments = _experiments(runs[PAPER], reuse, threads, report)
+        runs = {name: compute_model(name, directory / FOLDER, threads, report, reused) for name in MODELS}
+        experiments = _experiments(runs[PAPER], threads, report)
         judged = {name: statements(run, experiments if name == PAPER else {}) for name, run in runs.items()}
         _save(_figures(runs, experiments), folder, report)
         for name, run in runs.items():
@@ -133,7 +133,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Progress
                 "failed_rollers": failed | {"study_by_case": by_case, "study_total": total},
                 "conventions": CONVENTIONS,
                 "seconds": seconds,
-                "reused": reuse.reused,
+                "reused": reused,
                 "figures": plotted(runs, experiments),
                 "study": {name: run.study.to_dict(data="list") for name, run in runs.items()},
             }
@@ -143,7 +143,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Progress
     return summary
 
 
-def _experiments(run: ModelRun, reuse: Reuse, threads: int | None, report: Progress) -> dict[str, xr.Dataset]:
+def _experiments(run: ModelRun, threads: int | None, report: Progress) -> dict[str, xr.Dataset]:
     """What the numerical method does, under the paper's model."""
     varying, result = varying_load(), run.profile["result"]
     _, orbit = largest_peak(result, "upwind")
@@ -155,17 +155,10 @@ def _experiments(run: ModelRun, reuse: Reuse, threads: int | None, report: Progr
         "nonlinear_tolerance": lambda: nonlinear_tolerance(varying, threads=threads),
         "step_size": lambda: step_size(varying, start=start, end=end, threads=threads),
     }
-    inputs = [Case(loads=varying).as_dict(), TOLERANCES, STEPS, start, end]
-
-    def compute() -> dict[str, xr.Dataset]:
-        found = {}
-        for done, (name, job) in enumerate(jobs.items(), start=1):
-            found[name] = job()
-            report("experiments", done, len(jobs))
-        return found
-
-    found = reuse.part("experiments", inputs, compute)
-    report("experiments", 1, 1)
+    found = {}
+    for done, (name, job) in enumerate(jobs.items(), start=1):
+        found[name] = job()
+        report("experiments", done, len(jobs))
     return found
 
 
@@ -225,7 +218,7 @@ def _write_report(
     path: Path,
     runs: Mapping[str, ModelRun],
     experiments: Mapping[str, xr.Dataset],
-    judged: Mapping[str, list[verdicts.Statement]],
+    judged: Mapping[str, Mapping[str, Statement]],
     summary: Mapping[str, Any],
     report: Progress,
 ) -> None:

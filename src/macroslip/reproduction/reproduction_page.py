@@ -13,7 +13,7 @@ from macroslip.reproduction import paper_comparison
 from macroslip.reproduction.headline import failure_line
 from macroslip.reproduction.physical_section import physical_sections
 from macroslip.reproduction.sensitivity_figures import plot_tornado
-from macroslip.reproduction.verdicts import AGREES, DIFFERS, PARTLY, Statement
+from macroslip.reproduction.statement import AGREES, DIFFERS, PARTLY, Statement
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,7 +27,7 @@ _PAPER = "Hart et al., Dynamic modelling of slip in a wind turbine spherical rol
 def reproduction_page(
     runs: Mapping[str, ModelRun],
     experiments: Mapping[str, xr.Dataset],
-    judged: Mapping[str, list[Statement]],
+    judged: Mapping[str, Mapping[str, Statement]],
     summary: Mapping[str, Any],
 ) -> str:
     """The page `report.html` of the reproduction.
@@ -39,7 +39,7 @@ def reproduction_page(
     experiments : mapping
         "A1", "nonlinear_tolerance", "step_size".
     judged : mapping
-        The paper's statements by model.
+        The paper's statements by model and subject.
     summary : mapping
         As `summary.json`: `failed_rollers`, `seconds`, `reused`, `conventions`.
 
@@ -71,9 +71,10 @@ def _titled(title: str, model: str, runs: Mapping[str, ModelRun]) -> str:
     return f"{title}, model {model}" if len(runs) > 1 else title
 
 
-def _answer(judged: Mapping[str, list[Statement]], summary: Mapping[str, Any]) -> Section:
+def _answer(judged: Mapping[str, Mapping[str, Statement]], summary: Mapping[str, Any]) -> Section:
     words = []
-    for name, statements in judged.items():
+    for name, of_model in judged.items():
+        statements = list(of_model.values())
         counts = {verdict: sum(one.verdict == verdict for one in statements) for verdict in (AGREES, PARTLY, DIFFERS)}
         sentence = (
             f"of the paper's {len(statements)} statements {counts[AGREES]} agree with a converged solution, "
@@ -85,8 +86,11 @@ def _answer(judged: Mapping[str, list[Statement]], summary: Mapping[str, Any]) -
             f"Under the model {name}, {sentence}." if len(judged) > 1 else f"{sentence[0].upper()}{sentence[1:]}."
         )
     rows = tuple(
-        (together[0].paper, tuple((one.verdict, one.found, one.because) for one in together))
-        for together in zip(*judged.values(), strict=True)
+        (
+            first.paper,
+            tuple((one.verdict, one.found, one.because) for one in (model[subject] for model in judged.values())),
+        )
+        for subject, first in next(iter(judged.values())).items()
     )
     failed = summary["failed_rollers"]
     places = {place: count for place, count in failed.items() if place not in ("study_by_case", "study_total")}
@@ -153,7 +157,7 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
         names = table.variation.values.tolist()
         notes = [f"{one}: {note}" for one, note in zip(names, table.note.values.tolist(), strict=True) if note]
         texts = zip(names, table.refused.values.tolist(), strict=True)
-        refused = [f"{one}: {text} Half the way to it was taken" for one, text in texts if text]
+        refused = [f"{one}: {text} The next one towards the base case was taken" for one, text in texts if text]
         blocks.append(Points(tuple(f"{note[0].upper()}{note[1:]}." for note in (*notes, *refused))))
     return Section("sensitivity", "What the result depends on", tuple(blocks))
 

@@ -127,7 +127,7 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
 
 def static_turn(variable: BearingLoads, row: str, *, thrust: bool, laws: Laws = Laws.paper()) -> xr.Dataset:
     """The ninth turn of the row's first roller under the `static_load` of a history; by then spin is periodic."""
-    period = 2.0 * np.pi / (_orbit_ratio(Case(loads=variable)) * float(variable.shaft_speed.mean()))
+    period = 2.0 * np.pi / (geometry.orbit_ratio(Case(loads=variable).bearing) * float(variable.shaft_speed.mean()))
     return trace_turn(static_load(variable, thrust=thrust, duration=9.5 * period), row, 0, 8.5 * period, laws)
 
 
@@ -189,12 +189,7 @@ def _angle_from_bottom(loads: BearingLoads, case: Case, row: str, roller: int) -
     if loads.shaft_speed.min() <= 0.0:
         raise InputError("the shaft stands still or turns back", where=loads.source, allowed="speeds above 0")
     begin = initial_angles(row, case.bearing.rollers_per_row)[roller] + 0.5 * np.pi
-    return begin + travel(loads.time, loads.shaft_speed, _orbit_ratio(case))
-
-
-def _orbit_ratio(case: Case) -> float:
-    inner, outer = geometry.inner_contact_radius(case.bearing), geometry.outer_contact_radius(case.bearing)
-    return inner / (inner + outer)
+    return begin + travel(loads.time, loads.shaft_speed, geometry.orbit_ratio(case.bearing))
 
 
 def _turn(loads: BearingLoads, angle: np.ndarray, time: float) -> tuple[float, float]:

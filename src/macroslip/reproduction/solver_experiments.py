@@ -15,8 +15,9 @@ import numpy as np
 
 from macroslip.case.case import BackwardEuler, Case, Radau
 from macroslip.loads import BearingLoads
+from macroslip.machine import usable_processors
 from macroslip.reproduction.single_roller import static_load
-from macroslip.result.simulate import simulate, usable_processors
+from macroslip.result.simulate import simulate
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.reproduction.model_run import ModelRun
-    from macroslip.reproduction.verdicts import Statement
+    from macroslip.reproduction.statement import Statement
 
 CONVENTIONS = (
     "The window opens when the rollers have completed one orbit and ends with the loads.",
@@ -57,18 +57,19 @@ def of_model(name: str, model: str) -> str:
     return name if model == PAPER else f"{name}_{model}"
 
 
-def told_statements(statements: Mapping[str, list[Statement]]) -> list[dict[str, Any]]:
+def told_statements(statements: Mapping[str, Mapping[str, Statement]]) -> list[dict[str, Any]]:
     """Statements by model as a list of what the paper states, each with what every model gives."""
     return [
         {
-            "paper": together[0].paper,
-            "models": {
-                model: {"verdict": one.verdict, "found": one.found, "because": one.because, "numbers": one.numbers}
-                for model, one in zip(statements, together, strict=True)
-            },
+            "paper": first.paper,
+            "models": {model: _as_dict(of_model[subject]) for model, of_model in statements.items()},
         }
-        for together in zip(*statements.values(), strict=True)
+        for subject, first in next(iter(statements.values())).items()
     ]
+
+
+def _as_dict(one: Statement) -> dict[str, Any]:
+    return {"verdict": one.verdict, "found": one.found, "because": one.because, "numbers": one.numbers}
 
 
 def plotted(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, Any]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from macroslip.report.wording import told
-from macroslip.reproduction.verdicts import ABOUT, DOMINANT, Statement
+from macroslip.reproduction.statement import ABOUT, Statement
+from macroslip.reproduction.verdicts import DOMINANT
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -168,13 +170,13 @@ def sample_size(summary: xr.Dataset) -> str:
     return f"{completed} of {completed + failed + refused} samples completed, {failed} failed, {refused} were refused"
 
 
-def with_uncertainty(statements: list[Statement], summary: xr.Dataset) -> list[Statement]:
+def with_uncertainty(statements: Mapping[str, Statement], summary: xr.Dataset) -> dict[str, Statement]:
     """The statements on energy and peak power over wind speed and between rows, with what the sample says of them.
 
     Parameters
     ----------
-    statements : list of Statement
-        In the order of `macroslip.reproduction.model_run.statements`.
+    statements : mapping of str to Statement
+        By subject, as `macroslip.reproduction.model_run.statements` has them.
     summary : xarray.Dataset
         From `uncertainty_summary`.
     """
@@ -190,10 +192,13 @@ def with_uncertainty(statements: list[Statement], summary: xr.Dataset) -> list[S
         return f"{told(low)} to {told(high)}"
 
     words = {
-        0: f"with the estimated values anywhere in their ranges, {held('energy highest')} of the samples agree on the "
+        "energy": f"with the estimated values anywhere in their ranges, {held('energy highest')} of the samples agree on the "
         "lowest wind speed",
-        1: f"{reach('energy, downwind / upwind')} times with the estimated values anywhere in their ranges",
-        3: f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most "
+        "rows": f"{reach('energy, downwind / upwind')} times with the estimated values anywhere in their ranges",
+        "peak ratio": f"{reach('mean P_max, downwind / upwind')} times with the estimated values anywhere in their ranges, most "
         f"at the lowest wind speed in {held('ratio of peak powers highest')} of the samples",
     }
-    return [replace(one, found=f"{one.found}; {words[k]}") if k in words else one for k, one in enumerate(statements)]
+    return {
+        subject: replace(one, found=f"{one.found}; {words[subject]}") if subject in words else one
+        for subject, one in statements.items()
+    }

@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from macroslip.report.wording import told
+from macroslip.reproduction.statement import Statement, about, verdict
 
 if TYPE_CHECKING:
     import xarray as xr
 
-AGREES, PARTLY, DIFFERS, UNKNOWN = "agrees", "agrees in part", "differs", "cannot be judged"
-#: Said of what was not computed under a model.
-NOT_COMPUTED = "not computed"
 #: Statements that need more than a study.
 UNLOADED = "an unloaded roller slows with an inflexion at the top and snaps back in the load zone"
 VARYING = "time-varying loads give about 100 times the static energy"
 EULER = "explicit Euler is unstable in the load zone, backward Euler is not"
-#: "About" in a statement allows this factor either way.
-ABOUT = 2.0
 #: Relative standard deviation from which on a quantity varies highly.
 HIGH_VARIATION = 0.5
 #: Probability below which a rank correlation with wind speed counts as a trend.
@@ -32,49 +27,6 @@ GRIPPED = 0.1
 DOMINANT = 0.5
 #: Distance from the top within which an inflexion is at the top [degrees].
 AT_TOP = 15.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Statement:
-    """One statement of the paper and what was found.
-
-    Parameters
-    ----------
-    paper : str
-        What the paper states.
-    verdict : str
-        "agrees", "agrees in part", "differs", "cannot be judged" (a number is NaN) or "not computed".
-    found : str
-        What a converged solution gives, in words with numbers.
-    because : str
-        What was measured that explains it, where it does not simply agree; empty if nothing was.
-    numbers : dict
-        The numbers the verdict rests on.
-    """
-
-    paper: str
-    verdict: str
-    found: str
-    because: str = ""
-    numbers: dict[str, float | list[float]] = field(default_factory=dict)
-
-
-def verdict(parts: list[bool], numbers: dict[str, float | list[float]]) -> str:
-    """The verdict on a statement of several parts that rests on `numbers`.
-
-    Examples
-    --------
-    >>> verdict([True, False], {"ratio": 2.0}), verdict([True], {"ratio": float("nan")})
-    ('agrees in part', 'cannot be judged')
-    """
-    values = [one for value in numbers.values() for one in (value if isinstance(value, list) else [value])]
-    if not all(math.isfinite(value) for value in values):
-        return UNKNOWN
-    return AGREES if all(parts) else (PARTLY if any(parts) else DIFFERS)
-
-
-def _about(value: float, stated: float) -> bool:
-    return stated / ABOUT <= value <= stated * ABOUT
 
 
 def _by_wind_speed(values: xr.DataArray) -> xr.DataArray:
@@ -130,7 +82,7 @@ def energy_between_rows(numbers: xr.Dataset, thrust_energy: float = math.nan) ->
         f"{float(per_orbit.min()):.2f} to {float(per_orbit.max()):.2f} times that, and no load adds to it"
     )
     found = {"lowest": float(ratio.min(skipna=False)), "highest": float(ratio.max(skipna=False))}
-    good = all(_about(value, 10.0) for value in found.values())
+    good = all(about(value, 10.0) for value in found.values())
     return Statement(
         paper="the downwind row spends about 10 times the energy of the upwind row",
         verdict=verdict([good], found),
@@ -183,7 +135,7 @@ def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None
         "highest_at_mps": highest_at,
         "mean_by_wind_speed": mean.values.tolist(),
     }
-    good = _about(found["highest"], 5.0) and highest_at == 12.0
+    good = about(found["highest"], 5.0) and highest_at == 12.0
     because = ""
     if steps is not None:
         coarse = steps.mean_peak_power.isel(step=int(np.argmax(steps.step.values)))
@@ -197,7 +149,7 @@ def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None
         )
     return Statement(
         paper="the downwind row's mean peak power is up to 5 times the upwind row's, most at 12 m/s",
-        verdict=verdict([_about(found["highest"], 5.0), highest_at == 12.0], found),
+        verdict=verdict([about(found["highest"], 5.0), highest_at == 12.0], found),
         found=f"{told(found['lowest'])} to {told(found['highest'])} times, most at {highest_at:g} m/s",
         because="" if good else because,
         numbers=found,
@@ -245,7 +197,7 @@ def varying_over_static(
             found[f"{name}_{row}"] = float(numbers.orbit_energy.sel(case=case, row=row)) / energy
         ratios = ", ".join(f"{told(found[f'{name}_{row}'])} {row}" for row in rows)
         words.append(f"{ratios} against the {name} static load")
-    good = all(_about(ratio, 100.0) for ratio in found.values())
+    good = all(about(ratio, 100.0) for ratio in found.values())
     because = (
         "force balance bounds the difference of a gripped roller's raceway forces by its weight, drag and inertia, "
         "so its cage carries these and no more, however the load varies"
@@ -287,11 +239,6 @@ def cage_dominates(study: xr.Dataset) -> Statement:
         because="" if all(parts) else f"on average over the cases {' and '.join(others)}",
         numbers=found,
     )
-
-
-def not_computed(paper: str) -> Statement:
-    """A statement that nothing was computed for."""
-    return Statement(paper=paper, verdict=NOT_COMPUTED, found="not computed under this model")
 
 
 def euler_stability(stability: xr.Dataset) -> Statement:

@@ -35,6 +35,80 @@ CITATIONS = (
 )
 _RADAU = "Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), doi:10.1007/978-3-642-05221-7"
 
+_ROLLERS = ("row", "roller")
+_INTERFACES = (*_ROLLERS, "interface")
+_ORBITS = (*_ROLLERS, "orbit", "interface")
+_TRACES = (*_ROLLERS, "time")
+#: Dimensions, units and meaning of every variable a result may have, by name, in their order.
+VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "energy": (_INTERFACES, "J", "energy dissipated by friction in the window"),
+    "rolling_energy": (
+        _INTERFACES,
+        "J",
+        "energy dissipated by rolling resistance in the window, apart from the energy of friction",
+    ),
+    "inlet_temperature": ((), "K", "temperature of the oil at the inlets of the contacts"),
+    "orbit_energy": (_ORBITS, "J", "energy dissipated by friction in each complete orbit"),
+    "peak_power": (_ORBITS, "W", "largest frictional power in each complete orbit"),
+    "min_spin_ratio": (
+        _ROLLERS,
+        "1",
+        "smallest ratio of spin to spin in pure rolling in the window, where the shaft turns at a tenth or more of its "
+        "highest speed",
+    ),
+    "outside_film_range": (
+        _INTERFACES,
+        "1",
+        "share of loaded time in which load or speed lay outside the film law's range",
+    ),
+    "status": (_ROLLERS, "1", "outcome of the integration"),
+    **{name: (_ROLLERS, "1", f"number of {name.replace('_', ' ')} of the integrator") for name in COUNTS},
+    "unbalanced_force": (_ROLLERS, "N", "largest force left unbalanced by an accepted implicit step"),
+    "end_time": (_ROLLERS, "s", "time at which the integration ended"),
+    "end_slip": (_ROLLERS, "m/s", "raceway slip at which the integration ended"),
+    # Contacts with microslip or asperities.
+    "mechanism_energy": (
+        (*_INTERFACES, "mechanism"),
+        "J",
+        "energy in the window by what makes surfaces slide: slip of the middle, curvature, contact angle; they add up to "
+        "the energy, and one may be negative",
+    ),
+    "asperity_energy": (_INTERFACES, "J", "part of the energy in the window that asperities dissipate"),
+    "station_energy": (
+        (*_ROLLERS, "raceway", "station"),
+        "J",
+        "energy in the window dissipated at each station along the roller",
+    ),
+    "flash_temperature": (_ORBITS, "K", "largest rise of surface temperature in a contact per orbit"),
+    "power_density": (_ORBITS, "W/m2", "largest frictional power per contact area per orbit"),
+    "slide_roll_ratio": (_ORBITS, "1", "largest local slip over entrainment speed per orbit"),
+    "min_film_ratio": (_ORBITS, "1", "least ratio of film thickness to roughness, Lambda, per orbit"),
+    "quadrature_error": (
+        (*_ROLLERS, "raceway"),
+        "1",
+        "relative error of the film's power by the quadrature in use, from a finer one at states of the run",
+    ),
+    # Traces.
+    "spin": (_TRACES, "rad/s", "spin about the roller's axis, relative to the orbiting frame"),
+    "spin_pure": (_TRACES, "rad/s", "spin in pure rolling, relative to the orbiting frame"),
+    "slip": (_TRACES, "m/s", "slip at the middle of either raceway contact, ring less roller"),
+    "roller_load": (_TRACES, "N", "elastic load of the roller, without body forces"),
+    "cage_force": (_TRACES, "N", "normal force of the cage on the roller, positive along the orbit"),
+    "traction": (
+        (*_TRACES, "interface"),
+        "N",
+        "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
+    ),
+    "power": ((*_TRACES, "interface"), "W", "frictional power"),
+    "rolling_power": ((*_TRACES, "interface"), "W", "power of rolling resistance, apart from that of friction"),
+    "film_thickness": ((*_TRACES, "interface"), "m", "central film thickness; NaN without load"),
+    "skew_moment": (
+        (*_TRACES, "raceway"),
+        "N m",
+        "skew moment about the contact normal, positive where traction along +x acts at +z'",
+    ),
+}
+
 
 def to_dataset(
     case: Case,
@@ -73,118 +147,29 @@ def to_dataset(
     """
     import xarray as xr
 
-    numbers = case.roller_numbers
-    grid = [[results[row, number] for number in numbers] for row in ROWS]
-    status = np.array([[code for code, _ in line] for line in grid], dtype=np.int8)
+    status = np.array([[results[row, number][0] for number in case.roller_numbers] for row in ROWS], dtype=np.int8)
+    records = [[results[row, number][1] for number in case.roller_numbers] for row in ROWS]
     failed = status != Status.COMPLETED
-
-    def gather(name: str) -> np.ndarray:
-        values = np.array([[getattr(record, name) for _, record in line] for line in grid], dtype=float)
-        values[failed] = np.nan
-        return values
-
-    data: dict[str, Any] = {}
-
-    def put(
-        name: str, dims: tuple[str, ...], values: np.ndarray, units: str, long_name: str, **attributes: Any
-    ) -> None:
-        data[name] = (dims, values, {"units": units, "long_name": long_name, **attributes})
-
-    rollers = ("row", "roller")
-    put("energy", (*rollers, "interface"), gather("energy"), "J", "energy dissipated by friction in the window")
-    put(
-        "inlet_temperature",
-        (),
-        np.array(case.oil.inlet_temperature),
-        "K",
-        "temperature of the oil at the inlets of the contacts",
-    )
-    put(
-        "rolling_energy",
-        (*rollers, "interface"),
-        gather("rolling_energy"),
-        "J",
-        "energy dissipated by rolling resistance in the window, apart from the energy of friction",
-    )
-    put(
-        "orbit_energy",
-        (*rollers, "orbit", "interface"),
-        gather("orbit_energy"),
-        "J",
-        "energy dissipated by friction in each complete orbit",
-    )
-    put(
-        "peak_power",
-        (*rollers, "orbit", "interface"),
-        gather("peak_power"),
-        "W",
-        "largest frictional power in each complete orbit",
-    )
-    ratio = gather("spin_ratio")[..., 0]
-    put(
-        "min_spin_ratio",
-        rollers,
-        np.where(np.isinf(ratio), np.nan, ratio),
-        "1",
-        "smallest ratio of spin to spin in pure rolling in the window, where the shaft turns at a tenth or more of its "
-        "highest speed",
-    )
-    with np.errstate(invalid="ignore", divide="ignore"):
-        outside = gather("outside_time") / gather("loaded_time")
-    put(
-        "outside_film_range",
-        (*rollers, "interface"),
-        outside,
-        "1",
-        "share of loaded time in which load or speed lay outside the film law's range",
-    )
-    put(
-        "status",
-        rollers,
-        status,
-        "1",
-        "outcome of the integration",
-        flag_values=np.array([int(s) for s in Status], dtype=np.int8),
-        flag_meanings=" ".join(s.name.lower() for s in Status),
-    )
-    for position, name in enumerate(COUNTS):
-        counts = np.array([[record.count[position] for _, record in line] for line in grid])
-        put(name, rollers, counts, "1", f"number of {name.replace('_', ' ')} of the integrator")
-    worst = np.array([[record.worst[0] for _, record in line] for line in grid])
-    put("unbalanced_force", rollers, worst, "N", "largest force left unbalanced by an accepted implicit step")
-    ended = np.array([[record.end for _, record in line] for line in grid])
-    put("end_time", rollers, ended[..., 0], "s", "time at which the integration ended")
-    put("end_slip", rollers, ended[..., 1], "m/s", "raceway slip at which the integration ended")
     curved = isinstance(model.inner, CurvedContact)
+    values = _window_values(records, failed) | {"status": status} | _of_integrator(records)
+    values["inlet_temperature"] = np.array(case.oil.inlet_temperature)
     if curved:
-        _put_detail(put, gather, rollers)
+        values |= _contact_details(records, failed)
     if case.traces is not None:
         # Up to where an integration ended its traces are kept: they show why.
-        trace = np.array([[record.trace for _, record in line] for line in grid])
-        _put_traces(put, trace, model, rollers, curved=curved)
-
-    coordinates: dict[str, Any] = {
-        "row": list(ROWS),
-        "roller": ("roller", list(numbers), {"units": "1", "long_name": "number of the roller in its row"}),
-        "interface": list(INTERFACES),
-        "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),
-        "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
-        "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
-        "start_angle": (
-            rollers,
-            np.array([initial_angles(row, case.bearing.rollers_per_row)[list(numbers)] for row in ROWS]),
-            {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"},
-        ),
+        values |= _traces(np.array([[record.trace for record in line] for line in records]), model, curved=curved)
+    data = {
+        name: (dims, values[name], {"units": units, "long_name": long_name})
+        for name, (dims, units, long_name) in VARIABLES.items()
+        if name in values
     }
-    if curved:
-        edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * case.bearing.roller_length
-        coordinates["mechanism"] = list(MECHANISMS)
-        middles = 0.5 * (edges_along[1:] + edges_along[:-1])
-        coordinates["station"] = ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"})
-        coordinates["raceway"] = list(INTERFACES[:2])
+    data["status"][-1].update(
+        flag_values=np.array([int(one) for one in Status], dtype=np.int8),
+        flag_meanings=" ".join(one.name.lower() for one in Status),
+    )
+    coordinates = _coordinates(case, edges, curved=curved)
     if case.traces is not None:
-        time = grid[0][0][1].trace_time
-        coordinates["time"] = ("time", time, {"units": "s", "long_name": "time"})
+        coordinates["time"] = ("time", records[0][0].trace_time, {"units": "s", "long_name": "time"})
     citations = [*CITATIONS, *references(case.laws)]
     attributes = {
         "title": f"Roller slip of {case.bearing.name} under {case.loads.source}",
@@ -202,98 +187,96 @@ def to_dataset(
     return xr.Dataset(data, coordinates, attributes)
 
 
-def _put_detail(put: Any, gather: Any, rollers: tuple[str, ...]) -> None:
+def _gathered(records: list[list[Record]], failed: np.ndarray, name: str) -> np.ndarray:
+    """One array of every record over (row, roller, ...); NaN for rollers that failed."""
+    values = np.array([[getattr(record, name) for record in line] for line in records], dtype=float)
+    values[failed] = np.nan
+    return values
+
+
+def _window_values(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
+    """Energies, powers and shares of time in the window."""
+    ratio = _gathered(records, failed, "spin_ratio")[..., 0]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        outside = _gathered(records, failed, "outside_time") / _gathered(records, failed, "loaded_time")
+    return {
+        **{
+            name: _gathered(records, failed, name)
+            for name in ("energy", "rolling_energy", "orbit_energy", "peak_power")
+        },
+        "min_spin_ratio": np.where(np.isinf(ratio), np.nan, ratio),
+        "outside_film_range": outside,
+    }
+
+
+def _of_integrator(records: list[list[Record]]) -> dict[str, np.ndarray]:
+    """What the integrator did, also of rollers that failed."""
+    counts = np.array([[record.count for record in line] for line in records])
+    ended = np.array([[record.end for record in line] for line in records])
+    return {
+        **{name: counts[..., position] for position, name in enumerate(COUNTS)},
+        "unbalanced_force": np.array([[record.worst[0] for record in line] for line in records]),
+        "end_time": ended[..., 0],
+        "end_slip": ended[..., 1],
+    }
+
+
+def _contact_details(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """What only contacts with microslip or asperities know."""
-    put(
-        "mechanism_energy",
-        (*rollers, "interface", "mechanism"),
-        gather("mechanism_energy"),
-        "J",
-        "energy in the window by what makes surfaces slide: slip of the middle, curvature, contact angle; they add up to "
-        "the energy, and one may be negative",
-    )
-    put(
-        "asperity_energy",
-        (*rollers, "interface"),
-        gather("asperity_energy"),
-        "J",
-        "part of the energy in the window that asperities dissipate",
-    )
-    put(
-        "station_energy",
-        (*rollers, "raceway", "station"),
-        gather("station_energy"),
-        "J",
-        "energy in the window dissipated at each station along the roller",
-    )
-    extreme = gather("extreme")
-    dims = (*rollers, "orbit", "interface")
+    extreme = _gathered(records, failed, "extreme")
     with np.errstate(invalid="ignore"):
         extreme[np.isinf(extreme)] = np.nan
-    put("flash_temperature", dims, extreme[..., 0], "K", "largest rise of surface temperature in a contact per orbit")
-    put("power_density", dims, extreme[..., 1], "W/m2", "largest frictional power per contact area per orbit")
-    put("slide_roll_ratio", dims, extreme[..., 2], "1", "largest local slip over entrainment speed per orbit")
-    put("min_film_ratio", dims, extreme[..., 3], "1", "least ratio of film thickness to roughness, Lambda, per orbit")
-    fine, off = np.moveaxis(gather("quadrature"), -1, 0)
+    fine, off = np.moveaxis(_gathered(records, failed, "quadrature"), -1, 0)
     with np.errstate(invalid="ignore", divide="ignore"):
         error = np.where(fine > 0.0, off / fine, np.nan)
-    put(
-        "quadrature_error",
-        (*rollers, "raceway"),
-        error,
-        "1",
-        "relative error of the film's power by the quadrature in use, from a finer one at states of the run",
-    )
+    names = ("flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
+    energies = ("mechanism_energy", "asperity_energy", "station_energy")
+    return {
+        **{name: _gathered(records, failed, name) for name in energies},
+        **{name: extreme[..., position] for position, name in enumerate(names)},
+        "quadrature_error": error,
+    }
 
 
-def _put_traces(put: Any, trace: np.ndarray, model: RollerModel, rollers: tuple[str, ...], *, curved: bool) -> None:
+def _traces(trace: np.ndarray, model: RollerModel, *, curved: bool) -> dict[str, np.ndarray]:
     """Turn raw channels into the traces users know."""
     channel = dict(zip(TRACES, np.moveaxis(trace, -1, 0), strict=True))
-    slip, ring_speed, radius = channel["slip"], channel["ring_speed"], model.radius
-    dims = (*rollers, "time")
 
     def stack(name: str, places: tuple[str, ...]) -> np.ndarray:
         return np.stack([channel[f"{name}_{place}"] for place in places], axis=-1)
 
-    put(
-        "spin",
-        dims,
-        (ring_speed - slip) / radius,
-        "rad/s",
-        "spin about the roller's axis, relative to the orbiting frame",
-    )
-    put("spin_pure", dims, ring_speed / radius, "rad/s", "spin in pure rolling, relative to the orbiting frame")
-    put("slip", dims, slip, "m/s", "slip at the middle of either raceway contact, ring less roller")
-    put("roller_load", dims, channel["roller_load"], "N", "elastic load of the roller, without body forces")
-    put(
-        "cage_force",
-        dims,
-        channel["cage_load"],
-        "N",
-        "normal force of the cage on the roller, positive along the orbit",
-    )
-    put(
-        "traction",
-        (*dims, "interface"),
-        stack("force", INTERFACES),
-        "N",
-        "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
-    )
-    put("power", (*dims, "interface"), stack("power", INTERFACES), "W", "frictional power")
-    put(
-        "rolling_power",
-        (*dims, "interface"),
-        stack("rolling", INTERFACES),
-        "W",
-        "power of rolling resistance, apart from that of friction",
-    )
-    put(
-        "film_thickness",
-        (*dims, "interface"),
-        stack("film", INTERFACES),
-        "m",
-        "central film thickness; NaN without load",
-    )
+    found = {
+        "spin": (channel["ring_speed"] - channel["slip"]) / model.radius,
+        "spin_pure": channel["ring_speed"] / model.radius,
+        "slip": channel["slip"],
+        "roller_load": channel["roller_load"],
+        "cage_force": channel["cage_load"],
+        "traction": stack("force", INTERFACES),
+        "power": stack("power", INTERFACES),
+        "rolling_power": stack("rolling", INTERFACES),
+        "film_thickness": stack("film", INTERFACES),
+    }
+    return found | {"skew_moment": stack("skew", INTERFACES[:2])} if curved else found
+
+
+def _coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, Any]:
+    """Rows, rollers, interfaces and orbits, and places and mechanisms where contacts tell them apart."""
+    numbers = list(case.roller_numbers)
+    angles = np.array([initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in ROWS])
+    about = {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"}
+    found: dict[str, Any] = {
+        "row": list(ROWS),
+        "roller": ("roller", numbers, {"units": "1", "long_name": "number of the roller in its row"}),
+        "interface": list(INTERFACES),
+        "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),
+        "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
+        "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
+        "start_angle": (_ROLLERS, angles, about),
+    }
     if curved:
-        long_name = "skew moment about the contact normal, positive where traction along +x acts at +z'"
-        put("skew_moment", (*dims, "raceway"), stack("skew", INTERFACES[:2]), "N m", long_name)
+        edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * case.bearing.roller_length
+        middles = 0.5 * (edges_along[1:] + edges_along[:-1])
+        found["mechanism"] = list(MECHANISMS)
+        found["station"] = ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"})
+        found["raceway"] = list(INTERFACES[:2])
+    return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING
@@ -20,6 +19,7 @@ from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import Record, new_record
 from macroslip.integrate.root import rising_at
 from macroslip.loads import BearingLoads, main_bearing_load
+from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
 from macroslip.result.thermal_balance import balanced
 from macroslip.ring.motion import ring_motion
@@ -132,11 +132,6 @@ def _drag_power(case: Case, model: RollerModel, motion: Motion, start: float, en
     speed = np.abs(model.orbit_ratio * np.interp(time, motion.time, motion.shaft_speed))
     power = model.drag * speed**3 * case.bearing.pitch_radius
     return 2 * case.bearing.rollers_per_row * float(np.trapezoid(power, time)) / (end - start)
-
-
-def usable_processors() -> int:
-    """Processors this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:

@@ -211,7 +211,11 @@ def prepare_films(
     if laws.rolling == "none":
         return NoFilms()
     radius = geometry.roller_radius(bearing)
-    curvatures = geometry.inner_curvatures(bearing), geometry.outer_curvatures(bearing), geometry.cage_curvatures(bearing)
+    curvatures = (
+        geometry.inner_curvatures(bearing),
+        geometry.outer_curvatures(bearing),
+        geometry.cage_curvatures(bearing),
+    )
     prepared = []
     for interface, curvature in zip(found, curvatures, strict=True):
         inlet = lubricant.inlet_film

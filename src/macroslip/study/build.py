@@ -18,6 +18,8 @@ from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.study.settings import Setting, replaced, with_settings
 
+#: Keys of the base case's loads: what to read of each file, and the speed of files that have none.
+CUT_KEYS = ("start", "end", "shaft_speed")
 #: Stands in for the loads until they are read: so long that any window lies within it.
 _ANY_LOADS = BearingLoads(np.array([-1e10, 1e10]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
 
@@ -39,7 +41,7 @@ class _TemplateBuilder(CaseBuilder):
 
     def loads(self, given: LoadsKeys) -> BearingLoads:
         """Keep what to cut out of the loads, and leave the rest open."""
-        self.cut = {key: getattr(given, key) for key in ("start", "end") if getattr(given, key) is not None}
+        self.cut = {key: getattr(given, key) for key in CUT_KEYS if getattr(given, key) is not None}
         return _ANY_LOADS
 
 
@@ -51,12 +53,12 @@ def template(
     source: Source | None = None,
     folder: Path | None = None,
 ) -> tuple[Case, dict[str, float]]:
-    """A case with everything but its loads, and what to cut out of them.
+    """A case with everything but its loads, and how to read them.
 
     Parameters
     ----------
     mapping : mapping
-        Base case: keys of a case file, of `loads` only start and end.
+        Base case: keys of a case file, of `loads` only start, end and shaft_speed.
     settings : list of Setting
         Values in place of the base case's.
     records : mapping of str to Record
@@ -85,7 +87,7 @@ def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | B
     path : str
         Path of the file, or name of a bundled case.
     cut : mapping
-        `start` and `end` [s], if the loads are to be cut.
+        `start` and `end` [s], if the loads are to be cut, and `shaft_speed` [rad/s] of files without one.
 
     Raises
     ------
@@ -93,6 +95,12 @@ def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | B
         If they cannot be used, or a file cannot be read.
     """
     try:
+        if "shaft_speed" in cut and source != "file":
+            raise InputError(
+                "shaft_speed is given in the base case, but these loads have a speed",
+                where=path,
+                remedy="Remove loads.shaft_speed; it serves hub loads from files only.",
+            )
         if source == "bundled":
             return HubLoads.bundled(path).window(cut.get("start"), cut.get("end"))
         return (HubLoads if source == "file" else BearingLoads).read(path, **cut)

@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from macroslip.errors import InputError, MacroslipError
-from macroslip.result.simulate import usable_processors
+from macroslip.machine import usable_processors
 from macroslip.study.outcome import Outcome
 from macroslip.study.work import work_several
 from macroslip.study.workers import Done

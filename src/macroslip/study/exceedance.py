@@ -57,6 +57,13 @@ def exceedance(
     """
     import xarray as xr
 
+    missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
+    if missing:
+        raise InputError(
+            f"the results hold no {' and no '.join(missing)}",
+            allowed="a study with results that keep them",
+            remedy="Add them to keep in the study file, and go on with --resume.",
+        )
     bins = binned(study, field, width, by)
     shape = (len(bins.groups), bins.centres.size, study.sizes["row"])
     counts = {name: np.zeros((*shape, THRESHOLDS.size)) for name in ("energy", "power")}

@@ -66,7 +66,7 @@ def tables(
         From `open_study`.
     weights : Weibull or Given, optional
         Without them there are `cases`, `failures`, `worst` and `percentiles`; with them also `lifetime`, `bins`,
-        `exceedance` and, if the study counts cycles, `cycles`.
+        `exceedance`, where results keep what it needs, and, if the study counts cycles, `cycles`.
     years, field, width, by
         As in `macroslip.study.lifetime.lifetime_energy`.
     """
@@ -88,8 +88,9 @@ def tables(
         life.assign({name: life[name].broadcast_like(life.power) for name in _OF_BINS}),
         ["power", "bin_energy", *_OF_BINS],
     )
-    curves = exceedance(study, weights, field=field, width=width, by=by)
-    found["exceedance"] = table(curves, ["energy_orbits", "power_orbits"])
+    if {"orbit_energy", "peak_power"} <= set(study.data_vars):
+        curves = exceedance(study, weights, field=field, width=width, by=by)
+        found["exceedance"] = table(curves, ["energy_orbits", "power_orbits"])
     if "load_cycles" in study:
         found["cycles"] = table(load_spectrum(study, weights, years=years, field=field, width=width, by=by), ["cycles"])
     return found

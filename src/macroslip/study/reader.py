@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import uuid
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -92,6 +92,34 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
             "study": json.dumps(manifest["study"], ensure_ascii=False),
         },
     )
+
+
+def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dataset]]:
+    """Yield the stored results of a study one by one, whole and with their attributes.
+
+    Parameters
+    ----------
+    directory : path
+        Folder that `macroslip study` or `run_study` has written.
+
+    Yields
+    ------
+    (int, xarray.Dataset)
+        Number of the run, the `case` of `open_study`, and its result; runs without a result are left out.
+
+    Raises
+    ------
+    InputError
+        If the folder holds no study, or a stored result is gone or damaged.
+    """
+    import pyarrow.parquet as pq
+
+    directory = Path(directory).absolute()
+    read_manifest(directory)
+    runs = pq.read_table(directory / RUNS, columns=["run"])["run"].to_pylist()
+    for number, record in enumerate(Latest(directory).of(runs)):
+        if record and "detail" in record:
+            yield number, read_result(directory, record["key"], record["detail"])
 
 
 def _about(units: str, long_name: str) -> dict[str, str]:

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 
+from macroslip.bearing.frames import ROWS
 from macroslip.errors import InputError, MacroslipError
 from macroslip.files import make_folder
-from macroslip.result.simulate import usable_processors
+from macroslip.machine import usable_processors
+from macroslip.study.build import template
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
 from macroslip.study.cycles import check_installed as check_fatpack
 from macroslip.study.lock import locked
 from macroslip.study.progress import Progress
 from macroslip.study.session import Ended, Session
+from macroslip.study.settings import RECORDS
 from macroslip.study.store import check_folder
 from macroslip.study.study import Study
 from macroslip.study.study_file import read_study
 from macroslip.study.tables import write_summary
-from macroslip.study.workers import ThisProcess, Workers
+from macroslip.study.workers import ThisProcess, ThreadsHere, Workers
 
 
 def run_study(
@@ -35,8 +39,8 @@ def run_study(
 ) -> Ended:
     """Compute all runs of a study whose results are not there yet.
 
-    Without `workers` and `scheduler` the runs are computed in this process, one after the other. What is computed and
-    stored does not depend on these arguments.
+    Without `workers` and `scheduler` the runs are computed in this process: one after the other, or several at once
+    where there are more threads than rollers in a run. What is computed and stored does not depend on these arguments.
 
     Parameters
     ----------
@@ -91,25 +95,42 @@ def run_study(
         check_folder(directory, resume=resume)  # again, now that nobody else can begin here
         try:
             session = Session(study, directory, progress)
-            with session.opened(), _workers(workers, scheduler, session.note) as pool:
-                if threads is None and not isinstance(pool, ThisProcess):
-                    threads = threads_of_worker(workers)
-                session.go(pool, threads, strict)
+            if workers is not None or scheduler is not None:
+                threads = threads_of_worker(workers) if threads is None else threads
+                pool = cluster(workers, scheduler, session.note)
+                note = f"runs are computed by {scheduler or f'{workers} workers on this machine'}"
+            else:
+                runs, threads = _shared_out(study, threads or usable_processors())
+                pool = _here(runs)
+                note = f"runs are computed in this process, {runs} at once with {threads} threads each"
+            with session.opened(), pool as found:
+                session.note(note)
+                session.go(found, threads, strict)
                 write_summary(directory, study)
             return session.ended
         except OSError as error:
             raise _cannot_store(error, directory) from error
 
 
+def _shared_out(study: Study, threads: int) -> tuple[int, int]:
+    """How many runs to compute at once in this process, and the threads of each: its rollers, if they are few."""
+    records = {noun: next(iter(getattr(study, f"{noun}s").values())) for noun in RECORDS}
+    base, _ = template(study.case, [], records, folder=study.folder)
+    runs = max(1, threads // (len(ROWS) * len(base.roller_numbers)))
+    return runs, threads // runs
+
+
 @contextmanager
-def _workers(workers: int | None, scheduler: str | None, note: Callable[[str], None]) -> Iterator[Workers]:
-    if workers is None and scheduler is None:
-        note(f"runs are computed in this process, which may use {usable_processors()} processors")
+def _here(runs: int) -> Iterator[Workers]:
+    if runs == 1:
+        # In the main thread, where an interrupt waits for the rollers under way only.
         yield ThisProcess()
         return
-    with cluster(workers, scheduler, note) as pool:
-        note(f"runs are computed by {scheduler or f'{workers} workers on this machine'}")
-        yield pool
+    with ThreadPoolExecutor(runs) as pool:
+        try:
+            yield ThreadsHere(pool, runs)
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
 def _cannot_store(error: OSError, directory: Path) -> MacroslipError:

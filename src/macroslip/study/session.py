@@ -238,6 +238,7 @@ def _manifest(study: Study) -> dict[str, Any]:
             "bearings": {name: record.as_dict() for name, record in study.bearings.items()},
             "lubricants": {name: record.as_dict() for name, record in study.lubricants.items()},
             "cycles": study.cycles,
+            "keep": study.keep,
         },
         "study": study.content,
     }

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 #: What has values of its own, each of which can be replaced.
 RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
+#: Keys that change several values of a record together, with the quantity whose units they have.
+_TOGETHER = {"lubricant.at": "inlet_temperature"}
 #: Keys of a case that have a place of their own in a study.
 _ELSEWHERE = {"loads": "loads", "bearing": "bearings", "lubricant": "lubricants"}
 _QUANTITY = re.compile(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,])\s*(?P<unit>\S.*?)\s*")
@@ -104,6 +106,7 @@ class Setting:
         read_value(field, self.text, place, FORM_ONLY)
 
     def _check_entry(self, record: type[Record], key: str, place: Place) -> None:
+        key = _TOGETHER.get(self.key, key)
         if key not in dimensions(record):
             raise unknown_key(self.key, (f"{record.noun}.{one}" for one in dimensions(record)), where=place.where)
         if not is_finite_number(self.value):
@@ -146,8 +149,14 @@ def replaced(record: Record, settings: list[Setting]) -> Record:
     (0.0002, 'U')
     """
     head = f"{record.noun}."
-    entries = {one.key.removeprefix(head): one.entry for one in settings if one.key.startswith(head)}
-    return type(record).from_dict(record.as_dict() | entries) if entries else record
+    own = [one for one in settings if one.key.startswith(head)]
+    entries = {one.key.removeprefix(head): one.entry for one in own if one.key not in _TOGETHER}
+    result = type(record).from_dict(record.as_dict() | entries) if entries else record
+    for one in own:
+        if one.key == "lubricant.at":
+            temperature, _ = read_entry("at", one.entry, dimensions(type(record))[_TOGETHER[one.key]], Source())
+            result = result.at(temperature)
+    return result
 
 
 @functools.cache

@@ -74,6 +74,8 @@ class Study:
         Units of the parameters that vary, by key.
     cycles : bool
         Whether to count the cycles of the bearing's load.
+    keep : sequence of str, optional
+        Variables of a result to store; None: all.
     content : mapping
         The study file as plain data, for the record.
     """
@@ -89,6 +91,7 @@ class Study:
     variations: Sequence[Sequence[Setting]]
     parameters: Mapping[str, str]
     cycles: bool = False
+    keep: Sequence[str] | None = None
     content: Mapping[str, Any] = field(default_factory=dict)
 
     def __len__(self) -> int:

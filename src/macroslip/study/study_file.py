@@ -116,6 +116,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         variations=combinations,
         parameters=parameters,
         cycles=values.get("cycles", False),
+        keep=values.get("keep"),
         content=dict(data),
     )
 

@@ -13,6 +13,7 @@ from macroslip.catalogue.input_section import MappingOf, detail_of, details_insi
 from macroslip.catalogue.problems import shown
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
+from macroslip.result.dataset import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Sample
 
@@ -24,7 +25,7 @@ KINDS = ("hub", "main-bearing")
 class BaseCase(Form):
     """The keys of a case file; what stands under them is checked by the reader of case files."""
 
-    form = "the keys of a case file, of loads only start and end"
+    form = "the keys of a case file, of loads only start, end and shaft_speed"
 
     def read(self, value: Any, info: Any) -> dict[str, Any]:
         """Check that the loads are left to the study."""
@@ -37,10 +38,10 @@ class BaseCase(Form):
         problems = [
             detail_of(
                 ("loads", str(key)),
-                InputError(f"the key '{key}' cannot stand here", allowed="start, end", remedy=remedy),
+                InputError(f"the key '{key}' cannot stand here", allowed="start, end, shaft_speed", remedy=remedy),
             )
             for key in loads
-            if key not in ("start", "end")
+            if key not in ("start", "end", "shaft_speed")
         ]
         if problems:
             raise ValidationError.from_exception_data("case", problems)
@@ -120,6 +121,21 @@ class Values(Form):
         return {"type": "array", "minItems": 1, "uniqueItems": True}
 
 
+@dataclass(frozen=True)
+class Variables(Texts):
+    """Names of variables of a result."""
+
+    form = f"a list of variables of a result: {', '.join(VARIABLES)}"
+
+    def read(self, value: Any, info: Any) -> list[str]:
+        """Check every name."""
+        names = super().read(value, info)
+        wrong = [name for name in names if name not in VARIABLES]
+        if wrong:
+            raise InputError(f"it is {shown(wrong[0])}", allowed=self.form, remedy=f"It is the {self.about}.")
+        return names
+
+
 @input_section("grid", "values of one parameter")
 class Axis:
     """Values of one parameter."""
@@ -182,7 +198,9 @@ class StudyFile:
     """The keys at the top of a study file."""
 
     title: Annotated[str, Text("what the study is about", may_be_empty=True)] = ""
-    case: Annotated[dict[str, Any], BaseCase("base case: the keys of a case file; of loads only start and end")] = None
+    case: Annotated[
+        dict[str, Any], BaseCase("base case: the keys of a case file; of loads only start, end and shaft_speed")
+    ] = None
     loads: StudyLoads
     bearings: Annotated[list[str], Texts("bearings: names of the catalogue, or paths of bearing files")] = None
     lubricants: Annotated[list[str], Texts("lubricants: names of the catalogue, or paths of lubricant files")] = None
@@ -196,3 +214,4 @@ class StudyFile:
     ] = None
     variations: Variations = Variations()
     cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False
+    keep: Annotated[list[str] | None, Variables("variables of a result to store; all if left out")] = None

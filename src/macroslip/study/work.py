@@ -18,7 +18,7 @@ from macroslip.study.key import case_key, program
 from macroslip.study.outcome import Outcome
 from macroslip.study.settings import RECORDS, Setting
 from macroslip.study.store import case_path, checksum, layout, read_manifest, to_bytes
-from macroslip.study.summary import case_values, row_values
+from macroslip.study.summary import case_values, kept, row_values
 
 
 class StoreError(MacroslipError):
@@ -51,13 +51,13 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     record: dict[str, Any] = {"run": task["run"], "program": program()}
     try:
         setup = _setup(task["directory"], task["setup"])
-        case, loads = _case(setup, task)
-        options = {"cycles": setup["cycles"]}
+        case = _case(setup, task)
+        options = {name: setup[name] for name in ("cycles", "keep")}
         record["key"] = case_key(case, options)
         path = case_path(Path(task["directory"]), record["key"])
         if not task["again"] and (stored := _stored(path)) is not None:
             return record | {"found": True, "detail": checksum(stored)}
-        result, values = _computed(case, loads, setup["cycles"], task["threads"])
+        result, values = _computed(case, options, task["threads"])
     except StoreError:
         raise
     except InputError as problem:
@@ -117,20 +117,20 @@ def _setup(directory: str, expected: str) -> dict[str, Any]:
     return setup | {"records": records}
 
 
-def _case(setup: dict[str, Any], task: dict[str, Any]) -> tuple[Case, HubLoads | BearingLoads]:
+def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
     settings = [Setting(*one) for one in task["settings"]]
     records = {noun: setup["records"][noun][task[noun]] for noun in RECORDS}
     case, cut = template(setup["case"], settings, records, folder=Path(setup["folder"]))
     loads = _loads(task["session"], setup["source"], task["load"], tuple(sorted(cut.items())))
     try:
-        return replace(case, loads=loads), loads
+        return replace(case, loads=loads)
     except InputError as problem:
         raise InputError(
             problem.what, where=f"{loads.source}, {problem.where}", allowed=problem.allowed, remedy=problem.remedy
         ) from None
 
 
-@functools.lru_cache(maxsize=1)
+@functools.lru_cache(maxsize=2)
 def _loads(session: str, source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
     """Read a load history; runs with the same one follow each other. A session takes a file as it finds it."""
     return read_loads(source, path, dict(cut))
@@ -143,17 +143,20 @@ def _stored(path: Path) -> bytes | None:
         return None
 
 
-def _computed(case: Case, loads: HubLoads | BearingLoads, cycles: bool, threads: int | None) -> tuple[Any, dict]:
+def _computed(case: Case, options: dict[str, Any], threads: int | None) -> tuple[Any, dict]:
+    """What is stored of a case, and the numbers of its summary."""
     from macroslip.result.simulate import simulate
 
     started = time.perf_counter()
     result = simulate(case, threads=threads)
     seconds = time.perf_counter() - started
-    values: dict[str, Any] = row_values(result) | case_values(result, loads)
+    values: dict[str, Any] = row_values(result) | case_values(result, case)
     values["simulate_seconds"] = seconds
-    if cycles:
+    result = kept(result, options["keep"])
+    if options["cycles"]:
         from macroslip.study.cycles import counted
 
+        loads = case.loads
         on_bearing = loads if isinstance(loads, BearingLoads) else main_bearing_load(loads, case.drivetrain)
         result = result.merge(counted(on_bearing))
     return result, values

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any, Protocol
 
 from macroslip.study.work import work_several
@@ -44,3 +45,31 @@ class ThisProcess:
             return []
         task = self._tasks.popleft()
         return [(task, work_several([task])[0])]
+
+
+class ThreadsHere:
+    """Several runs at once in threads of this process, where the rollers of one run do not fill its processors.
+
+    Parameters
+    ----------
+    pool : ThreadPoolExecutor
+    runs : int
+        Runs at once.
+    """
+
+    def __init__(self, pool: ThreadPoolExecutor, runs: int):
+        self._pool, self._runs = pool, runs
+        self._under_way: dict[Future, dict[str, Any]] = {}
+
+    def free_places(self) -> int:
+        """As many as run at once."""
+        return self._runs - len(self._under_way)
+
+    def submit(self, tasks: list[dict[str, Any]]) -> None:
+        """Begin the tasks."""
+        self._under_way |= {self._pool.submit(work_several, [task]): task for task in tasks}
+
+    def wait(self) -> list[Done]:
+        """Wait until one or more are done."""
+        done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
+        return [(self._under_way.pop(future), future.result()[0]) for future in done]

@@ -131,7 +131,10 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
     roller = (result.spin * model.radius).transpose("row", "roller", "time")
     found = []
     # Positive speeds are those of a ring that turns back at the inner raceway, forth at the outer one.
-    for name, arm in (("inner", -geometry.inner_contact_radius(bearing)), ("outer", geometry.outer_contact_radius(bearing))):
+    for name, arm in (
+        ("inner", -geometry.inner_contact_radius(bearing)),
+        ("outer", geometry.outer_contact_radius(bearing)),
+    ):
         here = {"interface": name}
         friction, power, rolling = (
             result[each].sel(here, drop=True).transpose("row", "roller", "time")

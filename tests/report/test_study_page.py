@@ -1,0 +1,99 @@
+"""The page on a study: numbers of its tables, what it leaves open, and that names in it stay text."""
+
+import re
+
+import pytest
+
+from macroslip import open_study, run_study
+from macroslip.report.study_page import CLASS_ONE, is_study, study_page
+from macroslip.study.lifetime import lifetime_energy, worst
+from macroslip.study.study_file import study_of
+from macroslip.study.weights import Weibull
+
+
+def opened(folder, **further):
+    content = {
+        "title": "Clearances <b>",
+        "case": {"rollers": [0], "loads": {"end": "16 s"}},
+        "loads": {"bundled": ["12A", "18B"]},
+        "models": {"base": {}, "refused": {"bearing.osculation_outer": 1.5}},
+    }
+    run_study(study_of(content | further), folder)
+    return open_study(folder)
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("study") / "out"
+    found = opened(folder)
+    assert is_study(folder) and not is_study(folder.parent)
+    return found
+
+
+@pytest.fixture(scope="module")
+def page(study):
+    return study_page(study, title="Mine <i>")
+
+
+def section(page, name):
+    (text,) = re.findall(rf'<section[^>]*id="{name}".*?</section>', page, re.DOTALL)
+    return text
+
+
+def test_the_answer_counts_what_failed(page):
+    assert "2 of 4 runs completed, 2 FAILED, 0 are missing." in section(page, "answer")
+
+
+def test_lifetime_energy_is_that_of_the_function(page, study):
+    life = lifetime_energy(study, CLASS_ONE)
+    for row in ("downwind", "upwind"):
+        assert f"{float(life.lifetime_energy.isel(group=0).sel(row=row)):.4g}" in section(page, "lifetime")
+    assert f"{100.0 * float(life.covered):.0f} % of all time" in page
+    assert "Rayleigh distribution with a mean of 10 m/s" in page
+
+
+def test_class_one_has_a_mean_of_ten_metres_a_second():
+    from scipy.stats import weibull_min
+
+    assert weibull_min(CLASS_ONE.shape, scale=CLASS_ONE.scale).mean() == pytest.approx(10.0, rel=1e-4)
+
+
+def test_weights_of_ones_own(study):
+    own = Weibull(9.0, 2.2)
+    page = study_page(study, title="x", weights=own)
+    assert "scale 9 m/s and shape 2.2" in page
+    life = lifetime_energy(study, own).lifetime_energy.isel(group=0).sel(row="downwind")
+    assert f"{float(life):.4g}" in section(page, "lifetime")
+
+
+def test_the_worst_case_heads_its_table(page, study):
+    first = worst(study, "peak_power_max", count=1).isel(rank=0)
+    table = section(page, "worst").split("<caption>By peak_power_max")[1]
+    heading, *_ = table.split("<tbody>")[1].split("</tr>")
+    assert f"<td>{first.loads.item()}</td>" in heading and f"<td>{first.row.item()}</td>" in heading
+    assert f"{float(first.peak_power_max):.4g}" in heading
+
+
+def test_exceedance_has_a_picture_of_energy_and_of_power(page):
+    assert section(page, "exceedance").count("<img") == 2
+
+
+def test_failures_have_their_reasons(page):
+    failures = section(page, "failures")
+    assert failures.count("osculation_outer is 1.5") == 2
+    assert "12A" in failures and "18B" in failures
+
+
+def test_names_stay_text_and_the_page_refers_to_nothing_outside(page):
+    assert "<h1>Mine &lt;i&gt;</h1>" in page
+    assert "Clearances <b>" not in page and "Clearances &lt;b&gt;" in page
+    assert re.findall(r"""(?:src|href)=["'](?!data:|#)""", page) == []
+
+
+def test_without_wind_speeds_and_energies_of_orbits_the_page_says_so(tmp_path):
+    kept = opened(tmp_path / "out", keep=["energy"], models={"base": {}})
+    assert "orbit_energy" not in kept and "energy" in kept
+    page = study_page(kept.drop_vars("wind_speed"), title="x")
+    assert "There is no lifetime energy" in section(page, "lifetime")
+    assert "the results hold no orbit_energy" in section(page, "exceedance")
+    assert "No run failed" in section(page, "failures")
