@@ -10,7 +10,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from macroslip import BackwardEuler, BearingLoads, Case, Drivetrain, ExplicitEuler, Heat, HubLoads, InputError, Laws, Radau
+from macroslip import (
+    BackwardEuler,
+    BearingLoads,
+    Case,
+    Drivetrain,
+    ExplicitEuler,
+    Heat,
+    HubLoads,
+    InputError,
+    Laws,
+    Radau,
+)
 from macroslip.case.case_file import case_schema, read_case
 
 DATA = Path(__file__).parents[1] / "data"

@@ -18,7 +18,6 @@ from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 
-
 #: The word for a temperature that follows from friction and the loss of heat.
 BALANCE = "balance"
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS
 from macroslip.case.case import BackwardEuler, Case, ExplicitEuler, Radau, Traces
-from macroslip.result.simulate import simulate
 from macroslip.integrate.load_zone import relaxation_rate
+from macroslip.result.simulate import simulate
 from macroslip.roller.model import RollerModel, roller_model
 
 if TYPE_CHECKING:
