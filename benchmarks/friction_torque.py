@@ -110,7 +110,9 @@ def _draw(found: dict[str, list[Torque]], output: str) -> None:
             ("skf_sliding", "C0", "--"), ("skf_rolling", "C1", "--"), ("skf", "k", "--"), ("palmgren", "C4", ":"),
         )  # fmt: skip
         for part, colour, style in lines:
-            label = part.replace("skf_sliding", "SKF M_sl").replace("skf_rolling", "SKF M_rr").replace("skf", "SKF, all")
+            label = (
+                part.replace("skf_sliding", "SKF M_sl").replace("skf_rolling", "SKF M_rr").replace("skf", "SKF, all")
+            )
             axis.plot(place, [getattr(one, part) for one in found[key]], style, color=colour, label=label)
         axis.set_xlabel(f"{name} [{unit.replace('degC', '°C')}]")
     axes[0].set_ylabel("friction torque [N m]")
@@ -135,7 +137,9 @@ def wind() -> None:
             every.append(one)
             parts = (one.sliding, one.rolling, one.cage, one.drag, one.total)
             others = (one.skf_sliding, one.skf_rolling, one.skf, one.palmgren, power)
-            print(f"| {speed}{turbulence} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |", flush=True)
+            print(
+                f"| {speed}{turbulence} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |", flush=True
+            )
     rolling = np.array([one.rolling / one.skf_rolling for one in every])
     total = np.array([one.total / one.skf for one in every])
     sliding = np.array([one.sliding / one.skf_sliding for one in every])
@@ -160,7 +164,9 @@ def compare_inlets() -> None:
         ("Eyring, 6.7 MPa", oil, {"rheology": "eyring"}),
         ("Eyring, 3.3 MPa", oil.replace(eyring_stress=3.3e6), {"rheology": "eyring"}),
     ):
-        one = torque(Case(loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**changes), lubricant=lubricant), loads)
+        one = torque(
+            Case(loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**changes), lubricant=lubricant), loads
+        )
         print(
             f"| {name} | {one.sliding:.0f} | {one.rolling:.0f} | {one.cage:.0f} | {one.total:.0f} | "
             f"{one.rolling / one.skf_rolling:.2f} | {one.total / one.skf:.2f} |",

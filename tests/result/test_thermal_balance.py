@@ -65,9 +65,7 @@ def test_at_the_balance_friction_heats_as_much_as_is_lost():
     assert 288.15 < float(less.inlet_temperature) < float(result.inlet_temperature)
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"), [("50 degC", 323.15), ("323 K", 323.0), ("balance", "balance")]
-)
+@pytest.mark.parametrize(("text", "expected"), [("50 degC", 323.15), ("323 K", 323.0), ("balance", "balance")])
 def test_keys_of_a_case_file(tmp_path, text, expected):
     path = tmp_path / "case.yaml"
     path.write_text(
