@@ -24,6 +24,7 @@ _HOMES = {
     "Radau": "macroslip.case.case",
     "ExplicitEuler": "macroslip.case.case",
     "BackwardEuler": "macroslip.case.case",
+    "Heat": "macroslip.case.case",
     "Window": "macroslip.case.case",
     "Traces": "macroslip.case.case",
     "read_case": "macroslip.case.case_file",

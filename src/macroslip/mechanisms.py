@@ -35,6 +35,9 @@ class Laws:
         Whether slip varies along the roller, by the contact's curvature and by the contact angle.
     asperities : str
         Name of a law for the share of the load that asperities carry, with `boundary_friction`; "none" without them.
+    rolling : "none", "inlet" or "whole-film"
+        Rolling resistance of the contacts and the cage, with the films of rollers that have play: none, that of the
+        inlets as published, or that of whole films; with the lubricant's `fullness` and `inlet_film`.
     traction : str
         "mechanisms": built from the choices above. Otherwise the name of a registered traction law, which replaces
         viscosity, rheology, heating and microslip.
@@ -60,10 +63,16 @@ class Laws:
     heating: bool = True
     microslip: bool = False
     asperities: str = "none"
+    rolling: str = "none"
     traction: str = MECHANISMS
 
     def __post_init__(self) -> None:
-        for name, choices in (("viscosity", viscosities), ("rheology", rheologies), ("asperities", asperity_laws)):
+        for name, choices in (
+            ("viscosity", viscosities),
+            ("rheology", rheologies),
+            ("asperities", asperity_laws),
+            ("rolling", rolling_laws),
+        ):
             value = getattr(self, name)
             # Names are asked for when one is not the default, so that kernels need not be imported to read a case.
             if value != _DEFAULTS[name] and value not in choices():
@@ -94,7 +103,8 @@ class Laws:
     def physical(cls) -> Laws:
         """All mechanisms.
 
-        Film for every load, starved and heated in the inlet; Roelands; limiting shear; microslip; asperities.
+        Film for every load, starved and heated in the inlet; Roelands; limiting shear; microslip; asperities;
+        rolling resistance of whole films.
         """
         return cls(
             film="masjedi-khonsari-moes",
@@ -104,6 +114,7 @@ class Laws:
             rheology="limiting-shear",
             microslip=True,
             asperities="masjedi-khonsari",
+            rolling="whole-film",
         )
 
     @classmethod
@@ -165,6 +176,13 @@ def asperity_laws() -> list[str]:
     from macroslip.film import asperity_load
 
     return asperity_load.names()
+
+
+def rolling_laws() -> list[str]:
+    """Names of the laws for rolling resistance."""
+    from macroslip.rolling.law import REFERENCES
+
+    return list(REFERENCES)
 
 
 def _word(value: Any) -> str:

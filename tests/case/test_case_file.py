@@ -10,7 +10,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from macroslip import BackwardEuler, BearingLoads, Case, Drivetrain, ExplicitEuler, HubLoads, InputError, Laws, Radau
+from macroslip import (
+    BackwardEuler,
+    BearingLoads,
+    Case,
+    Drivetrain,
+    ExplicitEuler,
+    Heat,
+    HubLoads,
+    InputError,
+    Laws,
+    Radau,
+)
 from macroslip.case.case_file import case_schema, read_case
 
 DATA = Path(__file__).parents[1] / "data"
@@ -40,12 +51,14 @@ def test_every_key_arrives_in_si(write):
         write(f"""
 bearing: skf-240-600-bc
 lubricant: vg460-pao
+temperature: 50 degC
+heat: {{conductance: 60 W/K, ambient: 20 degC}}
 loads: {{file: {DATA / "sample14B.outb"}, start: 61 s, end: 71 s}}
 drivetrain: {{hub_to_bearing: 1300 mm, bearing_to_gearbox: 2.1 m, tilt: 6 deg,
              shaft_mass: 9000 kg, shaft_mass_station: 2 m}}
 forces: {{gravity: false, drag: true}}
 laws: {{model: physical, film: moes, starvation: false, inlet_heating: false, viscosity: barus, rheology: eyring,
-       heating: false, microslip: false, asperities: film-ratio, traction: mechanisms}}
+       heating: false, microslip: false, asperities: film-ratio, rolling: inlet, traction: mechanisms}}
 integrator: {{method: radau, tolerance: 1e-5, max_steps: 1000}}
 window: {{start: 62 s, end: 70.5 s}}
 rollers: [0, 7]
@@ -57,9 +70,10 @@ traces: {{step: 10 ms, start: 63 s, end: 64 s}}
         hub_to_bearing=1.3, bearing_to_gearbox=2.1, tilt=6 * math.pi / 180, shaft_mass=9000.0, shaft_mass_station=2.0
     )
     assert (case.gravity, case.drag, case.rollers) == (False, True, (0, 7))
+    assert (case.temperature, case.heat) == (323.15, Heat(conductance=60.0, ambient=293.15))
     assert case.laws == Laws(
         film="moes", starvation=False, inlet_heating=False, viscosity="barus", rheology="eyring", heating=False,
-        microslip=False, asperities="film-ratio", traction="mechanisms",
+        microslip=False, asperities="film-ratio", rolling="inlet", traction="mechanisms",
     )  # fmt: skip
     assert case.integrator == Radau(tolerance=1e-5, max_steps=1000)
     assert (case.window.start, case.window.end) == (62.0, 70.5)

@@ -39,8 +39,8 @@ def told(tmp_path):
         ),
         (
             LOADS + "weather: fair\n",
-            "case.yaml, line 2: the key 'weather' is unknown. Allowed: bearing, lubricant, loads, drivetrain, "
-            "forces, laws, integrator, window, rollers, traces, rating. Remove it.",
+            "case.yaml, line 2: the key 'weather' is unknown. Allowed: bearing, lubricant, temperature, "
+            "heat, loads, drivetrain, forces, laws, integrator, window, rollers, traces, rating. Remove it.",
         ),
         (
             "rollers: all\n",

@@ -34,6 +34,8 @@ def test_base_lubricant_has_the_specified_values_in_si(base):
         "temperature_viscosity": 0.056, "thermal_conductivity": 0.125, "density": 900.0, "fill_factor": 0.7,
         "drag_coefficient": 1.0, "limiting_shear": 0.042, "eyring_stress": 6.7e6, "boundary_friction": 0.1,
         "starvation": 0.7,
+        "fullness": 0.3,
+        "inlet_film": 30.0,
     }  # fmt: skip
 
 
@@ -63,6 +65,7 @@ def test_other_units_give_the_same(base):
         ("temperature_viscosity", 0, 1.1), ("thermal_conductivity", 0, 10.1), ("density", 99, 5001),
         ("fill_factor", -0.1, 1.1), ("drag_coefficient", -0.1, 101), ("limiting_shear", 0, 0.6),
         ("eyring_stress", 9e3, 1.1e9), ("boundary_friction", -0.1, 1.1), ("starvation", 0, 1.1),
+        ("fullness", 0.009, 1.1), ("inlet_film", 1.0, 1.1e6),
     ],
 )  # fmt: skip
 def test_every_quantity_has_a_range(base, key, low, high):

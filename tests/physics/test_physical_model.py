@@ -36,7 +36,8 @@ from macroslip.roller.model import ring_geometry, roller_model
 from macroslip.traction.film_shear_law import microslip_traction
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
-FULL, PAPER = Laws.physical(), Laws.paper()
+# The oil around the rollers has tests of its own, tests/roller/test_films.py.
+FULL, PAPER = Laws.physical().but(rolling="none"), Laws.paper()
 RATED = 20.463 * 2 * math.pi / 60
 RADIUS = 0.035
 START = Window(start=0.0)
@@ -170,10 +171,10 @@ def test_net_skew_moment_of_a_held_roller_is_the_small_difference_of_its_raceway
     So the moments have opposite signs, and the net one is smaller than either.
     """
     loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.1, 8.0)
-    case = Case(loads=loads, rollers=[0], laws=Laws.physical(), traces=Traces(step=0.02, start=3.0))
+    case = Case(loads=loads, rollers=[0], laws=FULL, traces=Traces(step=0.02, start=3.0))
     found = simulate(case).isel(roller=0).sel(row="downwind")
     at = found.isel(time=int(found.roller_load.argmax("time")))
-    model = roller_model(BEARING, OIL, 1, tilt=case.drivetrain.tilt, laws=Laws.physical())
+    model = roller_model(BEARING, OIL, 1, tilt=case.drivetrain.tilt, laws=FULL)
     load, slip = float(at.roller_load), float(at.slip)
     ring_speed = float(at.spin_pure) * model.radius
     along_x = 0.0

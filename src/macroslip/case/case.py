@@ -5,19 +5,22 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
-from numbers import Integral
+from numbers import Integral, Real
 from typing import Annotated, Any
 
 from macroslip.bearing import Bearing
 from macroslip.catalogue.forms import Quantity, Whole
 from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import shown
-from macroslip.catalogue.units import NUMBER, TIME
+from macroslip.catalogue.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.overview import html_overview
+
+#: The word for a temperature that follows from friction and the loss of heat.
+BALANCE = "balance"
 
 
 def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") -> None:
@@ -112,6 +115,26 @@ class Traces:
     end: Annotated[float | None, Quantity("last time", TIME)] = None
 
 
+@input_section("heat", "how the bearing loses its heat, for temperature: balance")
+class Heat:
+    """How the bearing loses the heat of its friction to its surroundings.
+
+    Parameters
+    ----------
+    conductance : float
+        Heat flow per kelvin [W/K]; 40 to 80 is an estimate for the main bearing of a 2 MW turbine.
+    ambient : float
+        Temperature of the surroundings [K].
+    """
+
+    conductance: Annotated[
+        float, Quantity("heat flow to the surroundings per kelvin", CONDUCTANCE, 0.0, above=True, name="conductance")
+    ]
+    ambient: Annotated[
+        float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15, name="ambient temperature")
+    ]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
     """One simulation.
@@ -121,6 +144,11 @@ class Case:
     loads : HubLoads or BearingLoads
     bearing : Bearing
     lubricant : Lubricant
+    temperature : float or "balance", optional
+        Of the oil at the inlets of the contacts [K]; None: that for which the lubricant's values are given. "balance":
+        the one at which friction power is what the bearing loses by `heat`.
+    heat : Heat, optional
+        Goes with "balance".
     drivetrain : Drivetrain
         Turns hub loads into main-bearing load; its tilt also directs the rollers' weight.
     gravity, drag : bool
@@ -151,6 +179,8 @@ class Case:
     loads: HubLoads | BearingLoads
     bearing: Bearing = field(default_factory=lambda: Bearing.read("skf-240-600-bc"))
     lubricant: Lubricant = field(default_factory=lambda: Lubricant.read("vg460-pao"))
+    temperature: float | str | None = None
+    heat: Heat | None = None
     drivetrain: Drivetrain = field(default_factory=Drivetrain)
     gravity: bool = True
     drag: bool = True
@@ -177,6 +207,7 @@ class Case:
             value = getattr(self, name)
             allowed = " or ".join(kind.__name__ for kind in kinds)
             _check(isinstance(value, kinds), f"it is {type(value).__name__}", name, allowed)
+        self._check_temperature()
         object.__setattr__(self, "rollers", _rollers(self.rollers, self.bearing.rollers_per_row))
         first, last = float(self.loads.time[0]), float(self.loads.time[-1])
         start = first if self.window.start is None else self.window.start
@@ -196,6 +227,45 @@ class Case:
                 "traces",
                 f"times within the loads' {first:g} s to {last:g} s",
             )
+
+    def _check_temperature(self) -> None:
+        given = self.temperature
+        words = "a temperature [K], 'balance', or None for the lubricant's own"
+        if isinstance(given, str):
+            _check(given == BALANCE, f"it is {shown(given)}", "temperature", words)
+            _check(
+                isinstance(self.heat, Heat),
+                "temperature is to balance, and nothing says how the bearing loses heat",
+                "heat",
+                "conductance to the surroundings and their temperature",
+                "40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine.",
+            )
+        elif given is not None:
+            _check(
+                isinstance(given, Real) and not isinstance(given, bool), f"it is {shown(given)}", "temperature", words
+            )
+            object.__setattr__(self, "temperature", float(given))
+            self.lubricant.at(float(given))
+
+    @property
+    def oil(self) -> Lubricant:
+        """The lubricant at the temperature of the inlets; what everything that computes has to take.
+
+        Raises
+        ------
+        InputError
+            If the temperature is still to be found.
+        """
+        if self.temperature is None:
+            return self.lubricant
+        _check(
+            self.temperature != BALANCE,
+            "the temperature is that of a balance of heat, which only a simulation finds",
+            "temperature",
+            "a temperature",
+            "Give the temperature of the oil; inlet_temperature of a result has the one it found.",
+        )
+        return self.lubricant.at(self.temperature)
 
     @property
     def roller_numbers(self) -> tuple[int, ...]:
@@ -220,6 +290,8 @@ class Case:
             },
             "bearing": self.bearing.as_dict(),
             "lubricant": self.lubricant.as_dict(),
+            "temperature": self.temperature,
+            "heat": asdict(self.heat) if self.heat else None,
             "drivetrain": asdict(self.drivetrain),
             "forces": {"gravity": self.gravity, "drag": self.drag},
             "laws": {"model": self.laws.name, **asdict(self.laws)},

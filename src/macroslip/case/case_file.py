@@ -189,6 +189,8 @@ class CaseBuilder:
 _PARTS: dict[str, Callable[[CaseBuilder, Any], dict[str, Any]] | None] = {
     "bearing": lambda builder, name: {"bearing": builder.record(Bearing, name)},
     "lubricant": lambda builder, name: {"lubricant": builder.record(Lubricant, name)},
+    "temperature": None,
+    "heat": None,
     "loads": lambda builder, given: {"loads": builder.loads(given)},
     "drivetrain": None,
     "forces": lambda builder, given: asdict(given),

@@ -10,15 +10,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from macroslip.case.case import BackwardEuler, ExplicitEuler, Radau, Traces, Window
+from macroslip.case.case import BALANCE, BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
 from macroslip.catalogue.forms import Choice, Flag, Form, Quantity, Text, Vector
 from macroslip.catalogue.input_section import OrWord, Variants, input_section
 from macroslip.catalogue.problems import shown
-from macroslip.catalogue.units import FORCE, MOMENT, SPEED, TIME
+from macroslip.catalogue.units import FORCE, MOMENT, SPEED, TEMPERATURE, TIME
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, bundled_cases
-from macroslip.mechanisms import NAMED_SETS, asperity_laws, rheologies, viscosities
+from macroslip.mechanisms import NAMED_SETS, asperity_laws, rheologies, rolling_laws, viscosities
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
@@ -98,6 +98,7 @@ class LawsKeys:
     heating: Annotated[bool | None, Flag("shear heating of the film")] = None
     microslip: Annotated[bool | None, Flag("slip that varies along the roller")] = None
     asperities: Annotated[str | None, Choice("share of the load that asperities carry", asperity_laws)] = None
+    rolling: Annotated[str | None, Choice("rolling resistance, and films of rollers with play", rolling_laws)] = None
     traction: Annotated[
         str | None,
         Choice("mechanisms, or a traction law of your own in their place", _traction_laws, _OWN_LAW),
@@ -122,12 +123,30 @@ class RollerNumbers(Form):
         return {"anyOf": [{"const": "all"}, numbers]}
 
 
+@dataclass(frozen=True)
+class InletTemperature(Quantity):
+    """A temperature, or the word balance."""
+
+    words: tuple[str, ...] = (BALANCE,)
+
+    def read(self, value: Any, info: Any) -> float | str | None:
+        """The word, or the temperature [K]."""
+        return BALANCE if isinstance(value, str) and value == BALANCE else super().read(value, info)
+
+
 @input_section("case", "everything one simulation needs")
 class CaseFile:
     """The keys at the top of a case file."""
 
     bearing: Annotated[str | None, Text("bearing: a name of the catalogue, or the path of a bearing file")] = None
     lubricant: Annotated[str | None, Text("lubricant: a name of the catalogue, or the path of a lubricant file")] = None
+    temperature: Annotated[
+        float | str | None,
+        InletTemperature(
+            "oil at the inlets of the contacts; without it that of the lubricant's values", TEMPERATURE, 253.15, 423.15
+        ),
+    ] = None
+    heat: Heat | None = None
     loads: LoadsKeys
     drivetrain: Drivetrain = Drivetrain()
     forces: Forces = Forces()

@@ -66,7 +66,11 @@ def film_ratio_share(film_ratio):
 
     Notes
     -----
-    A fit used in public models of rolling contacts (tag V); its first publication was not found.
+    A fit to measured surfaces of rolling bearings (tag V).
+
+    References
+    ----------
+    Wingertszahn et al., Lubricants 11 (2023) 369, doi:10.3390/lubricants11090369.
 
     Examples
     --------
@@ -163,4 +167,4 @@ def _load_ratio(interface: Interface) -> AsperityLoad:
 
 _kinds.add("none", _none, "")
 _kinds.add("masjedi-khonsari", _load_ratio, "Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514")
-_kinds.add("film-ratio", _film_ratio, "exp(-2.32 Lambda^0.97), as in public models of rolling contacts")
+_kinds.add("film-ratio", _film_ratio, "Wingertszahn et al., Lubricants 11 (2023) 369, doi:10.3390/lubricants11090369")

@@ -11,7 +11,7 @@ from macroslip.integrate.detail import book_stage, book_step
 from macroslip.integrate.held_contact import slips_everywhere
 from macroslip.integrate.peak import follow_peak, follow_step
 from macroslip.integrate.radau_step import WEIGHTS
-from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak
+from macroslip.integrate.record import add_energy, add_rolling, note_state, orbit_at, powers, raise_peak
 from macroslip.integrate.stages import between_stages
 from macroslip.integrate.surface import Way
 from macroslip.integrate.tuning import ASTRAY, PEAK_PARTS, RESOLVED, SLIP_SHARE, SNAP
@@ -133,6 +133,9 @@ def _book_details(record, path, step, stages, found, orbit):
     """Book ranges of the film law at the end of the step, and what curved contacts add."""
     model, h, at3 = path.model, step.length, step.at3
     note_state(record, model, at3, stages.f3, stages.v3, h)
+    add_rolling(record, stages.f1.rolling_power, h * WEIGHTS[0])
+    add_rolling(record, stages.f2.rolling_power, h * WEIGHTS[1])
+    add_rolling(record, stages.f3.rolling_power, h * WEIGHTS[2])
     book_stage(record, model, step.at1, stages.f1, stages.v1, h * WEIGHTS[0])
     book_stage(record, model, step.at2, stages.f2, stages.v2, h * WEIGHTS[1])
     book_stage(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])

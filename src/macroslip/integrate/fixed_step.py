@@ -8,7 +8,7 @@ from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
 from macroslip.integrate.detail import book_stage, book_step, in_stages
 from macroslip.integrate.explicit_euler import explicit_euler_step
-from macroslip.integrate.record import add_energy, note_state, orbit_at, powers, raise_peak, write_traces
+from macroslip.integrate.record import add_energy, add_rolling, note_state, orbit_at, powers, raise_peak, write_traces
 from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, INTERRUPTED, NO_ROOT, NOT_FINITE
 from macroslip.integrate.surface import Way
 from macroslip.ring.orbit import instant, interval_of
@@ -89,8 +89,10 @@ def integrate_fixed_step(path, slip, end, record):
             note_state(record, model, reached, forces, slip, span)
             # Rectangles: the state a step is evaluated at stands for the whole step.
             if rule.implicit:
+                add_rolling(record, forces.rolling_power, span)
                 book_stage(record, model, reached, forces, slip, span)
             else:
+                add_rolling(record, before.rolling_power, span)
                 book_stage(record, model, at, before, slip_before, span)
             parts = (in_stages(span * inner), in_stages(span * outer))
             way = Way(path.start_angle, model.orbit_ratio, turned, instant(motion, interval, after).shaft_angle)

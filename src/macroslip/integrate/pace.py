@@ -14,7 +14,7 @@ from macroslip.integrate.path import State
 from macroslip.integrate.record import powers
 from macroslip.integrate.tuning import EDGE_STEP, FIRST_STEP, SETTLED
 from macroslip.ring.orbit import interval_of
-from macroslip.roller.forces import slip_forces
+from macroslip.roller.forces import net_force, slip_forces
 
 
 class Pace(NamedTuple):
@@ -110,7 +110,7 @@ def _rebalanced(path, state, record):
     slip = state.slip
     for _ in range(3):
         forces = slip_forces(model, state.at, slip)
-        slip += (needed - forces.inner - forces.outer - forces.cage) / forces.slope
+        slip += (needed - net_force(forces)) / forces.slope
     record.count[2] += 3
     if not abs(slip - state.slip) < SETTLED * path.limits.speed_scale:
         return state

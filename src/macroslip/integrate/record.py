@@ -22,6 +22,7 @@ COUNTS = ("steps", "rejections", "force_evaluations")
 TRACES = (
     *("slip", "ring_speed", "roller_load", "force_inner", "force_outer", "force_cage", "cage_load"),
     *("power_inner", "power_outer", "power_cage", "film_inner", "film_outer", "film_cage", "skew_inner", "skew_outer"),
+    *("rolling_inner", "rolling_outer", "rolling_cage"),
 )
 
 
@@ -50,8 +51,10 @@ class Record(NamedTuple):
         Time [s] and slip [m/s] at which the integration ended.
     trace_time : ndarray, shape (m,)
         Times of the traces [s].
-    trace : ndarray, shape (m, 15)
+    trace : ndarray, shape (m, 18)
         Traces, see `TRACES`; NaN after an integration that ended early.
+    rolling_energy : ndarray, shape (3,)
+        Energy of rolling resistance in the window [J], apart from `energy`.
     mechanism_energy : ndarray, shape (3, 3)
         Energy in the window by interface and mechanism [J], see `macroslip.integrate.detail`; this and what follows is
         filled for curved contacts only.
@@ -85,6 +88,7 @@ class Record(NamedTuple):
     end: np.ndarray
     trace_time: np.ndarray
     trace: np.ndarray
+    rolling_energy: np.ndarray
     mechanism_energy: np.ndarray
     asperity_energy: np.ndarray
     station_energy: np.ndarray
@@ -114,6 +118,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray, highest_speed: float) 
         end=np.zeros(2),
         trace_time=trace_time,
         trace=np.full((trace_time.size, len(TRACES)), np.nan),
+        rolling_energy=np.zeros(3),
         mechanism_energy=np.zeros((3, len(MECHANISMS))),
         asperity_energy=np.zeros(3),
         station_energy=np.zeros((2, STATIONS)),
@@ -163,6 +168,15 @@ def add_energy(record, orbit, inner, outer, cage):
         record.orbit_energy[orbit, 0] += inner
         record.orbit_energy[orbit, 1] += outer
         record.orbit_energy[orbit, 2] += cage
+
+
+@jit_part
+def add_rolling(record, powers, span):
+    """Book rolling powers [W] held over `span` [s] of the window."""
+    energy = record.rolling_energy
+    energy[0] += span * powers[0]
+    energy[1] += span * powers[1]
+    energy[2] += span * powers[2]
 
 
 @jit_part
@@ -241,3 +255,4 @@ def _write_trace(record, model, index, at, forces, slip):
     row[13] = skew_moment(forces.inner_detail)
     # A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer one.
     row[14] = -skew_moment(forces.outer_detail)
+    row[15], row[16], row[17] = forces.rolling_power

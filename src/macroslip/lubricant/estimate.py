@@ -89,6 +89,8 @@ def estimate_lubricant(
         "drag_coefficient": _entry(1, "1", "as in the base case"),
         "boundary_friction": _entry(0.1, "1", "0.08 to 0.12 is usual") | {"range": [0.08, 0.12]},
         "starvation": _entry(0.7, "1", "as in the base case; 1 is a flooded inlet") | {"range": [0.5, 1.0]},
+        "fullness": _entry(0.3, "1", "as in the base case; 1 is flooded") | {"range": [0.03, 1.0]},
+        "inlet_film": _entry(30.0, "1", "as in the base case; 1000 is flooded") | {"range": [5.0, 1000.0]},
     }
     low, mean, high = family.limiting_shear
     entries["limiting_shear"] = _entry(mean, "1", "usual for the family, see docs/lubricants.md") | {

@@ -126,6 +126,16 @@ class Lubricant(Record):
     starvation: Annotated[
         float | None, NUMBER, Field(gt=0, le=1, description="film thickness / film thickness of a flooded contact")
     ] = None
+    fullness: Annotated[
+        float | None,
+        NUMBER,
+        Field(ge=0.01, le=1, description="share of a roller's length over which the gap of a light contact holds oil"),
+    ] = None
+    inlet_film: Annotated[
+        float | None,
+        NUMBER,
+        Field(gt=1, le=1e6, description="gap where an inlet begins to be full / film, for rolling resistance"),
+    ] = None
 
     def _fill(
         self,

@@ -44,6 +44,12 @@ _TRACES = (*_ROLLERS, "time")
 #: Dimensions, units and meaning of every variable a result may have, by name, in their order.
 VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "energy": (_INTERFACES, "J", "energy dissipated by friction in the window"),
+    "rolling_energy": (
+        _INTERFACES,
+        "J",
+        "energy dissipated by rolling resistance in the window, apart from the energy of friction",
+    ),
+    "inlet_temperature": ((), "K", "temperature of the oil at the inlets of the contacts"),
     "orbit_energy": (_ORBITS, "J", "energy dissipated by friction in each complete orbit"),
     "peak_power": (_ORBITS, "W", "largest frictional power in each complete orbit"),
     "min_spin_ratio": (
@@ -97,6 +103,7 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
     ),
     "power": ((*_TRACES, "interface"), "W", "frictional power"),
+    "rolling_power": ((*_TRACES, "interface"), "W", "power of rolling resistance, apart from that of friction"),
     "film_thickness": ((*_TRACES, "interface"), "m", "central film thickness; NaN without load"),
     "skew_moment": (
         (*_TRACES, "raceway"),
@@ -114,6 +121,7 @@ def to_dataset(
     results: dict[tuple[str, int], tuple[int, Record]],
     film_range_notes: list[str],
     truncated_share: float,
+    drag_power: float,
 ) -> xr.Dataset:
     """Collect the records of all rollers.
 
@@ -132,6 +140,8 @@ def to_dataset(
         What lies outside the film law's range whatever the load.
     truncated_share : float
         Largest share of a roller's load that lies beyond its ends [-].
+    drag_power : float
+        Mean power of the lubricant's drag on all rollers of both rows in the window [W].
 
     Returns
     -------
@@ -145,6 +155,7 @@ def to_dataset(
     failed = status != Status.COMPLETED
     curved = isinstance(model.inner, CurvedContact)
     values = _window_values(records, failed) | {"status": status} | _of_integrator(records)
+    values["inlet_temperature"] = np.array(case.oil.inlet_temperature)
     if curved:
         values |= _contact_details(records, failed)
     if case.traces is not None:
@@ -171,6 +182,8 @@ def to_dataset(
         "window_end": end,
         "film_range_notes": "\n".join(film_range_notes),
         "truncated_share": truncated_share,
+        "rollers_per_row": case.bearing.rollers_per_row,
+        "drag_power": drag_power,
         "input": json.dumps(case.as_dict(), ensure_ascii=False),
         "citations": "\n".join([*citations, _RADAU] if isinstance(case.integrator, Radau) else citations),
     }
@@ -190,7 +203,10 @@ def _window_values(records: list[list[Record]], failed: np.ndarray) -> dict[str,
     with np.errstate(invalid="ignore", divide="ignore"):
         outside = _gathered(records, failed, "outside_time") / _gathered(records, failed, "loaded_time")
     return {
-        **{name: _gathered(records, failed, name) for name in ("energy", "orbit_energy", "peak_power")},
+        **{
+            name: _gathered(records, failed, name)
+            for name in ("energy", "rolling_energy", "orbit_energy", "peak_power")
+        },
         "min_spin_ratio": np.where(np.isinf(ratio), np.nan, ratio),
         "outside_film_range": outside,
     }
@@ -241,6 +257,7 @@ def _traces(trace: np.ndarray, model: RollerModel, *, curved: bool) -> dict[str,
         "cage_force": channel["cage_load"],
         "traction": stack("force", INTERFACES),
         "power": stack("power", INTERFACES),
+        "rolling_power": stack("rolling", INTERFACES),
         "film_thickness": stack("film", INTERFACES),
     }
     return found | {"skew_moment": stack("skew", INTERFACES[:2])} if curved else found

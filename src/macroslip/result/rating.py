@@ -43,8 +43,8 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     30.64
     """
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
-    history = roller_load_history(case.bearing, case.lubricant, loads)
-    return rate(case.bearing, case.lubricant, *history, contamination=contamination)
+    history = roller_load_history(case.bearing, case.oil, loads)
+    return rate(case.bearing, case.oil, *history, contamination=contamination)
 
 
 def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:

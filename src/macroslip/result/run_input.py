@@ -41,6 +41,8 @@ def run_input(result: xr.Dataset) -> RunInput:
         settings = json.loads(result.attrs["input"])
         bearing = Bearing.from_dict(settings["bearing"])
         lubricant = Lubricant.from_dict(settings["lubricant"])
+        if settings.get("temperature") is not None:
+            lubricant = lubricant.at(settings["temperature"])
         forces = settings["forces"]
         laws = Laws(**{name: choice for name, choice in settings["laws"].items() if name != "model"})
         models = {

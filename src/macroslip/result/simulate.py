@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
-from macroslip.case.case import BackwardEuler, Case, Radau
+from macroslip.case.case import BALANCE, BackwardEuler, Case, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
@@ -21,6 +21,7 @@ from macroslip.integrate.root import rising_at
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
+from macroslip.result.thermal_balance import balanced
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.ring.travel import orbit_times
@@ -71,11 +72,14 @@ def simulate(
     >>> float(simulate(Case(loads=standstill, rollers=[0])).energy.sum())
     0.0
     """
+    if case.temperature == BALANCE:
+        case = balanced(case, lambda known: simulate(known, threads=threads))
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
+    oil = case.oil
     models = {
         row: roller_model(
             case.bearing,
-            case.lubricant,
+            oil,
             AXIAL_SIGNS[row],
             tilt=case.drivetrain.tilt,
             gravity=case.gravity,
@@ -86,7 +90,7 @@ def simulate(
     }
     model = models["downwind"]
     ring = ring_geometry(case.bearing, model)
-    motion, largest = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.lubricant, case.laws))
+    motion, largest = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, oil, case.laws))
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
@@ -120,9 +124,18 @@ def simulate(
         raise
     finally:
         pool.shutdown(cancel_futures=True)
-    notes = film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))
-    cut_off = truncated_share(largest, truncation_load(case.bearing, case.lubricant))
-    return to_dataset(case, model, edges, end, results, notes, cut_off)
+    notes = film_range_notes(case.laws.film, interfaces(case.bearing, oil))
+    cut_off = truncated_share(largest, truncation_load(case.bearing, oil))
+    return to_dataset(case, model, edges, end, results, notes, cut_off, _drag_power(case, model, motion, edges[0], end))
+
+
+def _drag_power(case: Case, model: RollerModel, motion: Motion, start: float, end: float) -> float:
+    """Mean power of the lubricant's drag (24) on the rollers of both rows [W]."""
+    inside = (motion.time > start) & (motion.time < end)
+    time = np.concatenate([[start], motion.time[inside], [end]])
+    speed = np.abs(model.orbit_ratio * np.interp(time, motion.time, motion.shaft_speed))
+    power = model.drag * speed**3 * case.bearing.pitch_radius
+    return 2 * case.bearing.rollers_per_row * float(np.trapezoid(power, time)) / (end - start)
 
 
 def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:

@@ -8,12 +8,16 @@ from typing import TYPE_CHECKING
 from macroslip.bearing import geometry
 from macroslip.constants import MECHANISMS
 from macroslip.contact.flash_temperature import effusivity
+from macroslip.contact.hertz import series_stiffness
 from macroslip.contact.shape import ContactShape, common_contour_radius, slipless
 from macroslip.film import asperity_load
 from macroslip.film import film_law as film_law
 from macroslip.film.correction import INLET_HEATING_REFERENCE, prepare_film
 from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
 from macroslip.roller.contact_force import CurvedContact, PlainContact
+from macroslip.roller.films import Films, NoFilms
+from macroslip.rolling import law as rolling_law
+from macroslip.rolling.gap import GapShape
 from macroslip.traction import traction_law as traction_law
 from macroslip.traction.asperity_friction import AsperityFriction
 from macroslip.traction.barus_crook import prepare as prepare_barus_crook
@@ -33,6 +37,11 @@ if TYPE_CHECKING:
 _FULL_SLIP = 1e-4
 #: Pressure by which Barus' exponent is scaled [Pa]; any will do.
 _BARUS_PRESSURE = 1e8
+#: Largest gap between a roller and the spar that pushes it [m]: half of a diametral clearance of 0.5 mm, an engineering
+#: estimate; 0.2 to 1 mm is usual.
+_POCKET_GAP = 0.25e-3
+#: Largest inlet film of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an engineering estimate.
+_POCKET_INLET = 7.0
 #: What to cite for each mechanism.
 _REFERENCES = {
     "barus": "Barus, Am. J. Sci. 45 (1893) 87",
@@ -56,10 +65,12 @@ def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
         "limiting_shear": "limiting shear" if laws.rheology == "limiting-shear" else "",
         "eyring_stress": "Eyring's rheology" if laws.rheology == "eyring" else "",
         "boundary_friction": "asperity friction" if laws.asperities != "none" else "",
+        "fullness": "rolling resistance" if laws.rolling != "none" else "",
+        "inlet_film": "rolling resistance" if laws.rolling != "none" else "",
     }
     keys = [key for key, mechanism in needed.items() if mechanism and getattr(lubricant, key) is None]
     if keys:
-        lubricant.require(*keys, purpose=" and ".join(needed[key] for key in keys))
+        lubricant.require(*keys, purpose=" and ".join(dict.fromkeys(needed[key] for key in keys)))
 
 
 def fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
@@ -155,6 +166,8 @@ def prepare_contact(
     if laws.asperities == "none" and not isinstance(traction, FilmShear):
         return PlainContact(film, traction)
     friction = 0.0
+    # The film of a roller in its pocket is that of `films`, of tens of micrometres: no asperity touches.
+    floating = interface.name == "cage" and laws.rolling != "none"
     if laws.asperities != "none":
         friction = lubricant.boundary_friction
     known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None
@@ -162,7 +175,7 @@ def prepare_contact(
     return CurvedContact(
         film=film,
         traction=traction,
-        asperity_load=asperity_load.prepare(laws.asperities, interface),
+        asperity_load=asperity_load.prepare("none" if floating else laws.asperities, interface),
         asperity_friction=AsperityFriction(friction, _FULL_SLIP, hertz.semi_axis_across),
         shape=contact_shape(bearing, interface, axial_sign, microslip=laws.microslip),
         semi_axis_across=hertz.semi_axis_across,
@@ -171,6 +184,53 @@ def prepare_contact(
         effusivity_2=steel,
         roughness=interface.roughness,
     )
+
+
+def prepare_films(
+    laws: Laws, bearing: Bearing, lubricant: Lubricant, found: tuple[Interface, Interface, Interface]
+) -> Films | NoFilms:
+    """The oil around a roller.
+
+    Parameters
+    ----------
+    laws : Laws
+    bearing : Bearing
+    lubricant : Lubricant
+    found : tuple of three Interface
+        Inner, outer and cage.
+
+    Returns
+    -------
+    Films or NoFilms
+
+    Raises
+    ------
+    InputError
+        For a law that does not exist, or values the lubricant lacks or has out of range.
+    """
+    if laws.rolling == "none":
+        return NoFilms()
+    radius = geometry.roller_radius(bearing)
+    curvatures = (
+        geometry.inner_curvatures(bearing),
+        geometry.outer_curvatures(bearing),
+        geometry.cage_curvatures(bearing),
+    )
+    prepared = []
+    for interface, curvature in zip(found, curvatures, strict=True):
+        inlet = lubricant.inlet_film
+        prepared.append(
+            rolling_law.prepare_rolling(
+                laws.rolling,
+                interface,
+                GapShape(1.0 / curvature.rolling, 1.0 / curvature.lateral, bearing.roller_length),
+                radius,
+                fullness=lubricant.fullness,
+                inlet_film=min(inlet, _POCKET_INLET) if interface.name == "cage" else inlet,
+                heating=laws.inlet_heating,
+            )
+        )
+    return Films(*prepared, stiffness=series_stiffness(found[0].hertz, found[1].hertz), pocket_gap=_POCKET_GAP)
 
 
 def references(laws: Laws) -> list[str]:
@@ -185,4 +245,6 @@ def references(laws: Laws) -> list[str]:
         found += [_REFERENCES["heating"]] if laws.heating else []
     if laws.asperities != "none":
         found.append(asperity_load.reference(laws.asperities))
+    if laws.rolling != "none":
+        found.append(rolling_law.REFERENCES[laws.rolling])
     return found

@@ -11,6 +11,10 @@ from typing import Any, NamedTuple
 
 from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.roller.contact_force import cage_force, raceway_force
+from macroslip.roller.films import cage_film, film_load, raceway_film
+
+#: Raceways by number.
+INNER, OUTER = 0, 1
 
 
 class Station(NamedTuple):
@@ -25,7 +29,7 @@ class Station(NamedTuple):
     elastic_load : float
         Load Q that the rings press on the roller [N].
     inner_load, outer_load : float
-        Normal loads with body forces [N].
+        Normal loads with body forces [N], and those of films that share a roller's play.
     tangential : float
         F_g,x' + F_d,x' [N], along +x'.
     """
@@ -46,13 +50,17 @@ class SlipForces(NamedTuple):
     inner, outer, cage : float
         F_i, F_o, F_c [N] in the spin equation, that is moments over r, positive where they drive the spin ω up.
     slope : float
-        d(F_i + F_o + F_c)/dv [N s/m].
+        d(F_i + F_o + F_c + resistance)/dv [N s/m].
     inner_slope, outer_slope : float
         dF_i/dv and dF_o/dv [N s/m].
     cage_load : float
         F_n,cage with its sign [N]: positive where the cage pushes the roller along +φ.
     cage_load_slope : float
         dF_n,cage/dv [N s/m].
+    resistance : float
+        Rolling resistance of all three contacts in the spin equation [N]; its derivative is in `slope`.
+    rolling_power : tuple of float
+        Power of rolling resistance at inner, outer and cage interface [W].
     inner_detail, outer_detail, cage_detail : Detail or None
         What curved contacts add; None for plain ones.
     """
@@ -65,6 +73,8 @@ class SlipForces(NamedTuple):
     outer_slope: float
     cage_load: float
     cage_load_slope: float
+    resistance: float
+    rolling_power: tuple
     inner_detail: Any
     outer_detail: Any
     cage_detail: Any
@@ -108,12 +118,14 @@ def station(model, start_angle, now):
     squared = orbital_speed * orbital_speed
     outward = (model.centrifugal * squared - model.weight_in_plane * sine) * model.cos_contact_angle
     outward += model.weight_along_axis * model.sin_contact_angle
+    ring_speed = -orbital_speed * model.outer_radius
+    pressed = load + film_load(model.films, load, approach, outward, ring_speed)
     return Station(
-        -orbital_speed * model.outer_radius,
+        ring_speed,
         approach,
         load,
-        load - outward if outward < 0.0 else load,
-        load + outward if outward > 0.0 else load,
+        pressed - outward if outward < 0.0 else pressed,
+        pressed + outward if outward > 0.0 else pressed,
         model.weight_in_plane * cosine + model.drag * orbital_speed * abs(orbital_speed),
     )
 
@@ -136,31 +148,41 @@ def slip_forces(model, at, slip):
     Notes
     -----
     The roller's surface speed is u1 = u2 − v. The cage is at rest in the orbiting frame, Δu_c = −u1, and its normal
-    force balances everything tangential (32): F_n,cage = |F_g,x' + F_d,x' + F_i − F_o|.
+    force balances everything tangential (32): F_n,cage = |F_g,x' + F_d,x' + F_i − F_o|, F_i and F_o with what rolling
+    resistance does: its shear and the push of the inclined pressure.
     """
     surface_speed = at.ring_speed - slip
     mean_speed = at.ring_speed - 0.5 * slip
     mean_slope = -0.5 if mean_speed >= 0.0 else 0.5
     inner = raceway_force(model.inner, at.inner_load, slip, at.ring_speed, abs(mean_speed), mean_slope)
     outer = raceway_force(model.outer, at.outer_load, slip, at.ring_speed, abs(mean_speed), mean_slope)
-    cage_load = at.tangential + inner.pull - outer.pull
-    cage_load_slope = inner.pull_slope - outer.pull_slope
+    inner_film = raceway_film(model.films, INNER, at.inner_load, slip, at.ring_speed)
+    outer_film = raceway_film(model.films, OUTER, at.outer_load, slip, at.ring_speed)
+    cage_load = at.tangential + inner.pull - outer.pull + (inner_film.pull - outer_film.pull)
+    cage_load_slope = inner.pull_slope - outer.pull_slope + (inner_film.pull_slope - outer_film.pull_slope)
     cage_slope = -0.5 if surface_speed >= 0.0 else 0.5
     cage, by_slip, by_load, cage_detail = cage_force(
         model.cage, abs(cage_load), -surface_speed, 0.5 * abs(surface_speed), cage_slope
     )
+    cage_oil = cage_film(model.films, abs(cage_load), surface_speed)
+    by_load += cage_oil.by_load
     if cage_load < 0.0:
         by_load = -by_load
-    slope = inner.spin_slope + outer.spin_slope + by_slip + by_load * cage_load_slope
+    inner_slope = inner.spin_slope + inner_film.sliding_slope
+    outer_slope = outer.spin_slope + outer_film.sliding_slope
+    slope = inner_slope + outer_slope + by_slip + by_load * cage_load_slope
+    slope += inner_film.shear_slope + outer_film.shear_slope + cage_oil.slope
     return SlipForces(
-        inner.spin,
-        outer.spin,
-        cage,
+        inner.spin + inner_film.sliding,
+        outer.spin + outer_film.sliding,
+        cage + cage_oil.sliding,
         slope,
-        inner.spin_slope,
-        outer.spin_slope,
+        inner_slope,
+        outer_slope,
         cage_load,
         cage_load_slope,
+        inner_film.shear + outer_film.shear + cage_oil.shear,
+        (inner_film.power, outer_film.power, cage_oil.power),
         inner.detail,
         outer.detail,
         cage_detail,
@@ -169,19 +191,20 @@ def slip_forces(model, at, slip):
 
 @jit_part
 def net_force(forces):
-    """F_i + F_o + F_c [N], which turns the spin by I_z' dω/dt = r (F_i + F_o + F_c) (16)."""
-    return forces.inner + forces.outer + forces.cage
+    """F_i + F_o + F_c with rolling resistance [N], which turns the spin by I_z' dω/dt = r (F_i + F_o + F_c) (16)."""
+    return forces.inner + forces.outer + forces.cage + forces.resistance
 
 
 @jit_part
 def magnitude(forces):
-    """|F_i| + |F_o| + |F_c| [N], which says what of the net force is rounding."""
-    return abs(forces.inner) + abs(forces.outer) + abs(forces.cage)
+    """|F_i| + |F_o| + |F_c| with rolling resistance [N], which says what of the net force is rounding."""
+    return abs(forces.inner) + abs(forces.outer) + abs(forces.cage) + abs(forces.resistance)
 
 
 @jit_inline
 def shifted(forces, change):
-    """The forces after a small change of slip [m/s], to first order; the details are left as they are."""
+    """The forces after a small change of slip [m/s], to first order; what the
+    cage and rolling resistance change by is all given to the cage, and the details are left as they are."""
     inner = forces.inner_slope * change
     outer = forces.outer_slope * change
     return SlipForces(
@@ -193,6 +216,8 @@ def shifted(forces, change):
         forces.outer_slope,
         forces.cage_load + forces.cage_load_slope * change,
         forces.cage_load_slope,
+        forces.resistance,
+        forces.rolling_power,
         forces.inner_detail,
         forces.outer_detail,
         forces.cage_detail,

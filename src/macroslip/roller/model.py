@@ -14,7 +14,7 @@ from macroslip.contact.hertz import effective_modulus, elliptical_contact, serie
 from macroslip.contact.interface import Interface
 from macroslip.mechanisms import Laws
 from macroslip.ring.balance import RingGeometry
-from macroslip.roller.contacts import prepare_contact
+from macroslip.roller.contacts import prepare_contact, prepare_films
 
 #: Share of a roller's load that may lie beyond its ends.
 HIGHEST_TRUNCATED_SHARE = 0.1
@@ -49,6 +49,8 @@ class RollerModel(NamedTuple):
         m r~ [kg m]; times Ω² gives the centrifugal force (18).
     drag : float
         ½ C_D ρ_eff 2 r l r~² [N s²]; times Ω² gives the drag (24).
+    films : Films or NoFilms
+        The oil around the roller: rolling resistance, and films where it has play.
     inner, outer, cage : PlainContact or CurvedContact
         Laws of the three interfaces.
     """
@@ -65,6 +67,7 @@ class RollerModel(NamedTuple):
     weight_along_axis: float
     centrifugal: float
     drag: float
+    films: Any
     inner: Any
     outer: Any
     cage: Any
@@ -222,6 +225,7 @@ def roller_model(
         weight_along_axis=weight * math.sin(tilt),
         centrifugal=mass * bearing.pitch_radius,
         drag=0.5 * lubricant.drag_coefficient * effective_density * area * bearing.pitch_radius**2 if drag else 0.0,
+        films=prepare_films(laws, bearing, lubricant, found),
         inner=contacts[0],
         outer=contacts[1],
         cage=contacts[2],

@@ -11,8 +11,8 @@ import math
 from typing import NamedTuple
 
 from macroslip.compiled import jit
-from macroslip.rolling.film import light_film
-from macroslip.rolling.gap import film_at_gap
+from macroslip.rolling.film import joined, light_film
+from macroslip.rolling.gap import film_at_gap, film_at_load
 from macroslip.rolling.law import LOWEST_SPEED, RollingForces, rolling_resistance
 from macroslip.rolling.martin import FLOW
 
@@ -37,6 +37,8 @@ class LightContact(NamedTuple):
         ∂sliding/∂Δu [N s/m] at given film.
     sliding_power : float
         What that film dissipates in sliding [W].
+    sliding_by_load, sliding_by_speed : float
+        ∂sliding/∂Q [-] and ∂sliding/∂u [N s/m] at given slip, u the mean of the surface speeds.
     """
 
     load: float
@@ -45,6 +47,8 @@ class LightContact(NamedTuple):
     sliding: float
     sliding_slope: float
     sliding_power: float
+    sliding_by_load: float
+    sliding_by_speed: float
 
 
 @jit
@@ -64,16 +68,32 @@ def light_contact(law, load, u1, u2):
     LightContact
         The mean speed is floored at `LOWEST_SPEED` for the film.
     """
-    speed = max(0.5 * abs(u1 + u2), LOWEST_SPEED)
-    log_film, _, _ = light_film(law, math.log(load), math.log(speed))
+    mean = 0.5 * (u1 + u2)
+    speed = max(abs(mean), LOWEST_SPEED)
+    log_film, film_by_load, film_by_speed = light_film(law, math.log(load), math.log(speed))
     film = math.exp(log_film)
-    _, _, _, _, log_shear, _ = film_at_gap(law.gap, log_film - _LOG_FLOW)
+    _, _, _, _, log_shear, shear_by_gap = film_at_gap(law.gap, log_film - _LOG_FLOW)
     shear = law.gap.fullness * math.exp(log_shear)
     inside = law.area * load ** (2.0 / 3.0) / film
     slope = law.viscosity * shear * shear / (shear + inside)
     slip = u2 - u1
+    # ln slope = 2 ln S − ln(S + I), with I the ellipse's own part.
+    share = inside / (shear + inside)
+    by_log_film = shear_by_gap * (1.0 + share) + share
+    by_log_load = by_log_film * film_by_load - (2.0 / 3.0) * share
+    by_log_speed = by_log_film * film_by_speed if abs(mean) > LOWEST_SPEED else 0.0
+    force = slope * slip
     rolling = rolling_resistance(law, load, u1, u2)
-    return LightContact(load, film, rolling, slope * slip, slope, slope * slip * slip)
+    return LightContact(
+        load,
+        film,
+        rolling,
+        force,
+        slope,
+        force * slip,
+        force * by_log_load / load,
+        force * by_log_speed / (speed if mean >= 0.0 else -speed),
+    )
 
 
 @jit
@@ -96,7 +116,7 @@ def contact_at_gap(law, gap, u1, u2):
     """
     speed = 0.5 * (u1 + u2)
     unit = law.viscosity * law.gap.fullness
-    log_load, load_slope, log_rolling, rolling_slope, log_shear, _ = film_at_gap(law.gap, math.log(gap))
+    log_load, load_slope, log_rolling, rolling_slope, log_shear, shear_slope = film_at_gap(law.gap, math.log(gap))
     load = unit * abs(speed) * math.exp(log_load)
     resistance = unit * math.exp(log_rolling)
     force = resistance * speed
@@ -111,4 +131,63 @@ def contact_at_gap(law, gap, u1, u2):
         by_load,
         -resistance,
     )
-    return LightContact(load, FLOW * gap, rolling, slope * slip, slope, slope * slip * slip)
+    sliding = slope * slip
+    sliding_by_load = sliding * shear_slope / (load_slope * load) if load > 0.0 else 0.0
+    return LightContact(load, FLOW * gap, rolling, sliding, slope, sliding * slip, sliding_by_load, 0.0)
+
+
+@jit
+def pocket_contact(law, load, u1, u2, widest):
+    """A roller in the pocket of its cage: a rigid contact under a load, whose gap the pocket bounds.
+
+    h0^−4 = h0(Q)^−4 + widest^−4: under no load the roller floats in the middle of its pocket.
+
+    Parameters
+    ----------
+    law : Rolling
+    load : float
+        Q [N], ≥ 0.
+    u1, u2 : float
+        Surface speeds of roller and cage past the contact [m/s].
+    widest : float
+        Largest gap [m].
+
+    Returns
+    -------
+    LightContact
+        Rigid and isoviscous, the spar that carries the load alone.
+    """
+    mean = 0.5 * (u1 + u2)
+    speed = max(abs(mean), LOWEST_SPEED)
+    unit = law.viscosity * law.gap.fullness
+    log_gap = log_widest = math.log(widest)
+    # d ln h0/d ln(Q/u), with the bound.
+    follows = 0.0
+    if load > 0.0:
+        free, slope, _, _, _, _ = film_at_load(law.gap, math.log(load / (unit * speed)))
+        log_gap, share = joined(free, log_widest, -4.0)
+        follows = share * slope
+    _, _, log_rolling, rolling_by_gap, log_shear, shear_by_gap = film_at_gap(law.gap, log_gap)
+    resistance, slope = unit * math.exp(log_rolling), unit * math.exp(log_shear)
+    force, slip = resistance * mean, u2 - u1
+    sliding = slope * slip
+    per_load = follows / load if load > 0.0 else 0.0
+    moving = -follows if abs(mean) > LOWEST_SPEED else 0.0
+    rolling = RollingForces(
+        -force,
+        2.0 * force * law.share_1,
+        2.0 * force * law.share_2,
+        2.0 * force * mean,
+        -force * rolling_by_gap * per_load,
+        -resistance * (1.0 + rolling_by_gap * moving),
+    )
+    return LightContact(
+        load,
+        FLOW * math.exp(log_gap),
+        rolling,
+        sliding,
+        slope,
+        sliding * slip,
+        sliding * shear_by_gap * per_load,
+        sliding * shear_by_gap * moving / (speed if mean >= 0.0 else -speed),
+    )

@@ -6,22 +6,32 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from macroslip.bearing import geometry
 from macroslip.errors import InputError
 from macroslip.result.run_input import run_input
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from macroslip.bearing import Bearing
+    from macroslip.roller.model import RollerModel
+
 
 def computed_torque(result: xr.Dataset) -> xr.Dataset:
     """Torque with which friction in the contacts and drag of the lubricant hold the shaft, at the times of the traces.
 
-        T = (Σ P + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
+        T = (Σ P + Σ P_r + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
 
-    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without. It
-    is the torque a drive has to supply for what is dissipated at that moment. Kinetic energy of the rollers and the work
-    of their weight, whose mean over an orbit vanishes, are left out, and so is what the model does not have: resistance
-    of the oil squeezed at the contacts' inlets, churning beyond the rollers' drag, hysteresis of the steel, seals.
+    The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without, P_r the
+    power of rolling resistance. It is the torque a drive has to supply for what is dissipated at that moment. Kinetic
+    energy of the rollers and the work of their weight, whose mean over an orbit vanishes, are left out, and so is what the
+    model does not have: churning beyond the rollers' drag, hysteresis of the steel, seals.
+
+    What the contacts do to the rings is another way to it. A contact takes the power P + P_r; it gives the roller's spin
+    −(F + F_r) u1 of what the ring spends, so that the ring feels the tangential force −(P + F u1)/u2 + F_r along its motion,
+    F the traction and F_r = −P_r/(u1 + u2) the shear of rolling resistance. The push of the inclined pressure goes
+    through the ring's axis. Of both rings and the rollers between them the torques balance: what the inner ring gets and
+    the outer one does not is drag and what guides the cage.
 
     Parameters
     ----------
@@ -32,8 +42,9 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     -------
     xarray.Dataset
         Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque
-        [N m] over (row, interface, time), drag_torque [N m] over time: what it consists of. NaN where the shaft stands
-        still, or from where a roller failed.
+        [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: what it consists of;
+        ring_torque [N m] over (raceway, time): what the contacts exert on inner and outer ring, positive along the
+        orbit. NaN where the shaft stands still, or from where a roller failed.
 
     Raises
     ------
@@ -73,10 +84,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     shaft = orbital / model.orbit_ratio
     with np.errstate(divide="ignore"):
         per_power = np.where(shaft != 0.0, 1.0 / np.abs(shaft), np.nan)
-    contacts = result.power.sum("roller", skipna=False).transpose("row", "interface", "time")
-    contacts = contacts.drop_vars("start_angle", errors="ignore") * per_power
-    # In the order in which files hold it: sums over what was stored and read give the same digits.
-    contacts = contacts.copy(data=np.ascontiguousarray(contacts.values))
+    contacts = _per_speed(result.power, per_power)
+    rolling = _per_speed(result.rolling_power, per_power)
     drag_force = model.drag * orbital**2
     drag = 2 * bearing.rollers_per_row * drag_force * bearing.pitch_radius * np.abs(orbital) * per_power
 
@@ -84,16 +93,55 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         return "time", np.asarray(values), {"units": units, "long_name": long_name}
 
     contacts.attrs = {"units": "N m", "long_name": "torque of the friction at the interface"}
+    rolling.attrs = {"units": "N m", "long_name": "torque of rolling resistance at the interface"}
+    rings = _ring_torques(result, bearing, model)
+    rings.attrs = {"units": "N m", "long_name": "torque of the contacts on the ring, positive along the orbit"}
     return xr.Dataset(
         {
             "shaft_speed": put(shaft, "rad/s", "speed of the inner ring"),
             "torque": put(
-                contacts.sum(("row", "interface"), skipna=False) + drag,
+                contacts.sum(("row", "interface"), skipna=False)
+                + rolling.sum(("row", "interface"), skipna=False)
+                + drag,
                 "N m",
                 "friction torque of the bearing, against the rotation",
             ),
             "contact_torque": contacts,
+            "rolling_torque": rolling,
+            "ring_torque": rings,
             "drag_torque": put(drag, "N m", "torque of the lubricant's drag on the rollers"),
         },
         attrs={"title": f"Friction torque: {result.attrs['title']}", "model": result.attrs["model"]},
     )
+
+
+def _per_speed(power: xr.DataArray, per_power: np.ndarray) -> xr.DataArray:
+    """Torque over (row, interface, time) of the power of all rollers."""
+    total = power.sum("roller", skipna=False).transpose("row", "interface", "time")
+    total = total.drop_vars("start_angle", errors="ignore") * per_power
+    # In the order in which files hold it: sums over what was stored and read give the same digits.
+    return total.copy(data=np.ascontiguousarray(total.values))
+
+
+def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> xr.DataArray:
+    """Torque on inner and outer ring about +Z0 over (raceway, time)."""
+    import xarray as xr
+
+    ring = (result.spin_pure * model.radius).transpose("row", "roller", "time")
+    roller = (result.spin * model.radius).transpose("row", "roller", "time")
+    found = []
+    # Positive speeds are those of a ring that turns back at the inner raceway, forth at the outer one.
+    for name, arm in (
+        ("inner", -geometry.inner_contact_radius(bearing)),
+        ("outer", geometry.outer_contact_radius(bearing)),
+    ):
+        here = {"interface": name}
+        friction, power, rolling = (
+            result[each].sel(here, drop=True).transpose("row", "roller", "time")
+            for each in ("traction", "power", "rolling_power")
+        )
+        with np.errstate(invalid="ignore", divide="ignore"):
+            force = -(power + friction * roller) / ring - rolling / (roller + ring)
+        found.append(arm * force.sum(("row", "roller"), skipna=False))
+    torque = xr.concat(found, dim="raceway").drop_vars("start_angle", errors="ignore")
+    return torque.assign_coords(raceway=["inner", "outer"]).transpose("raceway", "time")

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.special import lambertw
 
 from macroslip.errors import InputError
-from macroslip.torque.heat_balance import HOTTEST, balance_temperature, tabulated_power
+from macroslip.result.heat_balance import HOTTEST, balance_temperature, tabulated_power
 
 
 @given(st.floats(0.0, 3000.0), st.floats(40.0, 80.0), st.floats(250.0, 310.0))

@@ -1,0 +1,187 @@
+"""Friction torque of the base bearing beside the handbooks': over load, thrust, speed and temperature, and over the wind.
+
+    python benchmarks/friction_torque.py curves -o docs/figures/friction_torque_curves.png     two minutes
+    python benchmarks/friction_torque.py wind                                                  three minutes
+    python benchmarks/friction_torque.py inlets                                                one minute
+
+Few rollers stand for all, over short windows: `curves` takes two rollers of each row over an orbit of steady load, `wind`
+two rollers of each row over 60 s of each of the 21 load cases.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant, main_bearing_load, simulate
+from macroslip.torque import palmgren_torque, skf_torque
+
+BEARING = Bearing.read("skf-240-600-bc")
+#: Mean load of a turbine at rated speed: radial and thrust [N], speed [rad/s], temperature [K].
+RADIAL, THRUST, SPEED, TEMPERATURE = 344e3, 164e3, 2.143, 308.15
+ROLLERS = [0, 14]
+WINDOW = 60.0
+
+
+class Torque(NamedTuple):
+    """Parts of the friction torque [N m]: sliding and rolling at the raceways, cage, drag; and the handbooks'."""
+
+    sliding: float
+    rolling: float
+    cage: float
+    drag: float
+    skf_sliding: float
+    skf_rolling: float
+    skf_drag: float
+    skf: float
+    palmgren: float
+
+    @property
+    def total(self) -> float:
+        """Of the model."""
+        return self.sliding + self.rolling + self.cage + self.drag
+
+
+def torque(case: Case, loads: BearingLoads) -> Torque:
+    """Mean torque over the window of a case, and the handbooks' over the same loads."""
+    result = simulate(case)
+    first, last = result.attrs["window_start"], result.attrs["window_end"]
+    inside = (loads.time >= first) & (loads.time <= last)
+    force, speed = loads.force[inside], loads.shaft_speed[inside]
+    scale = BEARING.rollers_per_row / result.sizes["roller"] / (last - first) / float(np.mean(speed))
+    energy, rolling = (result[name].sum(("row", "roller")) * scale for name in ("energy", "rolling_energy"))
+    raceways = ["inner", "outer"]
+    given = BEARING, case.oil, np.hypot(force[:, 0], force[:, 1]), force[:, 2], speed
+    skf, palmgren = skf_torque(*given), palmgren_torque(*given)
+    return Torque(
+        float(energy.sel(interface=raceways).sum()),
+        float(rolling.sel(interface=raceways).sum()),
+        float(energy.sel(interface="cage") + rolling.sel(interface="cage")),
+        result.attrs["drag_power"] / float(np.mean(speed)),
+        *(float(np.mean(part)) for part in (skf.sliding, skf.rolling, skf.drag, skf.total, palmgren.total)),
+    )
+
+
+def steady(radial=RADIAL, thrust=THRUST, speed=SPEED, temperature=TEMPERATURE, **laws) -> Torque:
+    """Torque under a steady load over an orbit."""
+    orbit = 2.0 * np.pi / (0.455 * speed)
+    loads = BearingLoads.constant([0.0, -radial, thrust], speed, 2.2 * orbit)
+    case = Case(loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**laws), temperature=temperature)
+    return torque(case, loads)
+
+
+#: Name, values, unit and factor to it of each curve.
+SWEEPS = {
+    "radial": ("radial load", np.array([150e3, 250e3, 344e3, 450e3, 600e3]), "kN", 1e-3),
+    "thrust": ("thrust", np.array([50e3, 100e3, 164e3, 250e3]), "kN", 1e-3),
+    "speed": ("speed", np.array([0.5, 1.0, 1.5, 2.143, 2.8]), "rad/s", 1.0),
+    "temperature": ("temperature", np.array([283.15, 293.15, 308.15, 323.15, 338.15]), "degC", 1.0),
+}
+
+
+def curves(output: str | None) -> None:
+    """Print and draw the four curves."""
+    found = {key: [steady(**{key: float(value)}) for value in values] for key, (_, values, _, _) in SWEEPS.items()}
+    print("| | | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | M_drag | all | Palmgren |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+    for key, (name, values, unit, factor) in SWEEPS.items():
+        for value, one in zip(values, found[key], strict=True):
+            shown = value - 273.15 if unit == "degC" else value * factor
+            own = (one.sliding, one.rolling, one.cage, one.drag, one.total)
+            others = (one.skf_sliding, one.skf_rolling, one.skf_drag, one.skf, one.palmgren)
+            print(f"| {name} | {shown:g} {unit} | " + " | ".join(f"{part:.0f}" for part in (*own, *others)) + " |")
+    if output:
+        _draw(found, output)
+
+
+def _draw(found: dict[str, list[Torque]], output: str) -> None:
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, 4, figsize=(13, 3.6), sharey=True, layout="constrained")
+    for axis, (key, (name, values, unit, factor)) in zip(axes, SWEEPS.items(), strict=True):
+        place = values - 273.15 if unit == "degC" else values * factor
+        lines = (
+            ("sliding", "C0", "-"), ("rolling", "C1", "-"), ("cage", "C2", "-"), ("total", "k", "-"),
+            ("skf_sliding", "C0", "--"), ("skf_rolling", "C1", "--"), ("skf", "k", "--"), ("palmgren", "C4", ":"),
+        )  # fmt: skip
+        for part, colour, style in lines:
+            label = (
+                part.replace("skf_sliding", "SKF M_sl").replace("skf_rolling", "SKF M_rr").replace("skf", "SKF, all")
+            )
+            axis.plot(place, [getattr(one, part) for one in found[key]], style, color=colour, label=label)
+        axis.set_xlabel(f"{name} [{unit.replace('degC', '°C')}]")
+    axes[0].set_ylabel("friction torque [N m]")
+    axes[0].legend(fontsize="x-small")
+    figure.savefig(output, dpi=120)
+
+
+def wind() -> None:
+    """Print the 21 cases, and means over turbulence classes by wind speed."""
+    print("| case | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | all | Palmgren | power [W] |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    powers: dict[int, list[float]] = {}
+    every = []
+    for speed in range(12, 25, 2):
+        for turbulence in "ABC":
+            hub = HubLoads.bundled(f"{speed}{turbulence}").window(0.0, WINDOW)
+            case = Case(loads=hub, rollers=ROLLERS, laws=Laws.physical())
+            loads = main_bearing_load(hub, case.drivetrain)
+            one = torque(case, loads)
+            power = one.total * float(np.mean(loads.shaft_speed))
+            powers.setdefault(speed, []).append(power)
+            every.append(one)
+            parts = (one.sliding, one.rolling, one.cage, one.drag, one.total)
+            others = (one.skf_sliding, one.skf_rolling, one.skf, one.palmgren, power)
+            print(
+                f"| {speed}{turbulence} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |", flush=True
+            )
+    rolling = np.array([one.rolling / one.skf_rolling for one in every])
+    total = np.array([one.total / one.skf for one in every])
+    sliding = np.array([one.sliding / one.skf_sliding for one in every])
+    for name, ratio in (("sliding over M_sl", sliding), ("rolling over M_rr", rolling), ("total over SKF's", total)):
+        print(f"{name}: {ratio.mean():.2f}, {ratio.min():.2f} to {ratio.max():.2f}")
+    mean = {speed: float(np.mean(values)) for speed, values in powers.items()}
+    print("power [W] over wind speed: " + ", ".join(f"{speed} m/s {power:.0f}" for speed, power in mean.items()))
+    places = list(mean)
+    at = {speed: float(np.interp(speed, places, list(mean.values()))) for speed in (12, 13, 15)}
+    print(f"12 over 15 m/s: {at[12] / at[15]:.2f}; 12 over 13 m/s: {at[12] / at[13]:.2f}")
+
+
+def compare_inlets() -> None:
+    """Print what fullness of inlets and rheology make of the torque under the mean load."""
+    oil = Lubricant.read("vg460-pao")
+    orbit = 2.0 * np.pi / (0.455 * SPEED)
+    loads = BearingLoads.constant([0.0, -RADIAL, THRUST], SPEED, 2.2 * orbit)
+    for name, lubricant, changes in (
+        *((f"inlet film {film:g}", oil.replace(inlet_film=film), {}) for film in (5.0, 10.0, 20.0, 30.0, 60.0, 1e6)),
+        *((f"fullness {full:g}", oil.replace(fullness=full), {}) for full in (0.03, 0.1, 1.0)),
+        ("inlet", oil, {"rolling": "inlet"}),
+        ("Eyring, 6.7 MPa", oil, {"rheology": "eyring"}),
+        ("Eyring, 3.3 MPa", oil.replace(eyring_stress=3.3e6), {"rheology": "eyring"}),
+    ):
+        one = torque(
+            Case(loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**changes), lubricant=lubricant), loads
+        )
+        print(
+            f"| {name} | {one.sliding:.0f} | {one.rolling:.0f} | {one.cage:.0f} | {one.total:.0f} | "
+            f"{one.rolling / one.skf_rolling:.2f} | {one.total / one.skf:.2f} |",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("curves", "wind", "inlets"))
+    parser.add_argument("-o", "--output", help="picture of the curves")
+    given = parser.parse_args()
+    if given.what == "curves":
+        curves(given.output)
+    elif given.what == "wind":
+        wind()
+    else:
+        compare_inlets()
