@@ -21,8 +21,10 @@ FILM_REGIMES = ("below 1", "1 and above")
 
 
 class Way(NamedTuple):
-    """The way of a roller over a step: its position φ at the first sample [rad], the ratio of orbital to shaft speed,
-    and the shaft's angles before and after [rad].
+    """The way of a roller over a step.
+
+    Its position φ at the first sample [rad], the ratio of orbital to shaft speed, and the shaft's angles before and after
+    [rad].
     """
 
     start_angle: float

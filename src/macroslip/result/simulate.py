@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
-from macroslip.case.case import BackwardEuler, Case, Radau
+from macroslip.case.case import WHOLE_BEARING, BackwardEuler, Case, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
@@ -21,6 +21,7 @@ from macroslip.integrate.root import rising_at
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
+from macroslip.result.whole_dataset import simulate_whole_bearing
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.ring.travel import orbit_times
@@ -33,6 +34,7 @@ from macroslip.roller.model import (
     truncated_share,
     truncation_load,
 )
+from macroslip.whole_bearing.run import Times
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -72,24 +74,15 @@ def simulate(
     0.0
     """
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
-    models = {
-        row: roller_model(
-            case.bearing,
-            case.lubricant,
-            AXIAL_SIGNS[row],
-            tilt=case.drivetrain.tilt,
-            gravity=case.gravity,
-            drag=case.drag,
-            laws=case.laws,
-        )
-        for row in ROWS
-    }
+    models = _rollers(case)
     model = models["downwind"]
     ring = ring_geometry(case.bearing, model)
     motion, largest = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.lubricant, case.laws))
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
+    if case.dynamics == WHOLE_BEARING:
+        return simulate_whole_bearing(case, models, motion, Times(edges, trace_time, end), _notes(case, largest))
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
 
@@ -123,6 +116,30 @@ def simulate(
     notes = film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))
     cut_off = truncated_share(largest, truncation_load(case.bearing, case.lubricant))
     return to_dataset(case, model, edges, end, results, notes, cut_off)
+
+
+def _rollers(case: Case) -> dict[str, RollerModel]:
+    """Rollers of both rows."""
+    return {
+        row: roller_model(
+            case.bearing,
+            case.lubricant,
+            AXIAL_SIGNS[row],
+            tilt=case.drivetrain.tilt,
+            gravity=case.gravity,
+            drag=case.drag,
+            laws=case.laws,
+        )
+        for row in ROWS
+    }
+
+
+def _notes(case: Case, largest: float) -> dict[str, Any]:
+    """Attributes on films out of range and on contacts cut off at the roller's ends, for the largest roller load [N]."""
+    return {
+        "film_range_notes": "\n".join(film_range_notes(case.laws.film, interfaces(case.bearing, case.lubricant))),
+        "truncated_share": truncated_share(largest, truncation_load(case.bearing, case.lubricant)),
+    }
 
 
 def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:
