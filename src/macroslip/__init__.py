@@ -21,6 +21,7 @@ _HOMES = {
     "Laws": "macroslip.mechanisms",
     "load_laws": "macroslip.plugins",
     "Case": "macroslip.case.case",
+    "Cage": "macroslip.whole_bearing.cage",
     "Radau": "macroslip.case.case",
     "ExplicitEuler": "macroslip.case.case",
     "BackwardEuler": "macroslip.case.case",

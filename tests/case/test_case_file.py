@@ -13,6 +13,7 @@ import pytest
 from macroslip import (
     BackwardEuler,
     BearingLoads,
+    Cage,
     Case,
     Drivetrain,
     ExplicitEuler,
@@ -96,6 +97,33 @@ def test_words_stand_for_the_defaults(write):
 )
 def test_a_model_and_what_differs_from_it(write, text, laws):
     assert read_case(write(f"{LOADS}laws: {text}\n")).laws == laws
+
+
+def test_the_whole_bearing_with_its_cage(write):
+    text = """dynamics: whole-bearing
+cage: {gap: 0.2 mm, impact: dry, damping: 30 s/m, arrangement: per-row, mass: 40 kg, weight: false, guide_friction: 5 N,
+  offsets: random, diameter_scatter: 1.5 um, seed: 7}
+"""
+    case = read_case(write(LOADS + text))
+    assert case.dynamics == "whole-bearing"
+    assert case.cage == Cage(
+        gap=2e-4, impact="dry", damping=30.0, arrangement="per-row", mass=40.0, weight=False, guide_friction=5.0,
+        offsets="random", diameter_scatter=1.5e-6, seed=7,
+    )  # fmt: skip
+    assert case.as_dict()["cage"]["gap"] == 2e-4
+    assert not {"dynamics", "cage"} & set(read_case(write(LOADS)).as_dict())
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("cage: {gap: 20 mm}\n", r"line 3, cage\.gap: .*pockets would overlap"),
+        ("integrator: {method: backward-euler, step: 1 ms}\n", "line 3, integrator: .*cannot resolve the impacts"),
+    ],
+)
+def test_a_whole_bearing_that_cannot_be(write, text, place):
+    with pytest.raises(InputError, match=place):
+        read_case(write(f"{LOADS}dynamics: whole-bearing\n{text}"))
 
 
 @pytest.mark.parametrize(
@@ -234,6 +262,9 @@ CONSTANT = {"force": ["1 kN", "2 N", "0 N"], "shaft_speed": "20 rpm", "duration"
         ({"traces": "none"}, True),
         ({"traces": {"step": "1 ms"}}, True),
         ({"traces": {}}, False),
+        ({"dynamics": "whole-bearing", "cage": {"gap": "0.2 mm", "impact": "dry"}}, True),
+        ({"dynamics": "whole-bearing", "cage": {"damping": "50 m/s"}}, False),
+        ({"dynamics": "free"}, False),
         ({"extra": 1}, False),
     ],
 )

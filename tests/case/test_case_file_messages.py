@@ -40,7 +40,7 @@ def told(tmp_path):
         (
             LOADS + "weather: fair\n",
             "case.yaml, line 2: the key 'weather' is unknown. Allowed: bearing, lubricant, temperature, "
-            "heat, loads, drivetrain, forces, laws, integrator, window, rollers, traces, rating. Remove it.",
+            "heat, loads, drivetrain, forces, laws, dynamics, cage, integrator, window, rollers, traces, rating. Remove it.",
         ),
         (
             "rollers: all\n",
@@ -132,6 +132,19 @@ def told(tmp_path):
             LOADS + "drivetrain:\n  shaft_mass_station: 4 m\n",
             "case.yaml, line 3, drivetrain.shaft_mass_station: it is 4 m. Allowed: 0 to 3.46 m, from the hub to the "
             "end of the shaft. Check value and unit.",
+        ),
+        (
+            LOADS + "dynamics: free\n",
+            "case.yaml, line 2, dynamics: 'free' does not exist. Allowed: imposed-orbit, whole-bearing.",
+        ),
+        (
+            LOADS + "cage: {gap: 1 mm}\n",
+            "case.yaml, line 2, cage: a cage is described, but rollers on imposed orbits do not use it. Allowed: with "
+            "dynamics: whole-bearing. Set dynamics: whole-bearing, or remove the cage.",
+        ),
+        (
+            LOADS + "dynamics: whole-bearing\ncage:\n  gap: -0.1 mm\n",
+            "case.yaml, line 4, cage.gap: the gap is -0.0001 m. Allowed: 0 to 100 mm.",
         ),
         (LOADS + "forces: {gravity: yes}\n", "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false."),
         (

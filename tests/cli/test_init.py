@@ -74,6 +74,7 @@ def test_who_changes_only_the_loads_of_the_template_has_a_case(folder, macroslip
 
 def test_what_the_template_comments_out_is_right_too(folder, macroslip):
     """Each alternative has to run the moment its comment signs are taken away."""
+    from macroslip import Cage
     from macroslip.case.case_file import read_case
 
     macroslip("init")
@@ -90,6 +91,9 @@ def test_what_the_template_comments_out_is_right_too(folder, macroslip):
         uncommented = "\n".join(line.removeprefix("# ").removeprefix("#") for line in block.splitlines())
         (folder / "one.yaml").write_text("loads: {bundled: 14B}\n" + uncommented + "\n")
         read_case("one.yaml")
+    cage = text[text.index("# cage:\n") :].split("\n\n")[0].replace("\n# ", "\n").removeprefix("# ")
+    (folder / "one.yaml").write_text(f"loads: {{bundled: 14B}}\ndynamics: whole-bearing\n{cage}\n")
+    assert read_case("one.yaml").cage == Cage()
     assert data["loads"] == {"bundled": "14B", "start": "0 s", "end": "60 s"}
 
 

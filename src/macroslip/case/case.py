@@ -18,6 +18,10 @@ from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.overview import html_overview
+from macroslip.whole_bearing.cage import Cage
+
+#: Whether orbits are imposed, or rollers and cages move together.
+IMPOSED_ORBIT, WHOLE_BEARING = DYNAMICS = ("imposed-orbit", "whole-bearing")
 
 #: The word for a temperature that follows from friction and the loss of heat.
 BALANCE = "balance"
@@ -155,6 +159,10 @@ class Case:
         Whether weight and drag act on the rollers.
     laws : Laws
         Mechanisms in the contacts; the paper's by default, `Laws.physical()` for all of them.
+    dynamics : "imposed-orbit" or "whole-bearing"
+        Whether every roller turns on its own on an orbit of pure rolling, or all move together with the cage.
+    cage : Cage
+        For the whole bearing.
     integrator : Radau, ExplicitEuler or BackwardEuler
     window : Window
     rollers : "all" or sequence of int
@@ -185,6 +193,8 @@ class Case:
     gravity: bool = True
     drag: bool = True
     laws: Laws = field(default_factory=Laws.paper)
+    dynamics: str = IMPOSED_ORBIT
+    cage: Cage = field(default_factory=Cage)
     integrator: Radau | ExplicitEuler | BackwardEuler = field(default_factory=Radau)
     window: Window = field(default_factory=Window)
     rollers: str | Sequence[int] = "all"
@@ -200,6 +210,7 @@ class Case:
             ("gravity", (bool,)),
             ("drag", (bool,)),
             ("laws", (Laws,)),
+            ("cage", (Cage,)),
             ("integrator", (Radau, ExplicitEuler, BackwardEuler)),
             ("window", (Window,)),
             ("rating", (bool,)),
@@ -208,6 +219,7 @@ class Case:
             allowed = " or ".join(kind.__name__ for kind in kinds)
             _check(isinstance(value, kinds), f"it is {type(value).__name__}", name, allowed)
         self._check_temperature()
+        _check_dynamics(self)
         object.__setattr__(self, "rollers", _rollers(self.rollers, self.bearing.rollers_per_row))
         first, last = float(self.loads.time[0]), float(self.loads.time[-1])
         start = first if self.window.start is None else self.window.start
@@ -295,6 +307,7 @@ class Case:
             "drivetrain": asdict(self.drivetrain),
             "forces": {"gravity": self.gravity, "drag": self.drag},
             "laws": {"model": self.laws.name, **asdict(self.laws)},
+            **({"dynamics": self.dynamics, "cage": asdict(self.cage)} if self.dynamics == WHOLE_BEARING else {}),
             "integrator": {"method": type(self.integrator).__name__, **asdict(self.integrator)},
             "window": asdict(self.window),
             "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
@@ -321,8 +334,38 @@ class Case:
             ("integrator", type(self.integrator).__name__),
             ("window", f"window {opens} to {loads.time[-1] if end is None else end:g} s"),
             ("rollers", count),
+            ("dynamics", self.dynamics),
             ("traces", "no traces" if self.traces is None else f"traces every {self.traces.step:g} s"),
         ]
+
+
+def _check_dynamics(case: Case) -> None:
+    """Refuse what the chosen dynamics cannot use."""
+    _check(case.dynamics in DYNAMICS, f"'{case.dynamics}' does not exist", "dynamics", " or ".join(DYNAMICS))
+    if case.dynamics == IMPOSED_ORBIT:
+        _check(
+            case.cage == Cage(), "a cage is described, but rollers on imposed orbits do not use it", "cage",
+            "with dynamics: whole-bearing", "Set dynamics: whole-bearing, or remove the cage",
+        )  # fmt: skip
+        return
+    integrator = case.integrator
+    fixed = f"a fixed step of {getattr(integrator, 'step', 0.0):g} s"
+    _check(
+        isinstance(integrator, Radau),
+        f"{fixed} cannot resolve the impacts of rollers on their cage, which take a tenth of a millisecond and begin at "
+        "any time",
+        "integrator",
+        "an error-controlled integrator for dynamics: whole-bearing",
+        "Choose integrator.method: radau; its tolerance serves the whole bearing too",
+    )
+    _check(
+        case.laws.rolling == "none",
+        f"rolling resistance ({case.laws.rolling}) is not part of the whole bearing yet",
+        "laws.rolling",
+        "none for dynamics: whole-bearing",
+        "Set laws.rolling: none beside the model",
+    )
+    case.cage.check_fit(case.bearing)
 
 
 def _rollers(given: str | Iterable[int], count: int) -> str | tuple[int, ...]:

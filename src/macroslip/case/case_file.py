@@ -126,12 +126,14 @@ class CaseBuilder:
         if "loads" not in parts or self.is_bearing_wrong or (self.values.get("bearing") and "bearing" not in parts):
             return
         common = {key: parts[key] for key in ("loads", "bearing") if key in parts}
-        for key in ("rollers", "window", "traces"):
-            if key in parts:
+        for keys in (("rollers",), ("window",), ("traces",), ("dynamics", "integrator", "cage")):
+            given = {key: parts[key] for key in keys if key in parts}
+            if given:
                 try:
-                    Case(**common, **{key: parts[key]})
+                    Case(**common, **given)
                 except InputError as problem:
-                    self.problems.append(self.located(problem, key))
+                    blamed = problem.where.partition(".")[0]
+                    self.problems.append(self.located(problem, blamed if blamed in keys else keys[0]))
 
     def record(self, kind: type[Record], name: str) -> Record:
         """Read a bearing or lubricant by catalogue name or path."""
@@ -195,6 +197,8 @@ _PARTS: dict[str, Callable[[CaseBuilder, Any], dict[str, Any]] | None] = {
     "drivetrain": None,
     "forces": lambda builder, given: asdict(given),
     "laws": CaseBuilder.laws,
+    "dynamics": None,
+    "cage": None,
     "integrator": None,
     "window": None,
     "rollers": None,

@@ -1,7 +1,7 @@
 """The keys of a case file: the one description that reader, messages and JSON Schema share.
 
 To add a key, add a field to its section: `name: Annotated[type, Quantity("what it is", LENGTH, 0.0, 1.0)] = default`.
-Keys of `Radau`, `Window`, `Traces` and `Drivetrain` are the fields of these classes themselves; a new section is a class
+Keys of `Radau`, `Window`, `Traces`, `Cage` and `Drivetrain` are the fields of these classes themselves; a new section is a class
 with `@input_section` here and a line in `CaseFile` and in `case_file._PARTS`.
 """
 
@@ -10,7 +10,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from macroslip.case.case import BALANCE, BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
+from macroslip.case.case import (
+    BALANCE,
+    DYNAMICS,
+    IMPOSED_ORBIT,
+    BackwardEuler,
+    ExplicitEuler,
+    Heat,
+    Radau,
+    Traces,
+    Window,
+)
 from macroslip.catalogue.forms import Choice, Flag, Form, Quantity, Text, Vector
 from macroslip.catalogue.input_section import OrWord, Variants, input_section
 from macroslip.catalogue.problems import shown
@@ -19,6 +29,7 @@ from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, bundled_cases
 from macroslip.mechanisms import NAMED_SETS, asperity_laws, rheologies, rolling_laws, viscosities
+from macroslip.whole_bearing.cage import Cage
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
@@ -151,6 +162,10 @@ class CaseFile:
     drivetrain: Drivetrain = Drivetrain()
     forces: Forces = Forces()
     laws: LawsKeys = LawsKeys()
+    dynamics: Annotated[
+        str, Choice("rollers on orbits of pure rolling, or all of them together with the cage", lambda: DYNAMICS)
+    ] = IMPOSED_ORBIT
+    cage: Cage = Cage()
     integrator: Annotated[
         Radau | BackwardEuler | ExplicitEuler,
         Variants("method of integration in time", "method", "radau", INTEGRATORS),

@@ -100,6 +100,7 @@ TEMPERATURE = Dimension({"K": Unit(Fraction(1)), "degC": Unit(Fraction(1), Fract
 INVERSE_TEMPERATURE = _dimension(**{"1/K": 1})
 KINEMATIC_VISCOSITY = _dimension(**{"m2/s": 1, "mm2/s": Fraction(1, 10**6), "cSt": Fraction(1, 10**6)})
 VISCOSITY = _dimension(**{"Pa s": 1})
+INVERSE_SPEED = _dimension(**{"s/m": 1})
 CONDUCTIVITY = _dimension(**{"W/(m K)": 1})
 CONDUCTANCE = _dimension(**{"W/K": 1})
 SPECIFIC_HEAT = _dimension(**{"J/(kg K)": 1})

@@ -119,8 +119,7 @@ def to_dataset(
     edges: np.ndarray,
     end: float,
     results: dict[tuple[str, int], tuple[int, Record]],
-    film_range_notes: list[str],
-    truncated_share: float,
+    notes: dict[str, Any],
     drag_power: float,
 ) -> xr.Dataset:
     """Collect the records of all rollers.
@@ -136,10 +135,8 @@ def to_dataset(
         End of the window [s].
     results : dict
         Status and record by row and roller number.
-    film_range_notes : list of str
-        What lies outside the film law's range whatever the load.
-    truncated_share : float
-        Largest share of a roller's load that lies beyond its ends [-].
+    notes : dict
+        Attributes of the result on its accuracy, by name.
     drag_power : float
         Mean power of the lubricant's drag on all rollers of both rows in the window [W].
 
@@ -180,8 +177,7 @@ def to_dataset(
         "model": case.laws.name,
         "window_start": float(edges[0]),
         "window_end": end,
-        "film_range_notes": "\n".join(film_range_notes),
-        "truncated_share": truncated_share,
+        **notes,
         "rollers_per_row": case.bearing.rollers_per_row,
         "drag_power": drag_power,
         "input": json.dumps(case.as_dict(), ensure_ascii=False),

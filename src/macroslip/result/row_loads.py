@@ -44,9 +44,9 @@ def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, N
         As `macroslip.simulate`.
     """
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
-    model = roller_model(case.bearing, case.lubricant, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
+    model = roller_model(case.bearing, case.oil, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
     ring = ring_geometry(case.bearing, model)
-    motion, _ = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.lubricant, case.laws))
+    motion, _ = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.oil, case.laws))
     here = np.flatnonzero((motion.time >= start) & (motion.time <= end))[::_EVERY]
     found = np.empty((here.size, len(ROWS) * case.bearing.rollers_per_row))
     for line, k in zip(found, here, strict=True):

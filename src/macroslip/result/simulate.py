@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
-from macroslip.case.case import BALANCE, BackwardEuler, Case, Radau
+from macroslip.case.case import BALANCE, WHOLE_BEARING, BackwardEuler, Case, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
@@ -22,6 +22,7 @@ from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
 from macroslip.result.thermal_balance import balanced
+from macroslip.result.whole_dataset import simulate_whole_bearing
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.ring.travel import orbit_times
@@ -34,6 +35,7 @@ from macroslip.roller.model import (
     truncated_share,
     truncation_load,
 )
+from macroslip.whole_bearing.run import Times
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,24 +78,15 @@ def simulate(
         case = balanced(case, lambda known: simulate(known, threads=threads))
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
     oil = case.oil
-    models = {
-        row: roller_model(
-            case.bearing,
-            oil,
-            AXIAL_SIGNS[row],
-            tilt=case.drivetrain.tilt,
-            gravity=case.gravity,
-            drag=case.drag,
-            laws=case.laws,
-        )
-        for row in ROWS
-    }
+    models = _rollers(case)
     model = models["downwind"]
     ring = ring_geometry(case.bearing, model)
     motion, largest = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, oil, case.laws))
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
+    if case.dynamics == WHOLE_BEARING:
+        return simulate_whole_bearing(case, models, motion, Times(edges, trace_time, end), _notes(case, largest))
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
 
@@ -124,9 +117,8 @@ def simulate(
         raise
     finally:
         pool.shutdown(cancel_futures=True)
-    notes = film_range_notes(case.laws.film, interfaces(case.bearing, oil))
-    cut_off = truncated_share(largest, truncation_load(case.bearing, oil))
-    return to_dataset(case, model, edges, end, results, notes, cut_off, _drag_power(case, model, motion, edges[0], end))
+    drag = _drag_power(case, model, motion, edges[0], end)
+    return to_dataset(case, model, edges, end, results, _notes(case, largest), drag)
 
 
 def _drag_power(case: Case, model: RollerModel, motion: Motion, start: float, end: float) -> float:
@@ -136,6 +128,30 @@ def _drag_power(case: Case, model: RollerModel, motion: Motion, start: float, en
     speed = np.abs(model.orbit_ratio * np.interp(time, motion.time, motion.shaft_speed))
     power = model.drag * speed**3 * case.bearing.pitch_radius
     return 2 * case.bearing.rollers_per_row * float(np.trapezoid(power, time)) / (end - start)
+
+
+def _rollers(case: Case) -> dict[str, RollerModel]:
+    """Rollers of both rows."""
+    return {
+        row: roller_model(
+            case.bearing,
+            case.oil,
+            AXIAL_SIGNS[row],
+            tilt=case.drivetrain.tilt,
+            gravity=case.gravity,
+            drag=case.drag,
+            laws=case.laws,
+        )
+        for row in ROWS
+    }
+
+
+def _notes(case: Case, largest: float) -> dict[str, Any]:
+    """Attributes on films out of range and on contacts cut off at the roller's ends, for the largest roller load [N]."""
+    return {
+        "film_range_notes": "\n".join(film_range_notes(case.laws.film, interfaces(case.bearing, case.oil))),
+        "truncated_share": truncated_share(largest, truncation_load(case.bearing, case.oil)),
+    }
 
 
 def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float) -> Limits | None:

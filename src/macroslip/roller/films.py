@@ -106,7 +106,7 @@ class CageFilm(NamedTuple):
 
 @jit_inline
 def _excess(films, log_load, body, play, log_speed):
-    """ln of the films' height over that of the space they have, at q = exp(`log_load`), and its derivative by ln q."""
+    """Ln of the films' height over that of the space they have, at q = exp(`log_load`), and its derivative by ln q."""
     load = math.exp(log_load)
     inner_load = load - body if body < 0.0 else load
     outer_load = load + body if body > 0.0 else load

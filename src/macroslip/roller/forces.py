@@ -203,8 +203,10 @@ def magnitude(forces):
 
 @jit_inline
 def shifted(forces, change):
-    """The forces after a small change of slip [m/s], to first order; what the
-    cage and rolling resistance change by is all given to the cage, and the details are left as they are."""
+    """The forces after a small change of slip [m/s], to first order.
+
+    What the cage and rolling resistance change by is all given to the cage; the details are left as they are.
+    """
     inner = forces.inner_slope * change
     outer = forces.outer_slope * change
     return SlipForces(

@@ -1,0 +1,301 @@
+"""A coupled simulation of the whole bearing, and its result in the same schema as that of an imposed orbit, with more.
+
+What is added: `cage` (both, or downwind and upwind), `side` of the pocket (front, rear), `position` on the orbit, and
+`book_time`, at which the books of momentum and energy are closed.
+"""
+
+from __future__ import annotations
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import macroslip
+from macroslip.bearing.frames import ROWS, initial_angles
+from macroslip.integrate.detail import MECHANISMS
+from macroslip.integrate.status import Status
+from macroslip.result.dataset import CITATIONS, INTERFACES
+from macroslip.roller.contact_force import CurvedContact
+from macroslip.roller.contacts import references
+from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
+from macroslip.whole_bearing.ledger import FLOWS, STOCKS
+from macroslip.whole_bearing.model import whole_bearing
+from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, Record
+from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from macroslip.case.case import Case
+    from macroslip.ring.orbit import Motion
+    from macroslip.roller.model import RollerModel
+    from macroslip.whole_bearing.model import WholeBearing
+
+#: Sides of a pocket: the spar ahead and the one behind.
+SIDES = ("front", "rear")
+_CITATION = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068"
+
+
+def simulate_whole_bearing(
+    case: Case, models: dict[str, RollerModel], motion: Motion, times: Times, notes: dict[str, Any]
+) -> xr.Dataset:
+    """Compute orbit and spin of all rollers, and the cages.
+
+    Parameters
+    ----------
+    case : Case
+    models : dict of RollerModel
+        Of both rows.
+    motion : Motion
+        Of the inner ring.
+    times : Times
+        With those of traces as outputs, if any were asked for.
+    notes : dict
+        Attributes of the result on its accuracy, by name.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `macroslip.result.dataset.to_dataset`, with the variables of the cage.
+    """
+    bearing = whole_bearing(
+        case.bearing, case.oil, case.cage, tilt=case.drivetrain.tilt, gravity=case.gravity, drag=case.drag,
+        laws=case.laws,
+    )  # fmt: skip
+    curved = isinstance(bearing.models[0].inner, CurvedContact)
+    bearing = bearing._replace(models=tuple(models[row] for row in ROWS))
+    if case.traces is None:
+        times = times._replace(outputs=np.unique(np.concatenate([motion.time[:1], times.edges, [times.end]])))
+    interrupt = np.zeros(1, dtype=np.int8)
+    # The kernel runs in a thread of its own, so that an interrupt is heard here.
+    with ThreadPoolExecutor(1) as pool:
+        future = pool.submit(
+            run_whole_bearing, bearing, motion, pure_rolling(bearing, case.cage), times,
+            tolerance=case.integrator.tolerance, max_steps=case.integrator.max_steps, interrupt=interrupt,
+        )  # fmt: skip
+        try:
+            status, record = future.result()
+        except BaseException:
+            interrupt[0] = 1
+            raise
+    return whole_dataset(case, bearing, motion, status, record, notes, curved=curved)
+
+
+class _Collector:
+    """Variables with their dimensions, in rows and rollers."""
+
+    def __init__(self, count: int, numbers: list[int], failed: bool):
+        self.count, self.numbers, self.failed = count, numbers, failed
+        self.data: dict[str, Any] = {}
+
+    def put(self, name: str, dims: tuple[str, ...], values: Any, units: str, long_name: str, **attributes: Any) -> None:
+        self.data[name] = (dims, values, {"units": units, "long_name": long_name, **attributes})
+
+    def by_roller(self, values: np.ndarray) -> np.ndarray:
+        """(n, …) to (row, roller, …) for the rollers asked for; NaN after a failure."""
+        found = np.array(values, dtype=float).reshape(len(ROWS), self.count, *values.shape[1:])[:, self.numbers]
+        if self.failed:
+            found[:] = np.nan
+        return found
+
+
+def whole_dataset(
+    case: Case,
+    bearing: WholeBearing,
+    motion: Motion,
+    status: int,
+    record: Record,
+    notes: dict[str, Any],
+    *,
+    curved: bool,
+) -> xr.Dataset:
+    """Collect a record. Every variable has `units` and `long_name`."""
+    import xarray as xr
+
+    numbers = list(case.roller_numbers)
+    out = _Collector(case.bearing.rollers_per_row, numbers, status != Status.COMPLETED)
+    shape = (len(ROWS), len(numbers))
+    _put_common(out, record, status, shape)
+    _put_cage(out, record)
+    _put_books(out, record)
+    if curved:
+        dims = ("row", "roller", "interface", "mechanism")
+        about = "energy in the window by what makes surfaces slide: slip of the middle, curvature, contact angle"
+        out.put("mechanism_energy", dims, out.by_roller(record.mechanism_energy), "J", about)
+    if case.traces is not None:
+        _put_traces(out, record, bearing, motion)
+    edges = record.edges
+    case_end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
+    cages = ["both"] if bearing.cages == 1 else list(ROWS)
+    coordinates: dict[str, Any] = {
+        "row": list(ROWS),
+        "roller": ("roller", numbers, {"units": "1", "long_name": "number of the roller in its row"}),
+        "interface": list(INTERFACES),
+        "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),
+        "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
+        "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
+        "start_angle": (
+            ("row", "roller"),
+            np.array([initial_angles(row, out.count)[numbers] for row in ROWS]),
+            {"units": "rad", "long_name": "pocket's position at the first sample, from +X0 towards +Y0"},
+        ),
+        "cage": cages,
+        "side": list(SIDES),
+        "position": (
+            "position", np.radians(2.5 + 5.0 * np.arange(72)), {"units": "rad", "long_name": "place on the orbit, from +X0"}
+        ),
+        "book_time": ("book_time", record.out_time, {"units": "s", "long_name": "time"}),
+    }  # fmt: skip
+    if curved:
+        coordinates["mechanism"] = list(MECHANISMS)
+    if case.traces is not None:
+        coordinates["time"] = ("time", record.out_time, {"units": "s", "long_name": "time"})
+    attributes = {
+        "title": f"Roller slip of {case.bearing.name} under {case.loads.source}, whole bearing",
+        "source": f"macroslip {macroslip.__version__}",
+        "model": case.laws.name,
+        "dynamics": case.dynamics,
+        "window_start": float(edges[0]),
+        "window_end": case_end,
+        **notes,
+        "input": json.dumps(case.as_dict(), ensure_ascii=False),
+        "citations": "\n".join([*CITATIONS, *references(case.laws), _CITATION]),
+    }
+    return xr.Dataset(out.data, coordinates, attributes)
+
+
+def _put_common(out: _Collector, record: Record, status: int, shape: tuple[int, int]) -> None:
+    """What a result on imposed orbits has too."""
+    rollers = ("row", "roller")
+    out.put(
+        "energy",
+        (*rollers, "interface"),
+        out.by_roller(record.energy),
+        "J",
+        "energy dissipated by friction in the window",
+    )
+    dims = (*rollers, "orbit", "interface")
+    about = "energy dissipated by friction in each complete orbit"
+    out.put("orbit_energy", dims, out.by_roller(record.orbit_energy), "J", about)
+    out.put(
+        "peak_power", dims, out.by_roller(record.peak_power), "W", "largest frictional power in each complete orbit"
+    )
+    ratio = out.by_roller(record.spin_ratio)
+    about = "smallest ratio of spin to spin in pure rolling in the window"
+    out.put("min_spin_ratio", rollers, np.where(np.isinf(ratio), np.nan, ratio), "1", about)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        outside = record.outside_time / record.loaded_time
+    about = "share of loaded time in which load or speed lay outside the film law's range"
+    out.put("outside_film_range", (*rollers, "interface"), out.by_roller(outside), "1", about)
+    out.put(
+        "status", rollers, np.full(shape, status, dtype=np.int8), "1", "outcome of the integration",
+        flag_values=np.array([int(s) for s in Status], dtype=np.int8),
+        flag_meanings=" ".join(s.name.lower() for s in Status),
+    )  # fmt: skip
+    for position, name in enumerate(("steps", "rejections", "force_evaluations")):
+        about = f"number of {name.replace('_', ' ')} of the integrator, of all rollers together"
+        out.put(name, rollers, np.full(shape, record.count[position]), "1", about)
+    about = "largest force left unbalanced by an accepted implicit step"
+    out.put("unbalanced_force", rollers, np.full(shape, record.worst[0]), "N", about)
+    out.put("end_time", rollers, np.full(shape, record.end[0]), "s", "time at which the integration ended")
+    slip = record.end_slip.reshape(len(ROWS), -1)[:, out.numbers]
+    out.put("end_slip", rollers, slip, "m/s", "mean slip at inner and outer raceway at which the integration ended")
+
+
+def _put_cage(out: _Collector, record: Record) -> None:
+    """Pockets and cages."""
+    rollers = ("row", "roller")
+    sided = (*rollers, "side")
+    out.put(
+        "pocket_impulse", sided, out.by_roller(record.impulse), "N s", "impulse of a spar on its roller in the window"
+    )
+    out.put(
+        "largest_pocket_force", sided, out.by_roller(record.largest_push), "N", "largest force of a spar in the window"
+    )
+    out.put(
+        "pocket_contact_time", sided, out.by_roller(record.push_time), "s", "time in the window with force on the spar"
+    )
+    places = record.largest_by_position.reshape(len(ROWS), out.count, -1).max(axis=1)
+    about = "largest force of a spar in the window by place on the orbit, over all rollers"
+    out.put("largest_force_by_position", ("row", "position"), places, "N", about)
+    span, first, second = record.slip_square.T
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean, square = first / span, second / span
+    out.put(
+        "cage_slip", ("cage",), mean, "1", "mean of the cage's speed over that of pure rolling, less one, in the window"
+    )
+    deviation = np.sqrt(np.maximum(square - mean * mean, 0.0))
+    out.put("cage_slip_deviation", ("cage",), deviation, "1", "standard deviation of the cage's slip in the window")
+
+
+def _put_books(out: _Collector, record: Record) -> None:
+    """Books of angular momentum and energy."""
+    dims = ("book_time",)
+    for k, name in enumerate(STOCKS):
+        units = "N m s" if name == "momentum" else "J"
+        out.put(f"book_{name}", dims, record.held[:, k], units, f"{name.replace('_', ' ')} of rollers and cages")
+    for k, name in enumerate(FLOWS):
+        units = "N m s" if name.endswith("impulse") else "J"
+        out.put(f"book_{name}", dims, record.flows[:, k], units, f"{name.replace('_', ' ')} since the first sample")
+    about = "change of angular momentum less the impulse of all torques"
+    out.put("momentum_residual", dims, momentum_residual(record), "N m s", about)
+    about = "change of kinetic energy less work done and energy dissipated"
+    out.put("energy_residual", dims, energy_residual(record), "J", about)
+    out.put("pocket_loss", dims, pocket_loss(record), "J", "energy dissipated by impacts and squeeze films")
+
+
+def _put_traces(out: _Collector, record: Record, bearing: WholeBearing, motion: Motion) -> None:
+    """Series of rollers and cages."""
+    trace = dict(zip(TRACES, np.moveaxis(record.trace, -1, 0), strict=True))
+    dims = ("row", "roller", "time")
+
+    def channel(name: str) -> np.ndarray:
+        return np.moveaxis(trace[name].reshape(record.out_time.size, len(ROWS), -1)[:, :, out.numbers], 0, -1)
+
+    def stack(name: str, places: tuple[str, ...]) -> np.ndarray:
+        return np.stack([channel(f"{name}_{place}") for place in places], axis=-1)
+
+    speed = np.interp(record.out_time, motion.time, motion.shaft_speed)
+    pure = -bearing.bodies[0].orbit_ratio * bearing.outer_radius * speed / bearing.radius
+    slip = 0.5 * (channel("slip_inner") + channel("slip_outer"))
+    out.put("spin", dims, channel("spin"), "rad/s", "spin about the roller's axis, relative to the orbiting frame")
+    out.put(
+        "spin_pure",
+        dims,
+        np.broadcast_to(pure, slip.shape),
+        "rad/s",
+        "spin in pure rolling, on the orbit of pure rolling",
+    )
+    out.put("slip", dims, slip, "m/s", "mean slip of both raceway contacts, ring less roller")
+    out.put(
+        "raceway_slip",
+        (*dims, "raceway"),
+        stack("slip", INTERFACES[:2]),
+        "m/s",
+        "slip at the middle of a raceway contact",
+    )
+    out.put("roller_load", dims, channel("roller_load"), "N", "elastic load of the roller, without body forces")
+    about = "force of the spars on the roller, positive along the orbit"
+    out.put("cage_force", dims, channel("cage_force"), "N", about)
+    about = "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up"
+    out.put("traction", (*dims, "interface"), stack("traction", INTERFACES), "N", about)
+    out.put("power", (*dims, "interface"), stack("power", INTERFACES), "W", "frictional power")
+    about = "central film thickness; NaN without load"
+    out.put("film_thickness", (*dims, "interface"), stack("film", INTERFACES), "m", about)
+    out.put("pocket_offset", dims, channel("pocket_offset"), "m", "roller's way ahead of the middle of its pocket")
+    about = "orbit speed less that of pure rolling"
+    out.put("orbit_speed_deviation", dims, channel("orbit_speed_deviation"), "rad/s", about)
+    whole = np.moveaxis(trace["pocket_offset"].reshape(record.out_time.size, len(ROWS), -1), 0, -1)
+    ahead = (np.roll(whole, -1, axis=1) - whole)[:, out.numbers]
+    out.put("spacing_deviation", dims, ahead, "m", "distance to the next roller ahead along the orbit, less the pitch")
+    names = {
+        "cage_speed": ("rad/s", "speed of the cage"),
+        "cage_lag": ("m", "way of the cage at the pitch radius beyond that of pure rolling"),
+        "cage_x": ("m", "displacement of the cage along X0"),
+        "cage_y": ("m", "displacement of the cage along Y0"),
+        "cage_torque": ("N m", "torque of the rollers on the cage, positive along the orbit"),
+    }
+    for k, name in enumerate(CAGE_TRACES):
+        out.put(name, ("cage", "time"), record.cage_trace[:, :, k].T, *names[name])

@@ -1,0 +1,56 @@
+"""Tolerance and bounds of an integration."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+#: Part of the tolerance that a step's error of speed may take, against the raceway speed.
+_SPEED_SHARE = 0.5
+
+
+class Limits(NamedTuple):
+    """Tolerance and bounds.
+
+    Attributes
+    ----------
+    tolerance : float
+        Relative accuracy per step of speeds, against the raceway speed.
+    allowed_speed : float
+        Error of speed that a step may make [m/s].
+    force : float
+        Largest force an iteration may leave unbalanced [N].
+    rounding : float
+        Rounding of speeds [m/s]; times mass over step it is the force below which no iteration can get.
+    longest_step : float
+        [s].
+    max_steps : int
+    rests : bool
+        Whether tractions may follow from slopes between evaluations.
+    interrupt : ndarray of int8, shape (1,)
+        Anything but zero ends the integration.
+    """
+
+    tolerance: float
+    allowed_speed: float
+    force: float
+    rounding: float
+    longest_step: float
+    max_steps: int
+    rests: bool
+    interrupt: np.ndarray
+
+
+def limits_of(tolerance: float, speed_scale: float, longest_step: float) -> Limits:
+    """Bounds for a relative tolerance and the largest raceway speed of the history [m/s]."""
+    return Limits(
+        tolerance=tolerance,
+        allowed_speed=_SPEED_SHARE * tolerance * speed_scale,
+        force=0.5 * tolerance,
+        rounding=4.0 * float(np.finfo(float).eps) * speed_scale,
+        longest_step=longest_step,
+        max_steps=100_000_000,
+        rests=True,
+        interrupt=np.zeros(1, dtype=np.int8),
+    )

@@ -1,0 +1,177 @@
+"""Forces between a roller and the two spars of its pocket.
+
+The pocket offset x is the roller's way ahead of the middle of its pocket, along the orbit. The front spar is at
+x = c/2, the rear one at −c/2; N is their push on the roller along the orbit. A spar never pulls.
+
+Dry, a spar pushes with K δ^1.5 (1 + D δ'). A **squeeze film** resists the approach: between a cylinder of radius R and a
+plane, Reynolds' equation for a gap h + x²/(2R) that closes at V gives p = 6 η V R/(h + x²/(2R))², hence the force
+3√2 π η l V (R/h)^1.5. On opening the film cavitates and gives nothing. It would keep surfaces apart for ever. Real ones
+are rough: when the gap g falls below their roughness h_m, their asperities meet (Hertz, on −g) while oil is left in the
+valleys, so the film thickness of the formula is h_m + ½(g + √(g² + h_m²)). It tends to g + h_m in the open gap and to h_m
+in a loaded contact, without a corner, so that the film's damping is bounded by that at h_m.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from macroslip.bearing import geometry
+from macroslip.compiled import jit, jit_inline
+from macroslip.whole_bearing.cage import Cage
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.lubricant import Lubricant
+
+#: Composite roughness times this is the film in a loaded contact; beyond Λ = 3 surfaces count as apart.
+_ROUGHNESS_FILMS = 3.0
+
+
+class Pocket(NamedTuple):
+    """What the spars do.
+
+    Attributes
+    ----------
+    half_gap : float
+        c/2 [m].
+    stiffness : float
+        K of the roller on a spar [N/m^1.5].
+    damping : float
+        D [s/m]; zero with a squeeze film.
+    film : float
+        3√2 π η l R^1.5 times the film's fullness [N s √m]; zero without film.
+    least_film : float
+        h_m [m].
+    """
+
+    half_gap: float
+    stiffness: float
+    damping: float
+    film: float
+    least_film: float
+
+
+def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float:
+    """3√2 π η l R^1.5 [N s √m] of a long cylinder and a plane; divided by h^1.5 the resistance to approach.
+
+    Parameters
+    ----------
+    viscosity : float
+        η [Pa s].
+    length, radius : float
+        Of the cylinder [m].
+
+    Examples
+    --------
+    >>> round(squeeze_coefficient(0.54, 0.106, 0.035) / 1e-4**1.5)     # at 0.1 mm, N s/m
+    4997
+    """
+    return 3.0 * math.sqrt(2.0) * math.pi * viscosity * length * radius**1.5
+
+
+def prepare_pocket(cage: Cage, bearing: Bearing, lubricant: Lubricant, stiffness: float) -> Pocket:
+    """The spars of a cage; `stiffness` is that of the cage's Hertz contact [N/m^1.5]."""
+    dry = cage.impact == "dry"
+    film = squeeze_coefficient(lubricant.viscosity, bearing.roller_length, geometry.roller_radius(bearing))
+    return Pocket(
+        half_gap=0.5 * cage.gap,
+        stiffness=stiffness,
+        damping=cage.damping if dry else 0.0,
+        film=0.0 if dry else cage.film_fullness * film,
+        least_film=_ROUGHNESS_FILMS * bearing.composite_roughness,
+    )
+
+
+@jit_inline
+def spar_push(pocket, gap, closing):
+    """Push of one spar [N], and its derivatives by the gap [N/m] and by its closing speed [N s/m].
+
+    Parameters
+    ----------
+    pocket : Pocket
+    gap : float
+        g [m]; negative where the bodies press on each other.
+    closing : float
+        −g' [m/s].
+    """
+    push, by_gap, by_closing = 0.0, 0.0, 0.0
+    if gap < 0.0:
+        yielding = 1.0 + pocket.damping * closing
+        if yielding > 0.0:
+            root = math.sqrt(-gap)
+            elastic = -pocket.stiffness * gap * root
+            push = elastic * yielding
+            by_gap = -1.5 * pocket.stiffness * root * yielding
+            by_closing = elastic * pocket.damping
+    if closing > 0.0 and pocket.film > 0.0:
+        root = math.sqrt(gap * gap + pocket.least_film * pocket.least_film)
+        film = pocket.least_film + 0.5 * (gap + root)
+        resistance = pocket.film / (film * math.sqrt(film))
+        push += resistance * closing
+        by_closing += resistance
+        by_gap -= 0.75 * resistance * closing * (1.0 + gap / root) / film
+    return push, by_gap, by_closing
+
+
+@jit
+def pocket_force(pocket, offset, speed):
+    """Push N of the pocket on its roller along the orbit [N], ∂N/∂x [N/m] and ∂N/∂x' [N s/m].
+
+    Parameters
+    ----------
+    pocket : Pocket
+    offset : float
+        x [m].
+    speed : float
+        x' [m/s].
+
+    Examples
+    --------
+    >>> dry = Pocket(half_gap=1e-4, stiffness=1e10, damping=50.0, film=0.0, least_film=1e-6)
+    >>> push, _, _ = pocket_force(dry, 1.1e-4, 0.0)
+    >>> round(push, 1), pocket_force(dry, 0.9e-4, 0.1)[0]
+    (-316.2, 0.0)
+    """
+    front, front_by_gap, front_by_closing = spar_push(pocket, pocket.half_gap - offset, speed)
+    rear, rear_by_gap, rear_by_closing = spar_push(pocket, pocket.half_gap + offset, -speed)
+    return rear - front, rear_by_gap + front_by_gap, -(rear_by_closing + front_by_closing)
+
+
+@jit
+def elastic_energy(pocket, offset):
+    """Energy stored in the spars ⅖ K δ^2.5 [J]."""
+    depth = abs(offset) - pocket.half_gap
+    return 0.4 * pocket.stiffness * depth * depth * math.sqrt(depth) if depth > 0.0 else 0.0
+
+
+def restitution(damping: float, speed: float) -> float:
+    """Coefficient of restitution e of a dry impact, from D v0 (1 + e) = ln[(1 + D v0)/(1 − e D v0)].
+
+    It holds for every mass, stiffness and exponent of the contact.
+
+    Parameters
+    ----------
+    damping : float
+        D [s/m], ≥ 0.
+    speed : float
+        Approach speed v0 [m/s], > 0.
+
+    References
+    ----------
+    Hunt and Crossley, J. Appl. Mech. 42 (1975) 440, doi:10.1115/1.3423596, whose force law it integrates.
+
+    Examples
+    --------
+    >>> round(restitution(50.0, 0.02), 4), restitution(0.0, 0.1)
+    (0.5936, 1.0)
+    """
+    from scipy.optimize import brentq
+
+    ratio = damping * speed
+    if ratio < 1e-6:
+        return 1.0 - 2.0 * ratio / 3.0
+    # With e D v0 = 1 − exp(−s) the equation reads s − 1 + exp(−s) = D v0 − ln(1 + D v0), whose left side rises with s.
+    wanted = ratio - math.log1p(ratio)
+    found = brentq(lambda s: s + math.expm1(-s) - wanted, 0.0, wanted + 1.0, xtol=1e-14, rtol=1e-14)
+    return -math.expm1(-found) / ratio

@@ -1,0 +1,108 @@
+"""When the tractions of a roller are due for evaluation.
+
+At every evaluation the force that the slopes of the one before foretold is compared with the one found, and the time to
+the next follows from that.
+"""
+
+from __future__ import annotations
+
+import math
+
+from macroslip.compiled import jit
+from macroslip.whole_bearing.traction import (
+    INNER,
+    LOAD,
+    OUTER,
+    PULL,
+    PULL_V,
+    SLIP,
+    SPIN,
+    SPIN_V,
+    WHEN,
+    evaluate_marked,
+    raceway_from,
+)
+
+#: Allowed relative error of power where slopes foretell it, in tolerances.
+_POWER_SHARE = 25.0
+#: Longest time between evaluations [s], and factors by which it changes.
+_LONGEST_REST, _REST_GROWTH, _REST_PART = 0.05, 2.0, 0.3
+#: How many times its allowance a foretold force may be off before the step is repeated.
+_FAR_OFF = 6.0
+
+
+@jit
+def _contact_off(mass, limits, sheet, at, foretold, span, power_scale):
+    """How far a raceway contact is from the spin force and pull [N] foretold for it, over what is allowed."""
+    spin, pull = foretold
+    off = max(abs(spin - sheet[at + SPIN]), abs(pull - sheet[at + PULL]))
+    drift = off / (mass / max(span, 1e-9) + max(sheet[at + SPIN_V], sheet[at + PULL_V], 0.0))
+    slip = sheet[at + SLIP]
+    power = abs(sheet[at + SPIN] * slip)
+    wrong = abs((spin - sheet[at + SPIN]) * slip)
+    return max(drift / limits.allowed_speed, wrong / (_POWER_SHARE * limits.tolerance * (power + power_scale) + 1e-12))
+
+
+@jit
+def _foretold(mass, limits, tractions, stations, j, span, power_scale):
+    """How far the new sheet of roller `j` is from what the kept one, `span` [s] older, foretold, over what is allowed."""
+    sheet, known = tractions.sheets[j], tractions.known[j]
+    worst = 0.0
+    for k in range(2):
+        at = INNER if k == 0 else OUTER
+        load = stations.inner_load[j] if k == 0 else stations.outer_load[j]
+        speed = stations.inner_speed[j] if k == 0 else stations.outer_speed[j]
+        foretold = raceway_from(known, at, load, speed, sheet[at + SLIP])
+        worst = max(worst, _contact_off(mass, limits, sheet, at, foretold, span, power_scale))
+        change = abs(load - known[at + LOAD])
+        worst = max(worst, (change / (0.2 * max(load, known[at + LOAD]) + 1e-9)) ** 2)
+    return worst
+
+
+@jit
+def refresh(bearing, limits, time, space, power_scale):
+    """Evaluate the rollers that are due at the step's end, and set the time to their next evaluation.
+
+    Parameters
+    ----------
+    bearing : WholeBearing
+    limits : Limits
+    time : float
+        [s].
+    space : Space
+        With the solved step in `last`.
+    power_scale : float
+        Mean frictional power of a raceway contact so far [W].
+
+    Returns
+    -------
+    bool
+        Whether the forces of all resting rollers were near those foretold; otherwise the step has to be repeated.
+    """
+    tractions, moment = space.tractions, space.last
+    sheets, rest = tractions.sheets, tractions.rest
+    for j in range(rest.size):
+        resting = not tractions.fresh[j]
+        tractions.due[j] = not (resting and time - tractions.known[j, WHEN] < rest[j])
+        tractions.marked[j] = tractions.due[j] and (resting or sheets[j, WHEN] != time)
+    done = evaluate_marked(
+        bearing.models, bearing.rollers.row, moment.stations, time, moment.values.rollers, tractions.marked, sheets
+    )
+    space.work[0] += done
+    space.work[2] += done // 2
+    good = True
+    for j in range(rest.size):
+        span = time - tractions.known[j, WHEN]
+        if tractions.due[j]:
+            ratio = _foretold(bearing.roller_mass, limits, tractions, moment.stations, j, span, power_scale)
+            tractions.ratio[j] = ratio
+            if not tractions.fresh[j] and ratio > _FAR_OFF and span > 0.0:
+                rest[j] = 0.0
+                good = False
+    # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
+    for j in range(rest.size):
+        if good and tractions.due[j]:
+            factor = 0.8 / math.sqrt(max(tractions.ratio[j], 1e-4))
+            span = time - tractions.known[j, WHEN]
+            rest[j] = min(_LONGEST_REST, span * max(_REST_PART, min(factor, _REST_GROWTH)))
+    return good

@@ -1,0 +1,163 @@
+"""Conservation, symmetry, limits and convergence of the whole bearing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from macroslip import BearingLoads, Cage, Case, Radau, simulate
+from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
+from macroslip.whole_bearing.ledger import FLOWS
+from macroslip.whole_bearing.pocket import restitution
+
+RADIAL = (0.0, -2.0e-4, 0.0)
+THRUST = (0.0, 0.0, 8.0e-4)
+FREE = (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("impact", ["squeeze-film", "dry"])
+@pytest.mark.parametrize("arrangement", ["one", "per-row"])
+def test_books_close(run, impact, arrangement):
+    cage = Cage(impact=impact, arrangement=arrangement, guide_friction=5.0, offsets="random")
+    status, record, _ = run(cage, RADIAL, 2.143, 0.4)
+    assert status == 0
+    impulses = np.abs(record.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
+    assert np.abs(momentum_residual(record)).max() < 1e-6 * impulses
+    turned_over = np.abs(record.flows[-1, FLOWS.index("friction_loss")]) + np.abs(pocket_loss(record)[-1])
+    assert turned_over > 0.0
+    assert np.abs(energy_residual(record)).max() < 0.02 * turned_over
+
+
+def test_residual_of_energy_falls_with_tolerance(run):
+    found = []
+    for tolerance in (1e-3, 1e-5):
+        _, record, _ = run(Cage(), RADIAL, 2.143, 0.5, tolerance=tolerance)
+        found.append(np.abs(energy_residual(record)).max())
+    assert found[1] < 0.2 * found[0]
+
+
+def test_energies_spin_and_force_converge(run):
+    def figures(tolerance):
+        _, record, _ = run(Cage(), RADIAL, 2.143, 1.0, tolerance=tolerance)
+        return np.array(
+            [*record.energy.sum(axis=0), record.trace[-1, :28, 0].mean(), np.abs(record.trace[-1, :, 11]).mean()]
+        )
+
+    coarse, fine, finest = figures(2e-4), figures(2e-5), figures(2e-6)
+    off, less = np.abs(coarse / finest - 1.0), np.abs(fine / finest - 1.0)
+    assert off.max() < 5e-3
+    assert less.max() < 1e-3
+
+
+def test_tractions_that_rest_change_nothing(run):
+    """Between evaluations tractions follow from slopes; evaluated in every iteration they give the same."""
+    _, record, _ = run(Cage(), RADIAL, 2.143, 0.2)
+    _, other, _ = run(Cage(), RADIAL, 2.143, 0.2, rests=False)
+    assert record.count[2] < 0.5 * other.count[2]
+    assert record.energy.sum(axis=0) == pytest.approx(other.energy.sum(axis=0), rel=2e-3, abs=1e-6)
+
+
+def test_free_coast_only_loses_energy(run):
+    """No gravity, no drag, rings at rest: friction never gives energy, and nothing but the rings takes momentum."""
+    _, record, _ = run(
+        Cage(weight=False), FREE, 0.0, 0.5, gravity=False, drag=False,
+        start=lambda begin: begin._replace(cage_lead=np.full(1, 0.05)),
+    )  # fmt: skip
+    energy = record.held[:, 1]
+    assert energy[0] > 0.0
+    assert (np.diff(energy) <= 1e-12).all()
+    assert np.abs(record.flows[:, FLOWS.index("body_impulse")]).max() == 0.0
+    assert np.abs(momentum_residual(record)).max() < 1e-6 * record.held[0, 0]
+
+
+def test_a_released_cage_is_caught_by_the_rollers(run):
+    """A cage at rest among gripped rollers is carried along within its gap, and the rollers do not notice."""
+    nominal = 2.143 * 0.5 * 0.338367
+    status, record, _ = run(
+        Cage(), THRUST, 2.143, 0.3, start=lambda begin: begin._replace(cage_lead=np.full(1, -nominal)), outputs=31
+    )
+    assert status == 0
+    assert record.cage_trace[0, 0, 0] == pytest.approx(0.0, abs=1e-5)
+    assert record.cage_trace[-1, 0, 0] == pytest.approx(nominal / 0.3727, rel=0.02)
+    assert np.abs(record.trace[-1, :28, 12]).max() < 1e-5  # gripped rollers keep their orbit's speed
+
+
+def test_an_impact_in_the_bearing_gives_back_what_the_equation_says(run):
+    """A cage runs into gripped rollers, all at once: it leaves with e times its speed of approach."""
+    speed = 0.02
+    cage = Cage(weight=False, impact="dry", gap=2e-4, arrangement="per-row")
+    _, record, _ = run(
+        cage, THRUST, 0.0, 8e-3, gravity=False, drag=False, tolerance=1e-6,
+        start=lambda begin: begin._replace(cage_lead=np.full(2, speed)), outputs=401,
+    )  # fmt: skip
+    lead = record.cage_trace[:, 0, 0] * 0.3727
+    assert lead[0] == pytest.approx(speed, rel=1e-3)
+    assert -lead.min() / speed == pytest.approx(restitution(cage.damping, speed), rel=0.02)
+
+
+def test_pitch_symmetry(run):
+    """Under pure thrust without weight all rollers of a row do the same."""
+    _, record, _ = run(Cage(weight=False), THRUST, ([0.0, 0.25, 0.5], [2.0, 2.5, 1.5]), 0.5, gravity=False)
+    for row in (slice(0, 28), slice(28, 56)):
+        energy = record.energy[row].sum(axis=1)
+        assert energy == pytest.approx(energy[0], rel=1e-6, abs=1e-12)
+
+
+def test_mirrored_thrust_swaps_the_rows(run):
+    _, record, _ = run(Cage(weight=False), THRUST, 2.143, 0.5, gravity=False)
+    _, mirrored, _ = run(Cage(weight=False), (0.0, 0.0, -THRUST[2]), 2.143, 0.5, gravity=False)
+    assert record.energy[:28].sum(axis=0) == pytest.approx(mirrored.energy[28:].sum(axis=0), rel=1e-6, abs=1e-12)
+    assert record.energy[28:].sum(axis=0) == pytest.approx(mirrored.energy[:28].sum(axis=0), rel=1e-6, abs=1e-12)
+
+
+def test_renumbering_changes_nothing(run):
+    order = np.concatenate([np.arange(27, -1, -1), np.arange(55, 27, -1)])
+
+    def renumber(prepared):
+        return prepared._replace(rollers=type(prepared.rollers)(*(values[order] for values in prepared.rollers)))
+
+    _, record, _ = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5)
+    _, other, _ = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5, change=renumber)
+    assert other.energy == pytest.approx(record.energy[order], rel=1e-3, abs=1e-6)
+
+
+def test_one_roller_model_is_the_limit_of_rigid_bilateral_spars():
+    """Pockets without play and a cage that cannot be slowed: unloaded rollers hang their weight on the cage as (32) has it."""
+    loads = BearingLoads.constant([0.0, -3e3, 0.0], 2.143, 1.5)
+    case = Case(loads=loads, integrator=Radau(tolerance=2e-5))
+    imposed = simulate(case).energy
+    cage = Cage(gap=0.0, impact="dry", mass=1e5, weight=False)
+    coupled = simulate(Case(loads=loads, integrator=Radau(tolerance=2e-5), dynamics="whole-bearing", cage=cage)).energy
+    assert coupled.sel(interface="cage").sum("roller").values == pytest.approx(
+        imposed.sel(interface="cage").sum("roller").values, rel=0.01
+    )
+
+
+@pytest.mark.parametrize(
+    "shaft",
+    [
+        ([0.0, 0.5, 1.0], [0.0, 2.143, 2.143]),
+        ([0.0, 0.5, 1.0], [2.143, 0.0, 0.0]),
+        ([0.0, 1.0], [1.0, -1.0]),
+        ([0.0, 1.0], [0.2143, 0.2143]),
+        ([0.0, 0.3, 0.4, 1.0], [2.143, 2.143, 0.0, 0.0]),
+        ([0.0, 1.0], [0.0, 0.0]),
+    ],
+    ids=["start", "stop", "reversal", "idling", "emergency stop", "standstill"],
+)
+def test_every_operation_runs(run, shaft):
+    status, record, _ = run(Cage(), RADIAL, shaft, 1.0)
+    assert status == 0
+    assert np.isfinite(record.energy).all()
+    assert (record.energy > -1e-9).all()
+
+
+def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
+    """δΩ/Ω = −0.11 δr/r in pure rolling; gripped rollers' places drift apart by it."""
+    cage = Cage(diameter_scatter=1.5e-6, weight=False, gap=5e-4)
+    _, record, prepared = run(cage, THRUST, 2.143, 1.0)
+    nominal = 2.143 * 0.5 * prepared.inner_radius
+    expected = 0.5 * 2.143 * (prepared.rollers.inner_radius[:28] - prepared.inner_radius)
+    drift = record.trace[-1, :28, 11] - record.trace[-1, :28, 11].mean()
+    assert np.abs(expected).max() > 1e-6 * nominal
+    assert drift == pytest.approx(expected - expected.mean(), abs=0.05 * np.abs(expected).max())
