@@ -90,7 +90,7 @@ def operation(laws: Laws) -> None:
 
 
 if __name__ == "__main__":
-    paper, physical = Laws.paper(), Laws.physical()
+    paper, physical = Laws.paper(), Laws.physical().but(rolling="none")
     chosen = sys.argv[1:] or ["cases", "cage", "dry", "operation", "physical"]
     parts = {
         "cases": lambda: cases(paper, ("14B", "24B"), 600.0),

@@ -135,7 +135,7 @@ def told(tmp_path):
         ),
         (
             LOADS + "dynamics: free\n",
-            "case.yaml, line 2, dynamics: 'free' does not exist. Allowed: imposed-orbit, whole-bearing.",
+            "case.yaml, line 2, dynamics: 'free' does not exist. Allowed: imposed-orbit, whole-bearing. Choose one of these.",
         ),
         (
             LOADS + "cage: {gap: 1 mm}\n",

@@ -134,7 +134,7 @@ def blown(gusty):
 
 def test_energies_add_up(blown):
     energy = blown.energy
-    assert (blown.status == Status.COMPLETED).all() and blown.attrs["model"] == "physical"
+    assert (blown.status == Status.COMPLETED).all() and blown.attrs["model"] == "physical, but rolling none"
     assert (energy >= 0.0).all() and float(energy.sum()) > 1.0
     total = blown.mechanism_energy.sum("mechanism")
     assert total.values == pytest.approx(energy.values, rel=1e-9, abs=1e-12)
@@ -531,9 +531,9 @@ def test_wrong_choices_are_told(change, message):
 
 
 def test_named_sets():
-    assert Laws.named("paper") == PAPER and Laws.named("physical") == FULL
-    assert PAPER.name == "paper" and FULL.name == "physical"
-    assert FULL.but(microslip=False).name == "physical, but microslip off"
+    assert Laws.named("paper") == PAPER and Laws.named("physical") == Laws.physical()
+    assert PAPER.name == "paper" and Laws.physical().name == "physical" and FULL.name == "physical, but rolling none"
+    assert Laws.physical().but(microslip=False).name == "physical, but microslip off"
     assert PAPER.is_closed_form and not PAPER.but(heating=False).is_closed_form
     assert PAPER.but(starvation=True).is_closed_form
     with pytest.raises(InputError, match="laws.model: 'real' does not exist. Allowed: paper, physical"):
