@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 # Files of tests that start processes or clusters share one worker each; the rest is spread.
 PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --dist worksteal
 
-.PHONY: reproduce test test-fast test-deep lint docs bench clean
+.PHONY: reproduce test test-fast test-lowest test-deep lint docs bench clean
 
 reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/
 	$(BIN)/macroslip reproduce -o results
@@ -18,6 +18,10 @@ test-fast: $(VENV)/.ready  ## the loop of development, under a minute
 
 test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs; REPEAT rounds
 	for round in $$(seq $(or $(REPEAT),5)); do $(PYTEST) -m "hypothesis or deep" --hypothesis-profile deep $(ARGS) || exit 1; done
+
+test-lowest:  ## input and results with the lowest versions that pyproject.toml allows
+	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
+	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/catalogue tests/case tests/loads tests/lubricant tests/bearing
 
 lint: $(VENV)/.ready  ## format, lint and types
 	$(BIN)/ruff format --check .
