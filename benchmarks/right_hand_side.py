@@ -15,13 +15,14 @@ from macroslip.film.masjedi_khonsari import MasjediKhonsari
 from macroslip.integrate.record import powers
 from macroslip.ring.orbit import Motion, instant, interval_of
 from macroslip.roller.contact_force import PlainContact
+from macroslip.roller.films import NoFilms
 from macroslip.roller.forces import net_force, slip_forces, station
 from macroslip.roller.model import RollerModel
 from macroslip.traction.barus_crook import BarusCrook
 
 #: Places in the array: number of samples, interval found last, evaluations so far, unit of energy, start angle, model.
 SAMPLES, INTERVAL, EVALUATIONS, ENERGY_UNIT, START_ANGLE, _MODEL = range(6)
-_SCALARS = len(RollerModel._fields) - 3
+_SCALARS = len(RollerModel._fields) - 4
 _FILM, _TRACTION = len(MasjediKhonsari._fields), len(BarusCrook._fields)
 _INNER = _MODEL + _SCALARS
 _OUTER = _INNER + _FILM + _TRACTION
@@ -61,6 +62,7 @@ def unpack(d):
         d[k + 9],
         d[k + 10],
         d[k + 11],
+        NoFilms(),
         _contact(d, _INNER),
         _contact(d, _OUTER),
         _contact(d, _CAGE),

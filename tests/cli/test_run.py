@@ -13,6 +13,7 @@ import xarray as xr
 
 from macroslip import Case, HubLoads, simulate
 from macroslip.integrate.status import Status
+from macroslip.result.rating import with_rating
 
 DATA = Path(__file__).parents[1] / "data"
 OUTB = DATA / "sample14B.outb"
@@ -21,7 +22,8 @@ OUTB = DATA / "sample14B.outb"
 def test_the_file_holds_what_simulate_gives(quick, folder, macroslip):
     done = macroslip("run", quick(), "-o", "case.nc", "--threads", 1)
     assert (done.code, done.err) == (0, "")
-    expected = simulate(Case(loads=HubLoads.read(OUTB, start=60.0, end=62.0), rollers=[0, 14]))
+    case = Case(loads=HubLoads.read(OUTB, start=60.0, end=62.0), rollers=[0, 14])
+    expected = with_rating(simulate(case), case)
     with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as written:
         xr.testing.assert_allclose(written.load(), expected, rtol=0.0)
         assert json.loads(written.attrs["input"])["loads"]["samples"] == 41

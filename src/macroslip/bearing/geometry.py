@@ -71,7 +71,7 @@ def orbit_ratio(bearing: Bearing) -> float:
     --------
     >>> from macroslip.bearing import Bearing
     >>> round(orbit_ratio(Bearing.read("skf-240-600-bc")), 6)
-    0.453939
+    0.45394
     """
     inner = inner_contact_radius(bearing)
     return inner / (inner + outer_contact_radius(bearing))

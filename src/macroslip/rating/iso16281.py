@@ -177,7 +177,7 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     Examples
     --------
     >>> even = np.full((28, 1), 100e3)
-    >>> round(damage_series(even, 1e-3, 0.106, 500e3, True)[1, 0] * 5**4.5, 9)
+    >>> round(float(damage_series(even, 1e-3, 0.106, 500e3, True)[1, 0]) * 5**4.5, 9)
     1.0
     """
     rollers, samples = load.shape

@@ -108,6 +108,7 @@ def _case(study: Study, run: Run) -> Case:
 
 def _measured(case: Case, length: float) -> tuple[float, int]:
     """Time [s] and size [bytes] of the first part of a case."""
+    from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
 
     first, last = float(case.loads.time[0]), float(case.loads.time[-1])
@@ -116,5 +117,5 @@ def _measured(case: Case, length: float) -> tuple[float, int]:
     traces = Traces(step=case.traces.step) if case.traces else None
     part = replace(case, loads=case.loads.window(None, end), window=Window(), traces=traces)
     started = time.perf_counter()
-    result = simulate(part, threads=1)
+    result = with_rating(simulate(part, threads=1), part)
     return time.perf_counter() - started, len(to_bytes(result))

@@ -144,7 +144,7 @@ def inner_radii(bearing: Bearing, diameter_deviation: np.ndarray) -> np.ndarray:
     >>> from macroslip.bearing import Bearing
     >>> base = Bearing.read("skf-240-600-bc")
     >>> nominal, thick = inner_radii(base, np.array([0.0, 70e-6]))
-    >>> round((thick - nominal) / nominal / 1e-3, 3)
+    >>> round(float((thick - nominal) / nominal / 1e-3), 3)
     -0.111
     """
     inner, outer = geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing)

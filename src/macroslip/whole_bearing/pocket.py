@@ -65,7 +65,7 @@ def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float
     Examples
     --------
     >>> round(squeeze_coefficient(0.54, 0.106, 0.035) / 1e-4**1.5)     # at 0.1 mm, N s/m
-    4997
+    4996
     """
     return 3.0 * math.sqrt(2.0) * math.pi * viscosity * length * radius**1.5
 
