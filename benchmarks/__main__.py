@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from macroslip.cli.failure import command
 from macroslip.cli.progress import progress_bar
 
 
@@ -124,5 +125,8 @@ def _line(name: str, value: float, target: float, note: str, *, least: bool = Tr
     return [name, number(value), asked, "yes" if good else "NO", note]
 
 
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
+command(app, bench)
+
 if __name__ == "__main__":
-    typer.run(bench)
+    app()

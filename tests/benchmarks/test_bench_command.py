@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 from benchmarks import histories as room
 from benchmarks import rivals, run
+from benchmarks.__main__ import app
 
 
 @pytest.fixture
@@ -38,9 +39,7 @@ def short(monkeypatch):
 
 
 def bench(*arguments):
-    from macroslip.cli import app
-
-    return CliRunner().invoke(app, ["bench", *map(str, arguments)])
+    return CliRunner().invoke(app, [*map(str, arguments)])
 
 
 def test_it_writes_numbers_and_diagram(short, tmp_path):
