@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import unicodedata
 from collections.abc import Iterator, Mapping
 from importlib import resources
@@ -206,17 +207,21 @@ class Record(BaseModel):
         """
         name, names = fspath(source), cls.catalogue()
         if name in names:
-            file = f"{name}.yaml"
-            text = (cls._shipped() / file).read_text(encoding="utf-8")
-        else:
-            file = name
-            text = read_text(
-                Path(name),
-                f"no {cls.noun} can be read from {shown(name)}",
-                allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
-                remedy=f"Relative paths start at {Path.cwd()}.",
-            )
-        return cls._from_entries(*parse(text, file))
+            return cls._read_shipped(name)
+        text = read_text(
+            Path(name),
+            f"no {cls.noun} can be read from {shown(name)}",
+            allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
+            remedy=f"Relative paths start at {Path.cwd()}.",
+        )
+        return cls._from_entries(*parse(text, name))
+
+    @classmethod
+    @functools.cache
+    def _read_shipped(cls, name: str) -> Self:
+        """A shipped record, parsed once: it is frozen, and parsing takes a good part of the time to read a case."""
+        file = f"{name}.yaml"
+        return cls._from_entries(*parse((cls._shipped() / file).read_text(encoding="utf-8"), file))
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
