@@ -6,7 +6,7 @@ from typing import ClassVar
 
 
 def legible(text: str, longest: int) -> str:
-    """Text from anywhere for a message: without letters that a terminal would act on, its middle cut out if it is long.
+    r"""Text from anywhere for a message: without letters that a terminal would act on, its middle cut out if it is long.
 
     Examples
     --------

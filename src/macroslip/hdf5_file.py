@@ -18,7 +18,7 @@ _SECONDS, _RATE = 5.0, 10e6
 #: Bytes that a file may announce for each byte it has: well beyond what compression gains on numbers.
 _MOST_EXPANSION, _MOST_SMALL = 200, 50_000_000
 
-_READER = """
+_READER = f"""
 import os, sys
 seconds, *paths = sys.argv[1:]
 try:
@@ -28,7 +28,7 @@ try:
 except (ImportError, ValueError, OSError):
     pass
 import h5py
-expansion, small = %r, %r
+expansion, small = {_MOST_EXPANSION!r}, {_MOST_SMALL!r}
 for path in paths:
     print(path, flush=True)
     most = max(small, expansion * os.path.getsize(path))
@@ -40,11 +40,11 @@ for path in paths:
             if isinstance(found, h5py.Dataset):
                 announced += found.size * found.dtype.itemsize
                 if announced > most:
-                    raise ValueError(f"it announces more than {most} bytes")
+                    raise ValueError(f"it announces more than {{most}} bytes")
                 found[()]
         visit("/", file)
         file.visititems(visit)
-""" % (_MOST_EXPANSION, _MOST_SMALL)
+"""
 
 
 def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
