@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.roller.plane_table import PlaneTable, plane_values
 from macroslip.rolling.film import light_film
 from macroslip.rolling.law import LOWEST_SPEED
 from macroslip.rolling.light_contact import light_contact, pocket_contact
@@ -47,6 +48,8 @@ class Films(NamedTuple):
         K of both raceway contacts in series [N/m^1.5].
     pocket_gap : float
         Largest gap between roller and spar [m].
+    inner_table, outer_table : PlaneTable
+        Of the oil of the raceway contacts, from `macroslip.roller.tables`; know nothing unless they were made.
     """
 
     inner: Any
@@ -54,6 +57,8 @@ class Films(NamedTuple):
     cage: Any
     stiffness: float
     pocket_gap: float
+    inner_table: PlaneTable
+    outer_table: PlaneTable
 
 
 class RacewayFilm(NamedTuple):
@@ -167,15 +172,37 @@ def _film_load(films, load, approach, body, ring_speed):
 
 
 @jit
-def _raceway_film(law, load, slip, ring_speed):
+def _raceway_film(law, table, load, slip, ring_speed):
     if load <= 0.0:
         return RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    # The push is −2 R/r times the shear.
+    part = 1.0 - 2.0 * law.share_1
+    mean = ring_speed - 0.5 * slip
+    known = plane_values(table, load, abs(mean))
+    if known.known:
+        conductance, resistance = math.exp(known.first), math.exp(known.second)
+        sliding = conductance * slip
+        shear = -math.copysign(resistance, mean)
+        sliding_slope = conductance - 0.5 * sliding * known.first_by_speed / mean
+        shear_slope = 0.5 * resistance * known.second_by_speed / abs(mean)
+        return RacewayFilm(
+            sliding,
+            shear,
+            sliding + part * shear,
+            2.0 * resistance * abs(mean),
+            sliding_slope,
+            shear_slope,
+            sliding_slope + part * shear_slope,
+        )
+    return _raceway_film_by_laws(law, part, load, slip, ring_speed)
+
+
+@jit
+def _raceway_film_by_laws(law, part, load, slip, ring_speed):
     found = light_contact(law, load, ring_speed - slip, ring_speed)
     rolling = found.rolling
     sliding_slope = found.sliding_slope - 0.5 * found.sliding_by_speed
     shear_slope = -0.5 * rolling.by_speed
-    # The push is −2 R/r times the shear.
-    part = 1.0 - 2.0 * law.share_1
     return RacewayFilm(
         found.sliding,
         rolling.shear,
@@ -231,7 +258,8 @@ def raceway_film(films, raceway, load, slip, ring_speed):
     """
     if not isinstance(films, Films):
         return _NO_RACEWAY
-    return _raceway_film(films.outer if raceway else films.inner, load, slip, ring_speed)
+    law, table = (films.outer, films.outer_table) if raceway else (films.inner, films.inner_table)
+    return _raceway_film(law, table, load, slip, ring_speed)
 
 
 def cage_film(films, load, surface_speed):
@@ -253,7 +281,11 @@ def _film_load_of(films, load, approach, body, ring_speed):
 def _raceway_film_of(films, raceway, load, slip, ring_speed):
     if films.instance_class is Films:
         return lambda films, raceway, load, slip, ring_speed: _raceway_film(
-            films.outer if raceway else films.inner, load, slip, ring_speed
+            films.outer if raceway else films.inner,
+            films.outer_table if raceway else films.inner_table,
+            load,
+            slip,
+            ring_speed,
         )
     return lambda films, raceway, load, slip, ring_speed: RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
