@@ -157,7 +157,7 @@ def slip_field(shape, slip, ring_speed):
     return SlipField(slip, ring_speed * shape.curvature_ratio - slip * slowing, ring_speed * shape.spin_ratio, -slowing)
 
 
-@jit
+@jit_inline
 def _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
     if load <= 0.0:
         return ContactForce(0.0, 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0))
@@ -193,7 +193,7 @@ def _raceway_by_laws(contact, load, slip, ring_speed, entrainment_speed, entrain
     return ContactForce(pull - lag, pull, pull_slope - lag_slope, pull_slope, detail)
 
 
-@jit
+@jit_inline
 def _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope):
     if load <= 0.0:
         return 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0)

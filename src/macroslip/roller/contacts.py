@@ -239,6 +239,8 @@ def prepare_films(
         pocket_gap=_POCKET_GAP,
         inner_table=no_plane_table(),
         outer_table=no_plane_table(),
+        faded_load=math.inf,
+        faded_speed=0.0,
     )
 
 

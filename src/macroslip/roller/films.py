@@ -50,6 +50,8 @@ class Films(NamedTuple):
         Largest gap between roller and spar [m].
     inner_table, outer_table : PlaneTable
         Of the oil of the raceway contacts, from `macroslip.roller.tables`; know nothing unless they were made.
+    faded_load, faded_speed : float
+        Elastic load [N] from which on films carry nothing beside it, at ring speeds up to this one [m/s].
     """
 
     inner: Any
@@ -59,6 +61,8 @@ class Films(NamedTuple):
     pocket_gap: float
     inner_table: PlaneTable
     outer_table: PlaneTable
+    faded_load: float
+    faded_speed: float
 
 
 class RacewayFilm(NamedTuple):
@@ -163,6 +167,8 @@ def carried(films, play, body, ring_speed):
 def _film_load(films, load, approach, body, ring_speed):
     if load <= 0.0:
         return carried(films, -approach, body, ring_speed)
+    if load >= films.faded_load and abs(ring_speed) <= films.faded_speed:
+        return 0.0
     log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     excess, _ = _excess(films, math.log(_FADED * load), body, 0.0, log_speed)
     if excess <= 0.0:
@@ -172,6 +178,12 @@ def _film_load(films, load, approach, body, ring_speed):
 
 
 @jit
+def faded(films, load, body, ring_speed):
+    """Whether films carry nothing beside the elastic load [N] of a roller with a body force [N] at u2 [m/s]."""
+    return _excess(films, math.log(_FADED * load), body, 0.0, math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED)))[0] <= 0.0
+
+
+@jit_inline
 def _raceway_film(law, table, load, slip, ring_speed):
     if load <= 0.0:
         return RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

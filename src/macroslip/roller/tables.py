@@ -13,7 +13,7 @@ import numpy as np
 from macroslip.compiled import jit
 from macroslip.contact.spline import Axis, axis, axis_middles, axis_nodes, read_only, tensor_coefficients
 from macroslip.roller.contact_force import CurvedContact, cage_force, raceway_force
-from macroslip.roller.films import Films, raceway_film
+from macroslip.roller.films import Films, faded, raceway_film
 from macroslip.roller.forces import INNER, OUTER
 from macroslip.roller.model import RollerModel
 from macroslip.roller.plane_table import CHANNELS as PLANE_CHANNELS
@@ -148,7 +148,12 @@ def tabulated(models: dict[str, RollerModel], box: TableBox) -> tuple[dict[str, 
     cage, of_cage = cage_table(model.cage, box)
     films = model.films
     if isinstance(films, Films):
-        films = films._replace(inner_table=film_table(films, INNER, box), outer_table=film_table(films, OUTER, box))
+        films = films._replace(
+            inner_table=film_table(films, INNER, box),
+            outer_table=film_table(films, OUTER, box),
+            faded_load=faded_load(films, model, box.highest_speed),
+            faded_speed=box.highest_speed,
+        )
     spent = inner_time + outer_time + time.process_time() - started
     planes = [cage, *((films.inner_table, films.outer_table) if isinstance(films, Films) else ())]
     errors = np.array([of_inner, of_outer, of_cage])
@@ -370,6 +375,19 @@ def film_table(films: Films, raceway: int, box: TableBox) -> PlaneTable:
         return partial(film_values, films._replace(**{name: table}), raceway)
 
     return _plane(tabled(no_plane_table()), tabled, box.highest_load, box)
+
+
+def faded_load(films: Films, model: RollerModel, highest_speed: float) -> float:
+    """Elastic load [N] from which on films carry nothing beside it, at ring speeds up to the highest one [m/s].
+
+    Films grow with speed, and carry more the less the body force presses on one of them.
+    """
+    most = abs(model.weight_in_plane) + abs(model.weight_along_axis)
+    most += model.centrifugal * (highest_speed / model.outer_radius) ** 2
+    found = 1.0
+    while not all(faded(films, found, body, highest_speed) for body in (-most, 0.0, most)):
+        found *= 1.1
+    return found
 
 
 def cage_table(contact: CurvedContact, box: TableBox) -> tuple[PlaneTable, np.ndarray]:
