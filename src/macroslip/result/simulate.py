@@ -35,7 +35,8 @@ from macroslip.roller.model import (
     truncated_share,
     truncation_load,
 )
-from macroslip.roller.tables import needs_tables, table_box, tabulated
+from macroslip.roller.table_box import table_box
+from macroslip.roller.tables import needs_tables, tabulated
 from macroslip.whole_bearing.run import Times
 
 if TYPE_CHECKING:

@@ -197,15 +197,16 @@ def _raceway_by_laws(contact, load, slip, ring_speed, entrainment_speed, entrain
 def _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope):
     if load <= 0.0:
         return 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0)
-    found = plane_values(contact.table, load, abs(slip))
+    table = contact.table
+    found = plane_values(table, math.log(load), math.log(abs(slip)))
     if found.known:
-        conductance = math.exp(found.first)
+        conductance = math.exp(found.value[0])
         force = conductance * slip
         return (
             force,
-            conductance * (1.0 + found.first_by_speed),
-            force * found.first_by_load / load,
-            Detail(0.0, 0.0, found.second * force * slip),
+            conductance * (1.0 + found.by_speed[0] * table.speed.per_spacing),
+            force * found.by_load[0] * table.load.per_spacing / load,
+            Detail(0.0, 0.0, found.value[1] * force * slip),
         )
     return _cage_by_laws(contact, load, slip, entrainment_speed, entrainment_slope)
 

@@ -114,13 +114,23 @@ class CageFilm(NamedTuple):
 
 
 @jit_inline
+def log_film(law, table, log_load, log_speed):
+    """Ln of the film h of the volume flow [ln m] and its derivative by ln Q, from a contact's table or its law."""
+    known = plane_values(table, log_load, log_speed)
+    if known.known:
+        return known.value[2], known.by_load[2] * table.load.per_spacing
+    height, slope, _ = light_film(law, log_load, log_speed)
+    return height, slope
+
+
+@jit_inline
 def _excess(films, log_load, body, play, log_speed):
     """Ln of the films' height over that of the space they have, at q = exp(`log_load`), and its derivative by ln q."""
     load = math.exp(log_load)
     inner_load = load - body if body < 0.0 else load
     outer_load = load + body if body > 0.0 else load
-    inner, inner_slope, _ = light_film(films.inner, math.log(inner_load), log_speed)
-    outer, outer_slope, _ = light_film(films.outer, math.log(outer_load), log_speed)
+    inner, inner_slope = log_film(films.inner, films.inner_table, math.log(inner_load), log_speed)
+    outer, outer_slope = log_film(films.outer, films.outer_table, math.log(outer_load), log_speed)
     inner, outer = math.exp(inner), math.exp(outer)
     height = inner + outer
     slope = (inner * inner_slope * load / inner_load + outer * outer_slope * load / outer_load) / height
@@ -180,7 +190,9 @@ def _film_load(films, load, approach, body, ring_speed):
 @jit
 def faded(films, load, body, ring_speed):
     """Whether films carry nothing beside the elastic load [N] of a roller with a body force [N] at u2 [m/s]."""
-    return _excess(films, math.log(_FADED * load), body, 0.0, math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED)))[0] <= 0.0
+    return (
+        _excess(films, math.log(_FADED * load), body, 0.0, math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED)))[0] <= 0.0
+    )
 
 
 @jit_inline
@@ -190,13 +202,14 @@ def _raceway_film(law, table, load, slip, ring_speed):
     # The push is −2 R/r times the shear.
     part = 1.0 - 2.0 * law.share_1
     mean = ring_speed - 0.5 * slip
-    known = plane_values(table, load, abs(mean))
+    known = plane_values(table, math.log(load), math.log(abs(mean)))
     if known.known:
-        conductance, resistance = math.exp(known.first), math.exp(known.second)
+        conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
+        per_speed = table.speed.per_spacing / mean
         sliding = conductance * slip
         shear = -math.copysign(resistance, mean)
-        sliding_slope = conductance - 0.5 * sliding * known.first_by_speed / mean
-        shear_slope = 0.5 * resistance * known.second_by_speed / abs(mean)
+        sliding_slope = conductance - 0.5 * sliding * known.by_speed[0] * per_speed
+        shear_slope = 0.5 * resistance * known.by_speed[1] * abs(per_speed)
         return RacewayFilm(
             sliding,
             shear,

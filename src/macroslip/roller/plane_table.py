@@ -6,7 +6,6 @@ there, as outside the table, the laws themselves are asked.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -38,40 +37,32 @@ class PlaneTable(NamedTuple):
 
 
 class PlaneValues(NamedTuple):
-    """Whether a table knows a state, its first two splines, and their derivatives by ln Q and by the speed's logarithm."""
+    """Whether a table knows a state, its splines, and their derivatives by the places in a cell along load and speed."""
 
     known: bool
-    first: float
-    second: float
-    first_by_load: float
-    second_by_load: float
-    first_by_speed: float
-    second_by_speed: float
+    value: tuple[float, float, float, float]
+    by_load: tuple[float, float, float, float]
+    by_speed: tuple[float, float, float, float]
 
 
 def no_plane_table() -> PlaneTable:
     """A table that knows no state."""
-    return PlaneTable(NOWHERE, NOWHERE, read_only(np.empty((0, 0, CHANNELS))), read_only(np.empty((0, 0), dtype=np.bool_)))
+    return PlaneTable(
+        NOWHERE, NOWHERE, read_only(np.empty((0, 0, CHANNELS))), read_only(np.empty((0, 0), dtype=np.bool_))
+    )
 
 
 @jit_inline
-def plane_values(table, load, speed):
-    """Look a state up: Q > 0 [N] and the magnitude of a speed [m/s]."""
-    nothing = PlaneValues(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if table.load.cells == 0 or speed <= 0.0:
-        return nothing
-    i, t = cell_of(table.load, math.log(load))
-    j, u = cell_of(table.speed, math.log(speed))
+def plane_values(table, log_load, log_speed):
+    """Look a state up: ln Q [ln N] and the logarithm of a speed [ln m/s]. The derivatives are those by place in a cell.
+
+    Times `table.load.per_spacing` and `table.speed.per_spacing` they are those by the logarithms.
+    """
+    zeros = (0.0, 0.0, 0.0, 0.0)
+    if table.load.cells == 0:
+        return PlaneValues(False, zeros, zeros, zeros)
+    i, t = cell_of(table.load, log_load)
+    j, u = cell_of(table.speed, log_speed)
     if i < 0 or j < 0 or not table.good[i, j]:
-        return nothing
-    value, by_first, by_second = channels_in_square(table.coefficients, (i, j), (t, u))
-    per_load, per_speed = table.load.per_spacing, table.speed.per_spacing
-    return PlaneValues(
-        True,
-        value[0],
-        value[1],
-        by_first[0] * per_load,
-        by_first[1] * per_load,
-        by_second[0] * per_speed,
-        by_second[1] * per_speed,
-    )
+        return PlaneValues(False, zeros, zeros, zeros)
+    return PlaneValues(True, *channels_in_square(table.coefficients, (i, j), (t, u)))
