@@ -118,7 +118,7 @@ class FilmPlace(NamedTuple):
     slopes: tuple[float, float, float, float]
 
 
-@jit
+@jit_inline
 def film_place(table, film_thickness):
     """The place of a film thickness h [m]; outside the table heating is that of its thinnest or thickest film."""
     z = (math.log(film_thickness) - table.lowest_film) / table.film_spacing
