@@ -6,23 +6,36 @@
 import pytest
 from hypothesis import HealthCheck, settings
 
-from macroslip import compiled
+from macroslip import compiled, plugins
+from macroslip.film import film_law
+from macroslip.traction import traction_law
 
 settings.register_profile("fixed", deadline=None, derandomize=True, database=None)
 settings.register_profile("deep", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("fixed")
 
 
-@pytest.fixture(scope="module", autouse=True)
-def laws_of_ones_own_end_with_their_tests():
-    """Kernels depend on every law of one's own that a process knows.
+def pytest_collection_modifyitems(items):
+    """Files with slow tests first, so that no worker begins with one when the others have nothing left to do."""
+    slow = {item.path for item in items if item.get_closest_marker("slow")}
+    items.sort(key=lambda item: item.path not in slow)
 
-    A module that registers one would make its process compile all kernels of later modules once more.
+
+@pytest.fixture(scope="module", autouse=True)
+def package_laws():
+    """A module's own laws end with its tests.
+
+    Other tests list the laws of the package, and kernels depend on every law that a process knows: one that stays
+    would make the process compile the kernels of all later tests once more.
     """
-    before = list(compiled._own_laws)
+    lists = (film_law._laws._entries, traction_law._laws._entries, plugins._loaded)
+    before, sources = [dict(one) for one in lists], list(compiled._own_laws)
     yield
-    if compiled._own_laws != before:
-        compiled._own_laws[:] = before
+    for one, old in zip(lists, before, strict=True):
+        one.clear()
+        one.update(old)
+    if compiled._own_laws != sources:
+        compiled._own_laws[:] = sources
         with compiled._storing() as folder:
             for dispatcher in compiled._stored if folder else ():
                 dispatcher.enable_caching()

@@ -18,6 +18,8 @@ import macroslip
 from macroslip import kernel_cache
 from macroslip.kernel_cache import KEPT
 
+pytestmark = pytest.mark.slow
+
 SOURCE = Path(macroslip.__file__).parents[1]
 
 LAW = """

@@ -11,6 +11,8 @@ from macroslip import InputError, load_laws
 from macroslip.film import film_law as film_law
 from macroslip.traction import traction_law as traction_law
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[1] / "examples"
 FILM = (EXAMPLES / "own_film.py").read_text(encoding="utf-8")
 TRACTION = (EXAMPLES / "own_law.py").read_text(encoding="utf-8")

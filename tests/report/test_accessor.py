@@ -9,6 +9,8 @@ import pytest
 
 from macroslip import BearingLoads, Case, InputError, Traces, open_result, simulate
 
+pytestmark = pytest.mark.slow
+
 matplotlib.use("agg")
 
 

@@ -15,6 +15,8 @@ from macroslip.report.page import Paragraph, Section, Table, View, render
 from macroslip.report.results_page import results_page
 from macroslip.result.orbit_scene import scene
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def bare():
