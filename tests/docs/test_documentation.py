@@ -162,7 +162,7 @@ def test_index_names_every_page_and_every_example():
 
 def test_input_page_names_every_key_of_a_case():
     quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
-    sections = {"drivetrain", "forces", "laws", "cage", "integrator", "window"}
+    sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
     names = [key for key, _ in keys_of(CaseFile) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
     names = [key.removeprefix("loads.hub.").removeprefix("loads.main_bearing.") for key in names]
