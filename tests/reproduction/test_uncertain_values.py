@@ -10,6 +10,8 @@ from macroslip.reproduction.studies import base_case, reproduction_study
 from macroslip.reproduction.uncertain_values import VALUES
 from macroslip.study.build import template
 
+pytestmark = pytest.mark.slow
+
 #: Units of the ranges over those of the study file.
 SCALES = {"mm": 1e-3, "µm": 1e-6, "GPa": 1e9, "1": 1.0, "m": 1.0, "°C": 1.0}
 
