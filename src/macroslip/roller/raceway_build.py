@@ -16,7 +16,7 @@ from macroslip.roller.table_box import LARGEST_ERROR, TableBox, error_summary, v
 
 #: Part of the largest force at the same load and speed below which an error of force counts as one of this part: a
 #: gripped roller's force passes through zero.
-_SMALL_FORCE = 0.01
+_SMALL_FORCE = 0.05
 #: Distances between nodes of load, ring speed and slip.
 _LOAD_SPACING, _SPEED_SPACING, _RATIO_SPACING = 0.33, 0.055, 0.06
 #: Share of the pressure exponent of the middle by which loads are stretched.
@@ -126,8 +126,7 @@ def raceway_errors(contact: CurvedContact, table: RacewayTable, box: TableBox) -
     """Median and largest relative error of force and power at random states where rollers go, and the share it knows.
 
     States are even in the logarithms of load and speed. Rollers with more than `_HELD_LOAD` slip up to `_USUAL_RATIO` of
-    the ring's speed, lighter ones up to all of it. An error of force counts relative to the force, or to a hundredth of
-    the largest at that load where that is more.
+    the ring's speed, lighter ones up to all of it. An error of force counts as when cells are judged.
     """
     random = np.random.default_rng(1)
     loads = np.exp(random.uniform(math.log(_LEAST_LOAD), math.log(box.highest_load), (_STATES, 1)))
