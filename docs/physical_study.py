@@ -90,11 +90,13 @@ def study_tables(physical: Path, paper: Path | None) -> None:
     loaded = 100.0 * study.loaded_share.sel(row="upwind")
     print(f"upwind rollers under load: {float(loaded.min()):.2g} to {float(loaded.max()):.2g} % of the time")
     for row in ROWS:
-        worst = {
-            name: study[name].sel(row=row).max() if name != "min_film_ratio" else study[name].sel(row=row).min()
-            for name in ("flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
-        }
-        print(f"{row}: " + ", ".join(f"{name} {float(value):.3g}" for name, value in worst.items()))
+        for raceway in ("inner", "outer"):
+            at = study.sel(row=row, interface=raceway)
+            largest = (float(at[name].max()) for name in ("flash_temperature", "power_density", "slide_roll_ratio"))
+            print(
+                "{}, {}: flash {:.3g} K, power {:.3g} W/m2, slide-roll ratio {:.2g}, ".format(row, raceway, *largest)
+                + f"least film ratio {float(at.min_film_ratio.min()):.2g}"
+            )
 
 
 def per_orbit_of(study):
