@@ -18,6 +18,8 @@ import macroslip
 from macroslip import kernel_cache
 from macroslip.kernel_cache import KEPT
 
+pytestmark = pytest.mark.slow
+
 SOURCE = Path(macroslip.__file__).parents[1]
 
 LAW = """
@@ -51,10 +53,12 @@ name = "mechanisms"
 if sys.argv[2] == "law":
     import own_law
     name = "linear"
-from macroslip import BearingLoads, Case, Laws, Window, simulate
-loads = BearingLoads.constant([0.0, 0.0, -1e3], 2.0, 1.0)
-found = simulate(Case(loads=loads, rollers=[0], laws=Laws(traction=name), window=Window(start=0.0)))
-print(repr(float(found.end_slip.sel(row="downwind").item())))
+from macroslip import Bearing, Laws, Lubricant
+from macroslip.roller.contact_force import raceway_force
+from macroslip.roller.model import roller_model
+laws = Laws(traction=name)
+model = roller_model(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1, tilt=0.0, laws=laws)
+print(repr(raceway_force(model.inner, 2e4, 1e-4, -0.4, 0.4, -0.5).spin))
 """
 
 

@@ -35,6 +35,8 @@ from macroslip.roller.forces import slip_forces, station
 from macroslip.roller.model import ring_geometry, roller_model
 from macroslip.traction.film_shear_law import microslip_traction
 
+pytestmark = pytest.mark.slow
+
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 # The oil around the rollers has tests of its own, tests/roller/test_films.py.
 FULL, PAPER = Laws.physical().but(rolling="none"), Laws.paper()

@@ -20,6 +20,8 @@ from macroslip.reproduction.solver_experiments import nonlinear_tolerance, step_
 from macroslip.reproduction.stability import compare_stability
 from macroslip.reproduction.statement import AGREES, DIFFERS, NOT_COMPUTED, PARTLY, UNKNOWN
 
+pytestmark = pytest.mark.slow
+
 SMALL = {"rollers": [0, 14], "window": Window(end=30.0)}
 #: Studies of the reproduction, made small.
 SHORT = {"rollers": [0, 14], "window": {"end": "30 s"}}
@@ -355,7 +357,7 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, monkey
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
     for words in (
         "Under <em>physical</em>",
-        'id="rollers-physical"',
+        'id="films-physical"',
         "Figure 4a: energy over mean wind speed (model physical)",
         "case 14B, model physical",
         "Figure 3a: constant load and speed (model physical)",

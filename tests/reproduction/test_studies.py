@@ -7,6 +7,8 @@ from macroslip.reproduction.model_run import DETAILED_CASE, MODELS
 from macroslip.reproduction.paper_study import paper_study
 from macroslip.reproduction.studies import base_case, computed, reproduction_study
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("stage", ["study", "detail", "sensitivity"])

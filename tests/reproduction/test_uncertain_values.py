@@ -12,6 +12,8 @@ from macroslip.reproduction.uncertain_values import VALUES
 from macroslip.study.build import template
 from macroslip.study.settings import Setting
 
+pytestmark = pytest.mark.slow
+
 #: Units of the ranges over those of the study file.
 SCALES = {
     "mm": 1e-3, "µm": 1e-6, "GPa": 1e9, "MPa": 1e6, "1/GPa": 1e-9, "1": 1.0, "m": 1.0, "kg": 1.0, "Pa s": 1.0,

@@ -20,6 +20,8 @@ from macroslip.reproduction.uncertainty_summary import (
 from macroslip.study.build import template
 from macroslip.study.study_file import study_of
 
+pytestmark = pytest.mark.slow
+
 SHORT = {"loads": {"end": "14 s"}}
 
 
