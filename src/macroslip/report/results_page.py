@@ -14,6 +14,7 @@ from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
 from macroslip.report.rating_section import rating_blocks
 from macroslip.report.surface_section import surface_blocks
+from macroslip.report.whole_section import whole_blocks
 from macroslip.result.orbit_profile import orbit_profile
 
 if TYPE_CHECKING:
@@ -72,6 +73,7 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
         sections.append(Section(f"result-{number}", name, (*blocks, *result_blocks(result), *further_blocks(result))))
         for part, heading, found in (
             ("surface", "where the surface suffers", surface_blocks(result)),
+            ("whole", "orbit and spin together", whole_blocks(result, results)),
             ("rating", "numbers beside slip", rating_blocks(result)),
         ):
             if found:
