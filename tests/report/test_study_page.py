@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 
 from macroslip import open_study, run_study
@@ -44,6 +45,20 @@ def section(page, name):
 
 def test_the_answer_counts_what_failed(page):
     assert "2 of 4 runs completed, 2 FAILED, 0 are missing." in section(page, "answer")
+
+
+def test_the_opening_has_lifetime_and_largest_values(page, study):
+    opening = section(page, "answer")
+    told = re.findall(r"<p[^>]*>(.*?)</p>", opening)
+    assert len(told) == 5 and opening.count("<img") == 4
+    life = lifetime_energy(study, CLASS_ONE).isel(group=0).sel(row="downwind")
+    most = float(life.bin[int(np.argmax(life.bin_energy.values))])
+    assert f"{1e-6 * float(life.lifetime_energy):.3g} MJ downwind (most of it at {most:g} m/s)" in told[1]
+    for name, words in (("energy_mean", "Rollers dissipate most"), ("peak_power_max", "The largest frictional power")):
+        first = worst(study, name, count=1).isel(rank=0)
+        (sentence,) = (one for one in told if one.startswith(words))
+        assert sentence.endswith(f"{first.row.item()} in {first.loads.item()}, {first.model.item()}.")
+    assert "4 runs, 2 load histories, bearing skf-240-600-bc" in page
 
 
 def test_lifetime_energy_is_that_of_the_function(page, study):

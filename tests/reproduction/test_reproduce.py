@@ -369,7 +369,7 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, paper_
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
     for words in (
         "Under <em>physical</em>",
-        'id="rollers-physical"',
+        'id="films-physical"',
         "Figure 4a: energy over mean wind speed (model physical)",
         "case 14B, model physical",
         "Figure 3a: constant load and speed (model physical)",

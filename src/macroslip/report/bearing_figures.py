@@ -178,6 +178,7 @@ def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") 
         axes.set_yscale("log")
         axes.margins(y=0.12)
     axes.set_xticks(places, energy.interface.values.tolist())
+    axes.set_xlim(-0.6, places.size - 0.4)
     return finish(axes, "interface", "energy of a roller [J]", title)
 
 

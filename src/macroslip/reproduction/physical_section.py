@@ -34,7 +34,8 @@ def physical_sections(runs: Mapping[str, ModelRun]) -> list[Section]:
     samples = {name: run.uncertainty for name, run in runs.items() if run.uncertainty is not None}
     if samples:
         blocks = [block for name, sample in samples.items() for block in _uncertainty(name, sample)]
-        found.append(Section("uncertainty", "What the estimated values leave open", tuple(blocks)))
+        gist = "all estimated values drawn together from their ranges: what follows, and what drives it"
+        found.append(Section("uncertainty", "What the estimated values leave open", tuple(blocks), gist))
     return [*found, _torque(runs)]
 
 
@@ -82,7 +83,8 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
             Pictures(tuple(shown), f"Energy per orbit of a mean roller under {name}, by what makes surfaces slide."),
             _part_table(parts, name),
         ]
-    return Section("mechanisms", "What dissipates inside the contacts", tuple(blocks))
+    gist = "figures 4 and 5 under both models; energy by interface, mechanism and place along the roller"
+    return Section("mechanisms", "What dissipates inside the contacts", tuple(blocks), gist)
 
 
 def _part_table(parts: xr.Dataset, name: str) -> Table:
@@ -183,4 +185,4 @@ def _torque(runs: Mapping[str, ModelRun]) -> Section:
         ),
         Table(("friction torque", "mean [N m]", "least [N m]", "most [N m]"), rows, "Over all 600 s"),
     )
-    return Section("torque", "Friction torque of the bearing", blocks)
+    return Section("torque", "Friction torque of the bearing", blocks, "computed, beside handbook estimates")

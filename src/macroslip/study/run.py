@@ -14,7 +14,6 @@ from macroslip.files import make_folder
 from macroslip.machine import usable_processors
 from macroslip.study.build import template
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
-from macroslip.study.cycles import check_installed as check_fatpack
 from macroslip.study.lock import locked
 from macroslip.study.progress import Progress
 from macroslip.study.session import Ended, Session
@@ -84,8 +83,6 @@ def run_study(
         check_installed()
     if not isinstance(study, Study):
         study = read_study(study)
-    if study.cycles:
-        check_fatpack()
     directory = Path(directory).absolute()
     check_folder(directory, resume=resume)
     if scheduler is not None:

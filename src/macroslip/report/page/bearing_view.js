@@ -307,5 +307,4 @@
   }
 
   document.querySelectorAll("[data-view]").forEach(start);
-  document.documentElement.dataset.ready = performance.now().toFixed(0);
 })();
