@@ -75,6 +75,7 @@ def balanced(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     temperature of a bearing, so the balance is that of their mean power if it lasted.
     """
     heat = case.heat
+    assert heat is not None, "the case asks for no balance"
     known: dict[float, float] = {}
 
     def compute(temperature: float) -> None:
