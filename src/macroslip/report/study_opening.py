@@ -39,7 +39,7 @@ def study_opening(study: xr.Dataset, life: xr.Dataset | None, curves: xr.Dataset
     """
     sentences, pictures = [_outcomes(study)], []
     group = next(iter(groups(life.bin_energy)), None) if life is not None else None
-    if group is not None:
+    if life is not None and group is not None:
         sentences.append(_lifetime(life, group) if len(groups(life.bin_energy)) == 1 else _lifetimes(life))
         pictures.append(_picture(lambda axes: plot_lifetime(axes, life, group), "Lifetime energy by wind speed"))
     group = next(iter(groups(curves.power_orbits)), None) if curves is not None else None
