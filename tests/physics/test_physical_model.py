@@ -550,7 +550,7 @@ def test_a_lubricant_without_the_values_is_refused():
 
 def test_a_floating_roller_leaves_no_heat_in_the_ellipse_of_its_cage_contact():
     """The oil of the pocket is sheared over all of it; without rolling resistance metal touches, and there is a flash."""
-    loads = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=2.143, duration=9.0)
+    loads = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=2.143, duration=14.0)
     floating, dry = (
         simulate(Case(loads=loads, rollers=[0], laws=Laws.physical().but(rolling=rolling)))
         for rolling in ("whole-film", "none")
