@@ -49,7 +49,8 @@ def input_section(
     def decorate(kind: type[Kind]) -> type[Kind]:
         if one_of:
             kind.__post_init__ = lambda self: _check_one_of(self, one_of)
-        made = pydantic.dataclasses.dataclass(frozen=True, slots=True, kw_only=not positional, config=config)(kind)
+        dataclass = pydantic.dataclasses.dataclass(frozen=True, slots=True, kw_only=not positional, config=config)
+        made: Any = dataclass(kind)
         check = made.__init__
 
         @functools.wraps(check)
@@ -156,7 +157,7 @@ def details_inside(key: str | int, failure: ValidationError) -> list[Any]:
     """What is wrong with one value, with its key in front."""
     found = []
     for detail in failure.errors(include_url=False):
-        known = {"ctx": detail["ctx"]} if detail.get("ctx") else {}
+        known: dict[str, Any] = {"ctx": detail.get("ctx")} if detail.get("ctx") else {}
         kind = detail["type"]
         if isinstance(known.get("ctx", {}).get("error"), InputError):
             found.append(detail_of((key, *detail["loc"]), known["ctx"]["error"]))
@@ -385,8 +386,8 @@ def _problem(detail: Mapping[str, Any], kind: Any, place: Place, noun: str) -> I
         key = str(loc[-1])
         section_place = place.inside(*keys[:-1]) if keys and keys[-1] == key else here
         return _missing(key, field, section_place, noun)
-    if detail["type"].startswith("union_tag") and field is not None:
-        variants = variants_of(field)
+    variants = variants_of(field) if detail["type"].startswith("union_tag") and field is not None else None
+    if variants is not None:
         name = detail["input"].get(variants.key) if isinstance(detail["input"], Mapping) else detail["input"]
         try:
             Choice(variants.about, lambda: list(variants.sections)).read(name, None)

@@ -67,7 +67,7 @@ def integrate_radau(path, slip, stops, classes, record):
         Times at which a step must end [s], rising, the last being the end of the integration.
     classes : ndarray of int8, shape (n − 1,)
         Work space for the classes of sample intervals.
-    record : Record
+    record : RollerRecord
         Filled.
 
     Returns

@@ -190,7 +190,10 @@ def _failures(study: xr.Dataset) -> list[Block]:
     labels = [name for name, one in failed.coords.items() if one.dims == ("case",)]
     frame = failed[labels].reset_coords().to_dataframe().reset_index()
     columns = [name for name in frame if name not in ("case", "run", "key", "outcome", "reason")]
-    return [_frame(frame[[*columns, "outcome", "reason"]], "Runs without a result, or with rollers that failed")]
+    failures = frame[[*columns, "outcome", "reason"]]
+    blocks: list[Block] = []
+    blocks.append(_frame(failures, "Runs without a result, or with rollers that failed"))
+    return blocks
 
 
 def _weighted(weights: Weights | None) -> str:

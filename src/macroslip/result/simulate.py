@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
-from macroslip.case.case import BALANCE, WHOLE_BEARING, BackwardEuler, Case, Radau
+from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
+from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.load_zone import empty_classes, firm_interference
 from macroslip.integrate.path import FixedStep, Limits, Path, longest_step
 from macroslip.integrate.radau import integrate_radau
-from macroslip.integrate.record import Record, new_record
+from macroslip.integrate.record import RollerRecord, new_record
 from macroslip.integrate.root import rising_at
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
@@ -94,12 +95,14 @@ def simulate(
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
     if case.dynamics == WHOLE_BEARING:
-        return simulate_whole_bearing(case, models, motion, Times(edges, trace_time, end), _notes(case, largest))
+        times = Times(edges, trace_time, end)
+        drag = _drag_power(case, model, motion, edges[0], end)
+        return simulate_whole_bearing(case, models, motion, times, _notes(case, largest), drag)
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
     models, evaluation = evaluated_models(case, models, motion, largest)
 
-    def run(row: str, angle: float) -> tuple[int, Record]:
+    def run(row: str, angle: float) -> tuple[int, RollerRecord]:
         record = new_record(edges, trace_time, highest_speed(motion, model))
         path = Path(models[row], motion, angle, limits)
         if isinstance(limits, Limits):

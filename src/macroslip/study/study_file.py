@@ -161,7 +161,7 @@ def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sa
     """The sample, with the ranges of the study's bearing and lubricant where it asks for them."""
     sample = variations.sample
     asked = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
-    if not asked:
+    if sample is None or not asked:
         return sample
     if base is None:  # what is wrong with the case comes first
         return None
@@ -200,7 +200,7 @@ def _parameters(variations: Variations, sample: Sample | None, models: Mapping[s
     places: dict[str, dict[str, str]] = {
         "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
         "list": {one.key: one.unit for item in variations.list or [] for one in item},
-        "sample": {key: one.unit for key, one in ranges.items()},
+        "sample": {key: one.unit for key, one in ranges.items() if one is not None},
         "models": {one.key: one.unit for settings in models.values() for one in settings},
     }
     found: dict[str, str] = {}

@@ -174,7 +174,7 @@ class StudyLoads:
 
 
 _Grid = Annotated[
-    dict[str, Axis],
+    dict[str, Any] | None,
     MappingOf(
         "values of each parameter, of which every combination is run",
         "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",
@@ -182,7 +182,7 @@ _Grid = Annotated[
         _axis,
     ),
 ]
-_List = Annotated[list[Any], SettingsList("combinations of values, each of which is run")]
+_List = Annotated[list[Any] | None, SettingsList("combinations of values, each of which is run")]
 
 
 @input_section("variations", "parameters that vary")
@@ -200,13 +200,15 @@ class StudyFile:
 
     title: Annotated[str, Text("what the study is about", may_be_empty=True)] = ""
     case: Annotated[
-        dict[str, Any], BaseCase("base case: the keys of a case file; of loads only start, end and shaft_speed")
+        dict[str, Any] | None, BaseCase("base case: the keys of a case file; of loads only start, end and shaft_speed")
     ] = None
     loads: StudyLoads
-    bearings: Annotated[list[str], Texts("bearings: names of the catalogue, or paths of bearing files")] = None
-    lubricants: Annotated[list[str], Texts("lubricants: names of the catalogue, or paths of lubricant files")] = None
+    bearings: Annotated[list[str] | None, Texts("bearings: names of the catalogue, or paths of bearing files")] = None
+    lubricants: Annotated[
+        list[str] | None, Texts("lubricants: names of the catalogue, or paths of lubricant files")
+    ] = None
     models: Annotated[
-        dict[str, Any],
+        dict[str, Any] | None,
         MappingOf(
             "named choices of the model",
             item=Annotated[list[Any], Settings("values in place of the base case's")],

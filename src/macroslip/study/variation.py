@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -147,7 +147,7 @@ class Sample:
                         remedy=f"List its values in variations.grid: {{{key}: {{values: [...]}}}}.",
                     )
                 unit = "" if entry.unit == "1" else entry.unit
-                found[key] = Range(*entry.range, unit)
+                found[key] = Range(low=entry.range[0], high=entry.range[1], unit=unit)
         return Sample(method=self.method, count=self.count, seed=self.seed, ranges=found)
 
     def points(self) -> list[list[Setting]]:
@@ -162,12 +162,13 @@ class Sample:
         from scipy.stats import qmc
 
         kind = {"latin-hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}[self.method]
+        intervals: dict[str, Any] = dict(self.ranges)  # `with_ranges_of` has filled in those that were left open
         positions = kind(len(self.ranges), rng=np.random.default_rng(self.seed)).random(self.count)
         return [
             [
                 # Twelve digits are more than any parameter is known to, and hold on every machine.
                 Setting(key, float(f"{interval.at(float(position)):.12g}"), interval.unit)
-                for (key, interval), position in zip(self.ranges.items(), point, strict=True)
+                for (key, interval), position in zip(intervals.items(), point, strict=True)
             ]
             for point in positions
         ]

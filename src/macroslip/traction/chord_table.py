@@ -125,7 +125,7 @@ def film_place(table, film_thickness):
     z = (math.log(film_thickness) - table.lowest_film) / table.film_spacing
     z = min(max(z, 0.0), table.coefficients.shape[1] - 3.0)
     cell = min(int(z), table.coefficients.shape[1] - 4)
-    return FilmPlace(film_thickness, cell, *weights_and_slopes(z - cell))
+    return FilmPlace(film_thickness, cell, *weights_and_slopes(z - cell))  # pyright: ignore[reportCallIssue]
 
 
 class ChordStress(NamedTuple):
@@ -193,7 +193,7 @@ def chord_value(table, place, x, log_slip, with_film):
     """
     c = table.coefficients
     i = min(int(x), c.shape[0] - 4)
-    log_eta, log_eta_by_x = along_line(table.log_viscosities, i, x - i)
+    log_eta, log_eta_by_x = along_line(table.log_viscosities, i, x - i)  # pyright: ignore[reportCallIssue]
     steepness = 0.25 * x * log_eta_by_x
     newtonian = table.fluid.rheology == NEWTONIAN
     log_slip += 0.5 * log_eta if newtonian else log_eta
