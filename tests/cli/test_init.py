@@ -6,6 +6,8 @@ from ruamel.yaml import YAML
 from macroslip.case.keys import CaseFile
 from macroslip.catalogue.input_section import keys_of
 
+pytestmark = pytest.mark.slow
+
 
 def test_init_then_run(folder, macroslip):
     done = macroslip("init")

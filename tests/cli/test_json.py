@@ -7,6 +7,8 @@ import xarray as xr
 
 from macroslip import Bearing, Lubricant
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(("noun", "kind"), [("bearing", Bearing), ("lubricant", Lubricant)])
 def test_catalogue(macroslip, noun, kind):

@@ -15,6 +15,8 @@ import pytest
 
 from macroslip import open_study
 
+pytestmark = pytest.mark.slow
+
 DATA = Path(__file__).parents[1] / "data"
 STUDY = """
 title: two seeds

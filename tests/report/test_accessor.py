@@ -10,6 +10,8 @@ import pytest
 from macroslip import BearingLoads, Case, InputError, Laws, Traces, open_result, simulate
 from macroslip.result.surface_maps import energy_density
 
+pytestmark = pytest.mark.slow
+
 matplotlib.use("agg")
 
 

@@ -13,6 +13,8 @@ from macroslip.report.pictures import picture
 from macroslip.report.results_page import results_page
 from macroslip.result.orbit_scene import scene
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def file(result, hostile, tmp_path_factory):

@@ -16,6 +16,8 @@ from macroslip.report.page import Opening, Paragraph, Section, Table, View, rend
 from macroslip.report.results_page import results_page
 from macroslip.result.orbit_scene import scene
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def bare():

@@ -12,6 +12,8 @@ from macroslip.study.lifetime import lifetime_energy, worst
 from macroslip.study.study_file import study_of
 from macroslip.study.weights import Weibull
 
+pytestmark = pytest.mark.slow
+
 
 def opened(folder, **further):
     content = {

@@ -20,6 +20,8 @@ from macroslip.reproduction.solver_experiments import nonlinear_tolerance, step_
 from macroslip.reproduction.stability import compare_stability
 from macroslip.reproduction.statement import AGREES, DIFFERS, NOT_COMPUTED, PARTLY, UNKNOWN
 
+pytestmark = pytest.mark.slow
+
 SMALL = {"rollers": [0, 14], "window": Window(end=30.0)}
 #: Studies of the reproduction, made small.
 SHORT = {"rollers": [0, 14], "window": {"end": "30 s"}}

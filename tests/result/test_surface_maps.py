@@ -8,6 +8,8 @@ import pytest
 from macroslip import BackwardEuler, BearingLoads, Case, HubLoads, InputError, Laws, Traces, simulate
 from macroslip.result.surface_maps import energy_density, roller_energy_density, share_above
 
+pytestmark = pytest.mark.slow
+
 SPLIT = ("slip_sign", "film_regime")
 
 

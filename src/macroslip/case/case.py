@@ -9,7 +9,7 @@ from numbers import Integral, Real
 from typing import Annotated, Any
 
 from macroslip.bearing import Bearing
-from macroslip.catalogue.forms import Quantity, Whole
+from macroslip.catalogue.forms import Flag, Quantity, Whole
 from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import shown
 from macroslip.catalogue.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
@@ -45,6 +45,8 @@ class Radau:
         Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
     max_steps : int
         Steps and rejections after which a roller counts as failed.
+    tables : bool
+        Whether contacts with microslip are looked up in tables where these save time.
     """
 
     tolerance: Annotated[
@@ -55,6 +57,7 @@ class Radau:
         ),
     ] = 2e-4  # fmt: skip
     max_steps: Annotated[int, Whole("steps after which a roller counts as failed", 1)] = 100_000_000
+    tables: Annotated[bool, Flag("whether contacts with microslip are looked up in tables")] = True
 
 
 @input_section("integrator", "fixed step, explicit, on the spin")
@@ -357,13 +360,6 @@ def _check_dynamics(case: Case) -> None:
         "integrator",
         "an error-controlled integrator for dynamics: whole-bearing",
         "Choose integrator.method: radau; its tolerance serves the whole bearing too",
-    )
-    _check(
-        case.laws.rolling == "none",
-        f"rolling resistance ({case.laws.rolling}) is not part of the whole bearing yet",
-        "laws.rolling",
-        "none for dynamics: whole-bearing",
-        "Set laws.rolling: none beside the model",
     )
     case.cage.check_fit(case.bearing)
 
