@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from macroslip.catalogue.forms import Quantity, Whole
+from macroslip.catalogue.forms import Flag, Quantity, Whole
 from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
 
@@ -21,6 +21,8 @@ class Radau:
         Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
     max_steps : int
         Steps and rejections after which a roller counts as failed.
+    tables : bool
+        Whether contacts with microslip are looked up in tables where these save time.
     """
 
     tolerance: Annotated[
@@ -31,6 +33,7 @@ class Radau:
         ),
     ] = 2e-4  # fmt: skip
     max_steps: Annotated[int, Whole("steps after which a roller counts as failed", 1)] = 100_000_000
+    tables: Annotated[bool, Flag("whether contacts with microslip are looked up in tables")] = True
 
 
 @input_section("integrator", "fixed step, explicit, on the spin")

@@ -19,6 +19,7 @@ from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.integrate.tuning import LOOK_EVERY
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
+from macroslip.roller.films import cage_film
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
 
@@ -195,7 +196,9 @@ def _book_step(record, model, at, forces, slip, span, passage):
         film, _, _ = film_thickness(contact.film, load, entrainment)
         root_load = load ** (1.0 / 3.0)
         across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
-        per_length = 0.75 * abs(forces.cage * surface) / across
+        # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
+        pull = forces.cage - cage_film(model.films, load, surface).sliding
+        per_length = 0.75 * abs(pull * surface) / across
         flash = flash_temperature(per_length, along, surface, 0.0, contact.effusivity_1, contact.effusivity_2)
         ratio = abs(surface) / entrainment
         _raise(record, passage.orbit, 2, flash, per_length / (2.0 * along), ratio, film / contact.roughness)

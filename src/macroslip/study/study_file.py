@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from macroslip.case.case import BALANCE
 from macroslip.catalogue import Record
 from macroslip.catalogue.input_section import read_fields
 from macroslip.catalogue.problems import together
@@ -15,9 +16,15 @@ from macroslip.errors import InputError
 from macroslip.study.build import template
 from macroslip.study.loads_list import load_list
 from macroslip.study.settings import RECORDS, Setting
-from macroslip.study.study import Study
+from macroslip.study.study import TEMPERATURE, Study
 from macroslip.study.study_keys import StudyFile, Variations
 from macroslip.study.variation import Sample, grid
+
+if TYPE_CHECKING:
+    from macroslip.case.case import Case
+    from macroslip.case.parts import Heat
+    from macroslip.study.loads_list import Load
+    from macroslip.study.weights import Weighting
 
 _REMEDY = "docs/studies.md has a study file that runs."
 
@@ -96,6 +103,10 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
     sample = attempt("variations", lambda: _sample(variations, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))
+    heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
+    weights = values.get("weights")
+    if weights is not None and loads is not None:
+        attempt("weights", lambda: _check_weights(weights, heat, loads.loads))
     if problems:
         raise together(problems)
     combinations = [
@@ -119,7 +130,32 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         cycles=values.get("cycles", False),
         keep=values.get("keep"),
         content=dict(data),
+        heat=heat,
+        weights=weights,
     )
+
+
+def _heat(base: Case, parameters: Mapping[str, str] | None) -> Heat | None:
+    """How the bearing loses its heat, where the temperature is to balance."""
+    if base.temperature != BALANCE:
+        return None
+    if TEMPERATURE in (parameters or {}):
+        raise InputError(
+            "the temperature is to balance, and it is varied",
+            where=TEMPERATURE,
+            remedy="Vary heat.conductance or heat.ambient, or give the base case a temperature.",
+        )
+    return base.heat
+
+
+def _check_weights(weights: Weighting, heat: Heat | None, loads: Sequence[Load]) -> None:
+    if heat is None:
+        raise InputError(
+            "weights are given, and nothing is weighted",
+            allowed="temperature: balance in the base case",
+            remedy="Remove them; macroslip aggregate weights results.",
+        )
+    weights.of(loads)
 
 
 def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sample | None:

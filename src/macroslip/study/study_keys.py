@@ -16,6 +16,7 @@ from macroslip.errors import InputError
 from macroslip.result.dataset import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Sample
+from macroslip.study.weights import Weighting
 
 LOAD_SOURCES = ("files", "table", "bundled")
 KINDS = ("hub", "main-bearing")
@@ -215,5 +216,6 @@ class StudyFile:
         ),
     ] = None
     variations: Variations = Variations()
+    weights: Weighting | None = None
     cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False
     keep: Annotated[list[str] | None, Variables("variables of a result to store; all if left out")] = None
