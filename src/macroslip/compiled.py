@@ -104,8 +104,7 @@ def jit_part(function: Callable) -> Callable:
     return register_jitable(**_OPTIONS, forceinline=True)(function)
 
 
-@intrinsic
-def borrowed(typingctx, value):
+def _borrowed(typingctx: Any, value: Any) -> Any:
     """The same value with arrays that are not counted, for use inside a kernel that was given it as an argument.
 
     Numba counts how often an array is referred to, with an atomic operation for each array in a tuple that is passed on.
@@ -134,6 +133,9 @@ def borrowed(typingctx, value):
         return strip(context, builder, signature.args[0], arguments[0])
 
     return value(value), generate
+
+
+borrowed: Any = intrinsic(_borrowed)
 
 
 def elementwise(function: Callable) -> Callable:

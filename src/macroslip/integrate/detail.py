@@ -117,7 +117,7 @@ def _spread(record, interface, energies, way):
 
 
 @jit_part
-def _book_raceway(record, passage, interface, contact, load, at, slip):
+def book_raceway(record, passage, interface, contact, load, at, slip):
     """Spread the step's energies as the power at its end lies along the roller, and raise the extremes.
 
     A step that ends without load spreads them as the last one with load; before that they are kept for the first one.
@@ -166,7 +166,21 @@ def _book_raceway(record, passage, interface, contact, load, at, slip):
 
 
 @jit_part
-def _look(record, interface, contact, load, ring_speed, slip, span):
+def book_cage(record, orbit, contact, load, surface, power):
+    """Raise the extremes of the cage's contact, whose roller's surface moves at `surface` [m/s], by its power [W]."""
+    if load <= 0.0:
+        return
+    entrainment = max(0.5 * abs(surface), LOWEST_ENTRAINMENT_SPEED)
+    film, _, _ = film_thickness(contact.film, load, entrainment)
+    root_load = load ** (1.0 / 3.0)
+    across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
+    per_length = 0.75 * abs(power) / across
+    flash = flash_temperature(per_length, along, surface, 0.0, contact.effusivity_1, contact.effusivity_2)
+    _raise(record, orbit, 2, flash, per_length / (2.0 * along), abs(surface) / entrainment, film / contact.roughness)
+
+
+@jit_part
+def look(record, interface, contact, load, ring_speed, slip, span):
     """Film power by the rule in use and by a much finer one."""
     if load <= 0.0 or not contact.shape.microslip:
         return
@@ -186,25 +200,17 @@ def _look(record, interface, contact, load, ring_speed, slip, span):
 
 @jit_part
 def _book_step(record, model, at, forces, slip, span, passage):
-    _book_raceway(record, passage, 0, model.inner, at.inner_load, at, slip)
-    _book_raceway(record, passage, 1, model.outer, at.outer_load, at, slip)
+    book_raceway(record, passage, 0, model.inner, at.inner_load, at, slip)
+    book_raceway(record, passage, 1, model.outer, at.outer_load, at, slip)
     load = abs(forces.cage_load)
     if load > 0.0:
-        contact = model.cage
         surface = at.ring_speed - slip
-        entrainment = max(0.5 * abs(surface), LOWEST_ENTRAINMENT_SPEED)
-        film, _, _ = film_thickness(contact.film, load, entrainment)
-        root_load = load ** (1.0 / 3.0)
-        across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
         # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
         pull = forces.cage - cage_film(model.films, load, surface).sliding
-        per_length = 0.75 * abs(pull * surface) / across
-        flash = flash_temperature(per_length, along, surface, 0.0, contact.effusivity_1, contact.effusivity_2)
-        ratio = abs(surface) / entrainment
-        _raise(record, passage.orbit, 2, flash, per_length / (2.0 * along), ratio, film / contact.roughness)
+        book_cage(record, passage.orbit, model.cage, load, surface, pull * surface)
     if record.count[0] % LOOK_EVERY == 0:
-        _look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, span)
-        _look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, span)
+        look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, span)
+        look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, span)
 
 
 @jit_part

@@ -29,13 +29,24 @@ def view_section(profiles: Mapping[str, Mapping[str, xr.Dataset]]) -> Section:
         (
             Paragraph(
                 f"Both rows to scale, {float(first.time[0]):.4g} s to {float(first.time[-1]):.4g} s: the part around "
-                "the largest power that the samples caught. Rollers travel at the speed of pure rolling. Values are "
-                "those of the instant; a power that lasts for milliseconds falls between the samples. Point at a "
+                f"the largest power that the samples caught. {_travel(profiles)} Values are those of the instant; a power "
+                "that lasts for milliseconds falls between the samples. Point at a "
                 "roller for its values, choose one to see its traces, and drag in a trace to move in time."
             ),
             View(scenes),
         ),
         "every roller with its load, slip and power; needs JavaScript",
+    )
+
+
+def _travel(profiles: Mapping[str, Mapping[str, xr.Dataset]]) -> str:
+    """How the rollers of the scenes travel."""
+    if not any("pocket_offset" in profile["scene"] for profile in profiles.values()):
+        return "Rollers travel at the speed of pure rolling."
+    return (
+        "Where orbit and spin were computed together, rollers are drawn between the spars of their pockets, their way in "
+        "them enlarged; a red dot is the force of a spar, larger by a step for each decade. Others travel at the speed of "
+        "pure rolling."
     )
 
 

@@ -15,6 +15,7 @@ from macroslip.report.provenance import provenance_section
 from macroslip.report.rating_section import rating_blocks
 from macroslip.report.result_opening import result_opening, results_opening
 from macroslip.report.surface_section import surface_blocks
+from macroslip.report.whole_section import whole_blocks
 from macroslip.result.orbit_profile import orbit_profile
 
 if TYPE_CHECKING:
@@ -67,7 +68,12 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
         first = [Paragraph(str(result.attrs.get("title", "")))]
         if name in notes:
             first.append(Paragraph(f"Energy over the orbit, films and the moving bearing need traces: {notes[name]}"))
-        sections += _of_result(result, profiles.get(name), number, name if len(results) > 1 else "", first)
+        group = name if len(results) > 1 else ""
+        sections += _of_result(result, profiles.get(name), number, group, first)
+        if whole := whole_blocks(result, results):
+            gist = "cage, pockets and books where the rollers move in their pockets"
+            suffix = f"-{number}" if number else ""
+            sections.append(Section(f"whole{suffix}", "Orbit and spin together", whole, gist, group))
     for number, (name, study) in enumerate(studies.items()):
         sections.append(Section(f"study-{number}", name, _study_blocks(study)))
     sections.append(provenance_section(results))

@@ -62,11 +62,20 @@ def group_labels(dataset: xr.Dataset, group: int) -> list[str]:
     found = []
     for name, one in dataset.coords.items():
         value = str(one.values[group]) if one.dims == ("group",) and np.unique(one.values).size > 1 else ""
-        if value:
+        # A parameter that only other models set has no value.
+        if value not in ("", "nan"):
             # The names of parameters have a dot; those of bearings, lubricants and models speak for themselves.
-            found.append(f"{name} {value}" if "." in str(name) else value)
+            found.append(f"{str(name).rpartition('.')[2]} {_short(value)}" if "." in str(name) else value)
     return found
 
 
+def _short(value: str) -> str:
+    """A number with three digits; other text as it is."""
+    try:
+        return f"{float(value):.3g}"
+    except ValueError:
+        return value
+
+
 def _group_title(dataset: xr.Dataset, group: int) -> str:
-    return ", ".join(group_labels(dataset, group))
+    return "\n".join(group_labels(dataset, group))

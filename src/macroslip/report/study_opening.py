@@ -39,8 +39,8 @@ def study_opening(study: xr.Dataset, life: xr.Dataset | None, curves: xr.Dataset
     """
     sentences, pictures = [_outcomes(study)], []
     group = next(iter(groups(life.bin_energy)), None) if life is not None else None
-    if group is not None:
-        sentences.append(_lifetime(life, group))
+    if life is not None and group is not None:
+        sentences.append(_lifetime(life, group) if len(groups(life.bin_energy)) == 1 else _lifetimes(life))
         pictures.append(_picture(lambda axes: plot_lifetime(axes, life, group), "Lifetime energy by wind speed"))
     group = next(iter(groups(curves.power_orbits)), None) if curves is not None else None
     if group is not None:
@@ -92,11 +92,25 @@ def _lifetime(life: xr.Dataset, group: int) -> str:
             continue
         parts = life.bin_energy.isel(group=group).sel(row=row)
         most = float(life.bin[int(np.nanargmax(parts.values))])
-        words.append(f"{1e-6 * value:.3g} MJ {row} (most of it at {most:g} m/s)")
-    labels = group_labels(life, group)
-    of = f" with {', '.join(labels)}" if labels else ""
+        words.append(f"{told(1e-6 * value)} MJ {row} (most of it at {most:g} m/s)")
     return (
-        f"In {life.attrs['years']:g} years a roller{of} dissipates {' and '.join(words)}; the wind speeds of the study are "
+        f"In {life.attrs['years']:g} years a roller dissipates {' and '.join(words)}; the wind speeds of the study are "
+        f"{100.0 * float(life.covered):.0f} % of all time."
+    )
+
+
+def _lifetimes(life: xr.Dataset) -> str:
+    """Lifetime energies of several bearings, lubricants, models or values of parameters: the range, and the highest."""
+    words = []
+    for row in life.row.values.tolist():
+        values = 1e-6 * life.lifetime_energy.sel(row=row).values
+        if not np.isfinite(values).any():
+            words.append(f"an unknown energy {row} (some wind speed has no result)")
+            continue
+        of = ", ".join(group_labels(life, int(np.nanargmax(values))))
+        words.append(f"{told(np.nanmin(values))} to {told(np.nanmax(values))} MJ {row} (most with {of})")
+    return (
+        f"In {life.attrs['years']:g} years a roller dissipates {' and '.join(words)}; the wind speeds of the study are "
         f"{100.0 * float(life.covered):.0f} % of all time."
     )
 
@@ -105,7 +119,7 @@ def _run(study: xr.Dataset, case: int) -> str:
     """What names a run: its loads, and those labels that differ in the study."""
     one = study.isel(case=case)
     labels = [
-        str(one[name].item())
+        str(one[name].item()).rpartition("/")[2]
         for name in ("loads", "bearing", "lubricant", "model")
         if name == "loads" or np.unique(study[name].values).size > 1
     ]
@@ -118,6 +132,9 @@ def _plot(axes: Axes, study: xr.Dataset, name: str, label: str) -> Axes:
     extreme = (-study[name].min("row") if name == "lowest_spin_ratio" else study[name].max("row")).values
     shown = np.sort(np.argsort(-np.nan_to_num(extreme, nan=-np.inf), kind="stable")[:_MOST_NAMES])
     names = [_run(study, int(case)) for case in shown]
+    if len(set(names)) < len(names):
+        # Variations of parameters have no names that fit; their runs have numbers.
+        names = [f"run {int(case)}" for case in shown]
     plot_by_result(axes, names, study.row.values.tolist(), values[shown], label)
     if shown.size < study.sizes["case"]:
         axes.set_title(f"the {shown.size} most extreme of {study.sizes['case']} runs", fontsize=10, loc="left")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from macroslip.reproduction.model_run import ModelRun
 
-TITLE = "Slip in a wind turbine's main bearing: what the paper found, and what a converged solution finds"
+TITLE = "Slip in a main bearing: what the paper found, and what a converged solution finds"
 _PAPER = "Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing"
 
 

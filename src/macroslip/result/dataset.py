@@ -26,6 +26,7 @@ from macroslip.roller.contacts import references
 if TYPE_CHECKING:
     import xarray as xr
 
+    from macroslip.bearing import Bearing
     from macroslip.case.case import Case
     from macroslip.roller.model import RollerModel
 
@@ -273,11 +274,16 @@ def _coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, An
         "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
         "start_angle": (_ROLLERS, angles, about),
     }
-    if curved:
-        edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * case.bearing.roller_length
-        middles = 0.5 * (edges_along[1:] + edges_along[:-1])
-        found["mechanism"] = list(MECHANISMS)
-        found["station"] = ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"})
-        found["raceway"] = list(INTERFACES[:2])
-        found |= surface_maps.coordinates(case.bearing)
-    return found
+    return found | contact_coordinates(case.bearing) if curved else found
+
+
+def contact_coordinates(bearing: Bearing) -> dict[str, Any]:
+    """Places and mechanisms that contacts with microslip or asperities tell apart."""
+    edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
+    middles = 0.5 * (edges_along[1:] + edges_along[:-1])
+    return {
+        "mechanism": list(MECHANISMS),
+        "station": ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"}),
+        "raceway": list(INTERFACES[:2]),
+        **surface_maps.coordinates(bearing),
+    }

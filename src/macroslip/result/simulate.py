@@ -95,7 +95,9 @@ def simulate(
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
     if case.dynamics == WHOLE_BEARING:
-        return simulate_whole_bearing(case, models, motion, Times(edges, trace_time, end), _notes(case, largest))
+        times = Times(edges, trace_time, end)
+        drag = _drag_power(case, model, motion, edges[0], end)
+        return simulate_whole_bearing(case, models, motion, times, _notes(case, largest), drag)
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
     models, evaluation = evaluated_models(case, models, motion, largest)

@@ -119,9 +119,11 @@ def balanced(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     that moves no more: three to five simulations. They have no traces. Load histories of minutes do not change the
     temperature of a bearing, so the balance is that of their mean power if it lasted.
     """
+    heat = case.heat
+    assert heat is not None, "the case asks for no balance"
     known: dict[float, float] = {}
     while True:
-        temperature, settled = next_temperature(known, case.heat)
+        temperature, settled = next_temperature(known, heat)
         if settled:
             return replace(case, temperature=temperature)
         known[temperature] = friction_power(simulate(replace(case, temperature=temperature, traces=None)))

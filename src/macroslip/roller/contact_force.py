@@ -283,9 +283,21 @@ def _curved_power(contact, slip, ring_speed, spin_force, detail):
     return slip * spin_force + ring_speed * (curvature - shape.spin_ratio * detail.skew)
 
 
+def asperity_power(detail):
+    """Part of a contact's frictional power that asperities dissipate [W]; zero for a plain contact."""
+    return 0.0 if detail is None else detail.asperity_power
+
+
 def is_curved(contact) -> bool:
     """Whether a contact is curved, from its numba type; for use where a kernel is compiled."""
     return isinstance(contact, types.NamedTuple) and contact.instance_class is CurvedContact
+
+
+@overload(asperity_power)
+def _asperity_power(detail):
+    if isinstance(detail, types.NoneType):
+        return lambda detail: 0.0
+    return lambda detail: detail.asperity_power
 
 
 @overload(raceway_force)

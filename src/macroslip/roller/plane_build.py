@@ -30,7 +30,7 @@ def cage_values(contact, loads, slips, values):
     for n in range(loads.size):
         force, _, _, detail = cage_force(contact, loads[n], slips[n], 0.5 * slips[n], 0.5)
         values[n, 0] = math.log(force / slips[n])
-        values[n, 1] = detail.asperity_power / (force * slips[n])
+        values[n, 1] = detail.asperity_power / (force * slips[n])  # pyright: ignore[reportOptionalMemberAccess]
 
 
 @jit

@@ -65,4 +65,4 @@ def plane_values(table, log_load, log_speed):
     j, u = cell_of(table.speed, log_speed)
     if i < 0 or j < 0 or not table.good[i, j]:
         return PlaneValues(False, zeros, zeros, zeros)
-    return PlaneValues(True, *channels_in_square(table.coefficients, (i, j), (t, u)))
+    return PlaneValues(True, *channels_in_square(table.coefficients, (i, j), (t, u)))  # pyright: ignore[reportCallIssue]

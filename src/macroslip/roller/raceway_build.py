@@ -75,9 +75,11 @@ def raceway_table(contact: CurvedContact, box: TableBox) -> RacewayTable:
     shape, fluid = contact.shape, contact.traction.table.fluid
     stretch = _STRETCH * fluid.exponent * fluid.index / fluid.reference_pressure * contact.traction.pressure
     merging = shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio)
-    load = axis(*(math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.highest_load)), _LOAD_SPACING)
+    lightest, heaviest = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.highest_load))
+    load = axis(lightest, heaviest, _LOAD_SPACING)
     speed = axis(math.log(box.lowest_speed), math.log(box.highest_speed), _SPEED_SPACING)
-    ratio = axis(*(math.asinh((x - merging) / SLIP_RATIO) for x in (_LEAST_RATIO, _LARGEST_RATIO)), _RATIO_SPACING)
+    least, largest = (math.asinh((x - merging) / SLIP_RATIO) for x in (_LEAST_RATIO, _LARGEST_RATIO))
+    ratio = axis(least, largest, _RATIO_SPACING)
 
     def states(of_axis: Callable) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         ratios = merging + SLIP_RATIO * np.sinh(of_axis(ratio))

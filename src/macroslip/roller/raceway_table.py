@@ -104,7 +104,7 @@ def table_force(table, load, ring_speed, slip):
     j, u = cell_of(table.ratio, math.copysign(math.log(abs(z) + size), z))
     if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
         return nothing
-    value, by_ratio = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))
+    value, by_ratio = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
     sign = math.copysign(1.0, ring_speed)
     pull_scale = sign * load
     lag_scale = pull_scale * root * root

@@ -106,12 +106,6 @@ def _stored_raceway_table(contact: CurvedContact, box: TableBox) -> tuple[Racewa
         return [axes, numbers, table.coefficients, table.good, errors]
 
     axes, numbers, coefficients, good, errors = stored(table_key(alike, box), make)
-    table = RacewayTable(
-        *(Axis(float(first), float(per_spacing), int(cells)) for first, per_spacing, cells in axes),
-        float(numbers[0]),
-        float(numbers[1]),
-        1.0,
-        coefficients,
-        good,
-    )
+    load, speed, ratio = (Axis(float(first), float(per_spacing), int(cells)) for first, per_spacing, cells in axes)
+    table = RacewayTable(load, speed, ratio, float(numbers[0]), float(numbers[1]), 1.0, coefficients, good)
     return table, errors, float(numbers[2])

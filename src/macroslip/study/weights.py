@@ -148,8 +148,9 @@ class Weighting:
         >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
         [0.307, 0.307, 0.386]
         """
-        values = [load.fields.get(self.field) for load in loads]
-        wrong = [load.name for load, value in zip(loads, values, strict=True) if not isinstance(value, int | float)]
+        known = [load.fields.get(self.field) for load in loads]
+        values = [value for value in known if isinstance(value, int | float)]
+        wrong = [load.name for load, value in zip(loads, known, strict=True) if not isinstance(value, int | float)]
         if wrong:
             raise InputError(
                 f"the loads {wrong[0]} have no number as '{self.field}'",

@@ -47,7 +47,7 @@ class Pictures:
 
 @dataclass(frozen=True, slots=True)
 class Beside:
-    """What the paper states on the left, what was computed on the right."""
+    """What the paper states, and below it what was computed."""
 
     kind: ClassVar[str] = "beside"
     title: str
