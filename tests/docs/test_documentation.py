@@ -12,7 +12,7 @@ import pytest
 from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
 from macroslip.case.keys import INTEGRATORS, CaseFile, LawsKeys
 from macroslip.catalogue.forms import Choice
-from macroslip.catalogue.input_section import fields_of, form_of, keys_of
+from macroslip.catalogue.section_forms import fields_of, form_of, keys_of
 from macroslip.integrate.status import Status
 from macroslip.study.export import tables
 from macroslip.study.outcome import Outcome

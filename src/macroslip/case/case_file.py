@@ -13,8 +13,9 @@ from macroslip.bearing import Bearing
 from macroslip.case.case import Case
 from macroslip.case.keys import LOAD_SOURCES, CaseFile, LawsKeys, LoadsKeys
 from macroslip.catalogue import Record
-from macroslip.catalogue.input_section import json_schema, read_fields
+from macroslip.catalogue.input_section import read_fields
 from macroslip.catalogue.problems import shown, together
+from macroslip.catalogue.section_forms import json_schema
 from macroslip.catalogue.source import Place, Source, parse, read_text
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, HubLoads

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from macroslip.case.case import Heat
+from macroslip.case.parts import Heat
 from macroslip.catalogue.entry import is_finite_number
 from macroslip.errors import InputError, MacroslipError
 from macroslip.result.thermal_balance import next_temperature

@@ -22,7 +22,8 @@ from macroslip.study.study_keys import StudyFile, Variations
 from macroslip.study.variation import Sample, grid
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Case, Heat
+    from macroslip.case.case import Case
+    from macroslip.case.parts import Heat
     from macroslip.study.loads_list import Load
     from macroslip.study.weights import Weighting
 
@@ -208,8 +209,9 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
 def _parameters(variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
     ranges = sample.ranges if sample else {}
+    grid: dict[str, Any] = dict(variations.grid or {})  # lists of settings, which the reader has made of the axes
     places: dict[str, dict[str, str]] = {
-        "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
+        "grid": {key: settings[0].unit for key, settings in grid.items()},
         "list": {one.key: one.unit for item in variations.list or [] for one in item},
         "sample": {key: one.unit for key, one in ranges.items() if one is not None},
         "models": {one.key: one.unit for settings in models.values() for one in settings},
