@@ -1,104 +1,269 @@
-"""Numbers of docs/whole-bearing.md: python docs/whole_bearing.py NAME …, each a line a simulation.
+"""Numbers of docs/whole-bearing.md: python docs/whole_bearing.py PART …, each part a table as the page has it.
 
-Names: `cases` (imposed orbit and whole bearing over mean wind speed), `cage` (gap, weight, arrangement, scatter, damping),
-`physical` (the same with all mechanisms), `operation` (start, stop, reversal, idling, emergency stop).
+Parts, each with `-paper` or `-physical`: `cases` (imposed orbit and whole bearing under the 21 load cases), `choices` (gap, oil,
+weight, arrangement, guidance, scatter under 14B), `places` (forces by place on the orbit under a radial load), `operation`
+(start, stop, reversal, idling, emergency stop) and `speed`. Under the paper's laws alone: `dry` (dry impacts and their cost),
+`tolerance` and `scatter` (energies by tolerance and by initial offsets) and `long` (what grows over many orbits).
 """
 
 from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from macroslip import BearingLoads, Cage, Case, HubLoads, Laws, simulate
+from macroslip import BearingLoads, Cage, Case, HubLoads, Laws, Radau, simulate
+
+PAPER, PHYSICAL = Laws.paper(), Laws.physical()
+#: The part of each load case that is simulated [s]; the window opens after one orbit.
+BEGIN, SPAN = 100.0, 60.0
+RATED = 2.143
 
 
-def line(name: str, case: Case) -> None:
-    """Simulate and print energies by row and interface [J], cage slip, forces and speed."""
+def timed(case: Case):
+    """A result, and the time of one core that it took [s]."""
     start = time.process_time()
-    result = simulate(case)
-    spent = time.process_time() - start
-    energy = result.energy.sum("roller").values
-    print(f"{name:34s}", " ".join(f"{value:10.4g}" for value in energy.ravel()), end=" ")
-    if case.dynamics == "whole-bearing":
-        slip = ", ".join(f"{100 * value:.4f} %" for value in result.cage_slip.values)
+    return simulate(case), time.process_time() - start
+
+
+def energies(result) -> np.ndarray:
+    """Energy of friction of all rollers [J], by row and raceways, cage."""
+    found = result.energy.sum("roller").values
+    return np.column_stack([found[:, :2].sum(axis=1), found[:, 2]])
+
+
+def cells(*values: object) -> str:
+    """A row of a table."""
+    return "| " + " | ".join(f"{value:.3g}" if isinstance(value, float) else str(value) for value in values) + " |"
+
+
+def heading(*names: str) -> None:
+    """The first two lines of a table."""
+    print(cells(*names))
+    print("| " + " | ".join("---" for _ in names) + " |", flush=True)
+
+
+def share(part: float, whole: float) -> str:
+    """A ratio, or a dash."""
+    return f"{part / whole:.3g}" if whole > 0.0 else "–"
+
+
+def bundled(laws: Laws) -> Iterator[tuple[str, Case]]:
+    """The 21 load cases."""
+    for speed in range(12, 25, 2):
+        for turbulence in "ABC":
+            name = f"{speed}{turbulence}"
+            yield name, Case(loads=HubLoads.bundled(name).window(BEGIN, BEGIN + SPAN), laws=laws)
+
+
+def cases(laws: Laws) -> None:
+    """What the imposed orbit changes, and the cage's slip."""
+    heading(
+        "case", "downwind raceways, imposed [J]", "whole/imposed", "downwind cage, imposed [J]", "whole/imposed",
+        "upwind raceways, imposed [J]", "whole/imposed", "upwind cage, imposed [J]", "whole/imposed", "rolling, whole/imposed",
+        "down/up, imposed", "down/up, whole", "cage slip [%]", "a cage a row, slip [%]",
+        "largest spar force downwind, upwind [N]", "over the top [N]",
+    )  # fmt: skip
+    for name, case in bundled(laws):
+        imposed = simulate(case)
+        whole = simulate(replace(case, dynamics="whole-bearing"))
+        apart = simulate(replace(case, dynamics="whole-bearing", cage=Cage(arrangement="per-row")))
+        before, after = energies(imposed), energies(whole)
+        rolling = [float(one.rolling_energy.sum()) for one in (whole, imposed)]
+        force = whole.largest_pocket_force.max(("roller", "side")).values
+        top = whole.largest_force_by_position.where(abs(whole.position - np.pi / 2) < np.radians(30)).max()
+        pairs = [x for i in (0, 1) for k in (0, 1) for x in (float(before[i, k]), share(after[i, k], before[i, k]))]
+        print(cells(
+            name, *pairs, share(*rolling), share(*before.sum(axis=1)), share(*after.sum(axis=1)),
+            f"{100 * float(whole.cage_slip[0]):.3g}",
+            ", ".join(f"{100 * slip:.3g}" for slip in apart.cage_slip.values),
+            ", ".join(f"{one:.3g}" for one in force), float(top),
+        ), flush=True)  # fmt: skip
+
+
+def choices(laws: Laws) -> None:
+    """What the choices for the cage change under 14B."""
+    case = Case(loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + SPAN), laws=laws, dynamics="whole-bearing")
+    described = {
+        "default": Cage(),
+        "gap 0.2 mm": Cage(gap=2e-4),
+        "gap 1 mm": Cage(gap=1e-3),
+        "film fullness 0.3": Cage(film_fullness=0.3),
+        "film fullness 0.03": Cage(film_fullness=0.03),
+        "mass 35 kg": Cage(mass=35.0),
+        "mass 60 kg": Cage(mass=60.0),
+        "without weight": Cage(weight=False),
+        "a cage a row": Cage(arrangement="per-row"),
+        "guide friction 50 N": Cage(guide_friction=50.0),
+        "random offsets": Cage(offsets="random"),
+        "diameters ± 0.5 µm": Cage(diameter_scatter=0.5e-6),
+        "diameters ± 1.5 µm": Cage(diameter_scatter=1.5e-6),
+    }
+    heading(
+        "cage", "downwind raceways [J]", "downwind cage [J]", "upwind raceways [J]", "upwind cage [J]", "slip [%]",
+        "largest spar force downwind, upwind [N]", "over the top [N]",
+    )  # fmt: skip
+    for name, cage in described.items():
+        result = simulate(replace(case, cage=cage))
         force = result.largest_pocket_force.max(("roller", "side")).values
-        top = float(result.largest_force_by_position.sel(position=np.radians(90), method="nearest").max())
-        print(f"slip {slip} force {force[0]:.0f} {force[1]:.0f} N top {top:.0f} N", end=" ")
+        top = result.largest_force_by_position.where(abs(result.position - np.pi / 2) < np.radians(30)).max()
+        slip = ", ".join(f"{100 * one:.3g}" for one in result.cage_slip.values)
         print(
-            f"momentum {float(abs(result.momentum_residual).max()):.1e} energy {float(result.energy_residual[-1]):.1e} J",
-            end=" ",
+            cells(
+                name,
+                *(float(x) for x in energies(result).ravel()),
+                slip,
+                ", ".join(f"{x:.3g}" for x in force),
+                float(top),
+            ),
+            flush=True,
         )
-        print(f"pocket {float(result.pocket_loss[-1]):.3g} J steps {int(result.steps.max())}", end=" ")
-    print(f"{(case.loads.time[-1] - case.loads.time[0]) / spent:.0f} x status {int(result.status.max())}", flush=True)
 
 
-def cases(laws: Laws, names: tuple[str, ...], duration: float) -> None:
-    """Both dynamics for bundled load cases."""
-    for name in names:
-        loads = HubLoads.bundled(name)
-        case = Case(loads=loads.window(None, min(duration, float(loads.time[-1]))), laws=laws)
-        line(f"{name} imposed orbit", case)
-        line(f"{name} whole bearing", replace(case, dynamics="whole-bearing"))
-        line(f"{name} weightless cage", replace(case, dynamics="whole-bearing", cage=Cage(weight=False)))
-        line(f"{name} cage a row", replace(case, dynamics="whole-bearing", cage=Cage(arrangement="per-row")))
+def radial(laws: Laws, duration: float = 30.0, cage: Cage = Cage()) -> Case:
+    """A bearing under its rotor's weight alone, 343 kN down at rated speed."""
+    loads = BearingLoads.constant([0.0, -343e3, 0.0], RATED, duration)
+    return Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
 
 
-def cage(laws: Laws, duration: float) -> None:
-    """What the cage's choices do under 14B."""
-    loads = HubLoads.bundled("14B")
-    case = Case(loads=loads.window(None, min(duration, float(loads.time[-1]))), laws=laws, dynamics="whole-bearing")
-    for gap in (2e-4, 5e-4, 1e-3):
-        line(f"gap {gap * 1e3:g} mm", replace(case, cage=Cage(gap=gap)))
-    for fullness in (0.03, 0.3):
-        line(f"film fullness {fullness:g}", replace(case, cage=Cage(film_fullness=fullness)))
-    for mass in (35.0, 60.0):
-        line(f"cage {mass:g} kg", replace(case, cage=Cage(mass=mass)))
-    line("guide friction 50 N", replace(case, cage=Cage(guide_friction=50.0)))
-    line("random offsets", replace(case, cage=Cage(offsets="random")))
-    for scatter in (0.5e-6, 1.5e-6):
-        line(f"diameter scatter {scatter * 1e6:g} um", replace(case, cage=Cage(diameter_scatter=scatter)))
+def places(laws: Laws) -> None:
+    """Largest force of a spar by place on the orbit; a roller goes from the bottom (270°) by the left (0°) to the top (90°)."""
+    heading("row", *(f"{30 * k}°" for k in range(12)))
+    result = simulate(radial(laws))
+    for row in result.row.values:
+        force = result.largest_force_by_position.sel(row=row).values
+        # Sectors of 30° about 0°, 30° …
+        print(cells(row, *(f"{x:.3g}" for x in np.roll(force, 3).reshape(12, 6).max(axis=1))), flush=True)
 
 
-def dry(laws: Laws, duration: float) -> None:
-    """Dry impacts under 14B."""
-    loads = HubLoads.bundled("14B")
-    case = Case(loads=loads.window(None, min(duration, float(loads.time[-1]))), laws=laws, dynamics="whole-bearing")
-    for damping in (10.0, 50.0, 250.0):
-        line(f"dry, damping {damping:g} s/m", replace(case, cage=Cage(impact="dry", damping=damping)))
+def dry() -> None:
+    """Dry impacts: energies and cost."""
+    case = Case(loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + 10.0), laws=PAPER, dynamics="whole-bearing")
+    heading(
+        "spars", "downwind cage [J]", "upwind cage [J]", "impacts and films take [J]", "largest force [N]", "steps a second",
+        "times real time",
+    )  # fmt: skip
+    described = {"squeeze film": Cage()} | {
+        f"dry, D {damping:g} s/m": Cage(impact="dry", damping=damping) for damping in (10.0, 50.0, 250.0)
+    }
+    for name, cage in described.items():
+        result, spent = timed(replace(case, cage=cage))
+        found = energies(result)
+        steps = int((result.steps + result.rejections).max()) / 10.0
+        force = float(result.largest_pocket_force.max())
+        lost = float(result.pocket_loss[-1])
+        print(
+            cells(name, float(found[0, 1]), float(found[1, 1]), lost, force, f"{steps:.0f}", 10.0 / spent), flush=True
+        )
+
+
+def tolerance() -> None:
+    """Energies under 14B by tolerance, with the cage's weight and without."""
+    heading(
+        "cage", "tolerance", "downwind raceways [J]", "downwind cage [J]", "upwind raceways [J]", "upwind cage [J]",
+        "energy residual [J]",
+    )  # fmt: skip
+    loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + 30.0)
+    for name, cage in (("default", Cage()), ("without weight", Cage(weight=False))):
+        for value in (2e-3, 2e-4, 2e-5):
+            case = Case(loads=loads, laws=PAPER, dynamics="whole-bearing", cage=cage, integrator=Radau(tolerance=value))
+            result = simulate(case)
+            found = [f"{x:.5g}" for x in energies(result).ravel()]
+            print(cells(name, value, *found, float(result.energy_residual[-1])), flush=True)
+
+
+def scatter() -> None:
+    """Energy of the downwind cage under 14B by initial offsets drawn at random, at two tolerances."""
+    heading(
+        "tolerance",
+        "downwind cage, mean of 5 draws [J]",
+        "standard deviation [J]",
+        "upwind cage, mean [J]",
+        "standard deviation [J]",
+    )
+    loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + 30.0)
+    for value in (2e-4, 2e-5):
+        found = []
+        for seed in range(1, 6):
+            cage = Cage(offsets="random", seed=seed)
+            case = Case(loads=loads, laws=PAPER, dynamics="whole-bearing", cage=cage, integrator=Radau(tolerance=value))
+            found.append(energies(simulate(case))[:, 1])
+        mean, deviation = np.mean(found, axis=0), np.std(found, axis=0, ddof=1)
+        print(cells(value, *(f"{x:.4g}" for k in (0, 1) for x in (mean[k], deviation[k]))), flush=True)
 
 
 def operation(laws: Laws) -> None:
     """Starts, stops, reversals, idling and an emergency stop, at 343 kN radial load."""
-    rated = 2.143
     series = {
-        "start from rest": ([0.0, 20.0, 40.0], [0.0, rated, rated]),
-        "stop": ([0.0, 20.0, 40.0], [rated, rated, 0.0]),
-        "reversal": ([0.0, 10.0, 20.0, 40.0], [rated, rated, -rated, -rated]),
-        "idling at a tenth": ([0.0, 60.0], [0.1 * rated, 0.1 * rated]),
-        "emergency stop in 2 s": ([0.0, 10.0, 12.0, 20.0], [rated, rated, 0.0, 0.0]),
+        "start in 20 s, then rated speed for 20 s": ([0.0, 20.0, 40.0], [0.0, RATED, RATED]),
+        "rated speed for 20 s, stop in 20 s": ([0.0, 20.0, 40.0], [RATED, RATED, 0.0]),
+        "reversal in 10 s": ([0.0, 10.0, 20.0, 40.0], [RATED, RATED, -RATED, -RATED]),
+        "idling at a tenth of the speed, 60 s": ([0.0, 60.0], [0.1 * RATED, 0.1 * RATED]),
+        "emergency stop in 2 s": ([0.0, 10.0, 12.0, 20.0], [RATED, RATED, 0.0, 0.0]),
     }
+    heading("", "raceways, imposed / whole [J]", "cage, imposed / whole [J]", "largest spar force [N]")
     for name, (times, speeds) in series.items():
         when = np.arange(0.0, times[-1] + 0.025, 0.05)
         force = np.tile([0.0, -343e3, 0.0], (when.size, 1))
         loads = BearingLoads(time=when, shaft_speed=np.interp(when, times, speeds), force=force, source=name)
         case = Case(loads=loads, laws=laws)
-        line(f"{name}, imposed orbit", case)
-        line(f"{name}, whole bearing", replace(case, dynamics="whole-bearing"))
+        imposed, whole = simulate(case), simulate(replace(case, dynamics="whole-bearing"))
+        before, after = energies(imposed).sum(axis=0), energies(whole).sum(axis=0)
+        pairs = (f"{before[k]:.3g} / {after[k]:.3g}" for k in (0, 1))
+        print(cells(name, *pairs, float(whole.largest_pocket_force.max())), flush=True)
 
+
+def long() -> None:
+    """Momentum's residual and energy per orbit of a bearing with three rollers a row, over many orbits."""
+    from macroslip.bearing import Bearing
+
+    bearing = Bearing.read("skf-240-600-bc").replace(rollers_per_row=3)
+    heading(
+        "orbits", "momentum residual / impulse through the bearing", "energy of the last tenth / of the tenth before"
+    )
+    for orbits in (10, 100, 1000):
+        duration = orbits * 2.0 * np.pi / (RATED * 0.45397)
+        loads = BearingLoads.constant([0.0, -12e3, 0.0], RATED, duration)
+        edges = np.linspace(0.0, duration, 11)
+        case = Case(
+            loads=loads, laws=PAPER, bearing=bearing, dynamics="whole-bearing", cage=Cage(weight=False, mass=8.0)
+        )
+        result = simulate(case)
+        at = result.interp(book_time=edges)
+        spent = np.diff((at.book_raceway_loss + at.book_friction_loss).values)
+        impulse = float(abs(result.book_inner_impulse[-1]))
+        print(
+            cells(orbits, f"{float(abs(result.momentum_residual).max()) / impulse:.1e}", f"{spent[-1] / spent[-2]:.5f}")
+        )
+
+
+def speed(laws: Laws) -> None:
+    """Time of one core for load case 14B, after a first run that compiles."""
+    heading("spars", "simulated [s]", "time of one core [s]", "times real time", "steps", "contact evaluations")
+    for name, cage, span in (("squeeze film", Cage(), 60.0), ("dry", Cage(impact="dry"), 10.0)):
+        loads = HubLoads.bundled("14B")
+        case = Case(loads=loads.window(BEGIN, BEGIN + span), laws=laws, dynamics="whole-bearing", cage=cage)
+        simulate(replace(case, loads=loads.window(BEGIN, BEGIN + 8.0)))
+        result, spent = timed(case)
+        steps = int((result.steps + result.rejections).max())
+        print(cells(name, span, spent, span / spent, steps, int(result.force_evaluations.max())), flush=True)
+
+
+BY_LAWS = {"cases": cases, "choices": choices, "places": places, "operation": operation, "speed": speed}
+PARTS = {
+    **{f"{name}-paper": partial(part, PAPER) for name, part in BY_LAWS.items()},
+    **{f"{name}-physical": partial(part, PHYSICAL) for name, part in BY_LAWS.items()},
+    "dry": dry,
+    "tolerance": tolerance,
+    "scatter": scatter,
+    "long": long,
+}
 
 if __name__ == "__main__":
-    paper, physical = Laws.paper(), Laws.physical().but(rolling="none")
-    chosen = sys.argv[1:] or ["cases", "cage", "dry", "operation", "physical"]
-    parts = {
-        "cases": lambda: cases(paper, ("14B", "24B"), 600.0),
-        "cage": lambda: cage(paper, 60.0),
-        "dry": lambda: dry(paper, 10.0),
-        "operation": lambda: operation(paper),
-        "physical": lambda: cases(physical, ("14B", "24B"), 60.0),
-    }
-    for part in chosen:
-        print(f"# {part}: energies [J] downwind inner, outer, cage, upwind inner, outer, cage", flush=True)
-        parts[part]()
+    for part in sys.argv[1:] or PARTS:
+        print(f"\n## {part}\n", flush=True)
+        PARTS[part]()

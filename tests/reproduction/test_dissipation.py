@@ -8,6 +8,8 @@ from macroslip.reproduction.dissipation import PARTS, dissipation, explained, kn
 from macroslip.reproduction.paper_numbers import paper_numbers
 from macroslip.reproduction.statement import AGREES, Statement
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def study(small_paper_study):

@@ -6,6 +6,8 @@ import pytest
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, InputError, Laws, Traces, main_bearing_load, simulate
 from macroslip.torque import computed_torque, skf_torque, torque_histories
 
+pytestmark = pytest.mark.slow
+
 SPEED = 2.143
 
 

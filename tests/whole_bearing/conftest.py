@@ -41,6 +41,7 @@ def run(bearing, lubricant):
         change=None,
         outputs=11,
         rests=True,
+        laws=None,
         **choices,
     ):
         prepared = whole_bearing(
@@ -48,7 +49,7 @@ def run(bearing, lubricant):
             lubricant,
             cage,
             tilt=math.radians(5.0),
-            laws=Laws.paper(),
+            laws=laws or Laws.paper(),
             **choices,
         )
         if change:

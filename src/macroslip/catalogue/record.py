@@ -207,7 +207,7 @@ class Record(BaseModel):
         """
         name, names = fspath(source), cls.catalogue()
         if name in names:
-            return cls._read_shipped(name)
+            return _shipped_record(cls, name)
         text = read_text(
             Path(name),
             f"no {cls.noun} can be read from {shown(name)}",
@@ -215,13 +215,6 @@ class Record(BaseModel):
             remedy=f"Relative paths start at {Path.cwd()}.",
         )
         return cls._from_entries(*parse(text, name))
-
-    @classmethod
-    @functools.cache
-    def _read_shipped(cls, name: str) -> Self:
-        """A shipped record, parsed once: it is frozen, and parsing takes a good part of the time to read a case."""
-        file = f"{name}.yaml"
-        return cls._from_entries(*parse((cls._shipped() / file).read_text(encoding="utf-8"), file))
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
@@ -363,6 +356,13 @@ class Record(BaseModel):
     def json_schema(cls) -> dict[str, Any]:
         """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
         return schema(cls, f"{cls.noun} of macroslip", TAGS, cls.derivable)
+
+
+@functools.cache
+def _shipped_record(kind: type[Record], name: str) -> Any:
+    """Read a shipped record. No record ever changes, so all who ask for one share it."""
+    file = f"{name}.yaml"
+    return kind._from_entries(*parse((kind._shipped() / file).read_text(encoding="utf-8"), file))
 
 
 def _number(value: Any, whole: bool) -> Any:

@@ -43,13 +43,13 @@ def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: 
 
 
 def without_folders(source: str) -> str:
-    """Where loads come from, for what leaves this computer: of an absolute path the file's name only.
+    r"""Where loads come from, for what leaves this computer: of an absolute path the file's name only.
 
     Examples
     --------
     >>> without_folders("/home/me/new turbine/run.outb"), without_folders("runs/run.outb")
     ('run.outb', 'runs/run.outb')
-    >>> without_folders("front bearing under C:\\\\Users\\\\me\\\\run.outb")
+    >>> without_folders("front bearing under C:\\Users\\me\\run.outb")
     'front bearing under run.outb'
     """
     return re.sub(r"(?:(?<=\s)|^)(?:[A-Za-z]:)?[\\/](?:.*[\\/])?", "", source)

@@ -23,7 +23,12 @@ QUANTITIES = (
     ("slip", "Slip", "mm/s", 1e3, False),
     ("roller_load", "Load", "kN", 1e-3, False),
     ("power", "Frictional power", "W", 1.0, True),
+    ("cage_force", "Force of the spars", "N", 1.0, False),
 )
+#: Quantities of either sign.
+_SIGNED = ("slip", "cage_force")
+#: Way of the rollers in their pockets in the drawing over the true one, at most.
+_ENLARGED = 25.0
 #: Colours of a scale from least to most, whose lightness rises evenly.
 _COLOURS = 16
 
@@ -64,13 +69,15 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     time = scene.time.values
     quantities = []
     for name, heading, unit, factor, logarithmic in QUANTITIES:
+        if name not in scene:
+            continue
         values = factor * scene[name].transpose("row", "roller", "time").values.astype(float)
         finite = values[np.isfinite(values)]
         if logarithmic:
             low, high = np.log10(LEAST_POWER), np.log10(max(2.0 * LEAST_POWER, finite.max(initial=0.0)))
             with np.errstate(divide="ignore"):
                 values = np.log10(np.where(values <= 0.0, LEAST_POWER, values))
-        elif name == "slip":
+        elif name in _SIGNED:
             high = max(1e-6, np.abs(finite).max(initial=0.0))
             low = -high
         else:
@@ -104,6 +111,21 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         },
         "colours": [[round(255 * part) for part in colour] for colour in ramp.tolist()],
         "quantities": quantities,
+        "pockets": _pockets(scene, bearing) if "pocket_offset" in scene else None,
+    }
+
+
+def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
+    """Places of the rollers in their pockets, drawn enlarged so that neighbouring pockets do not meet."""
+    offsets = 1e3 * scene.pocket_offset.transpose("row", "roller", "time").values.astype(float)
+    reach = float(np.nanmax(np.abs(offsets), initial=1e-6))
+    free = 1e3 * (2.0 * np.pi * bearing.pitch_radius / bearing.rollers_per_row - bearing.roller_diameter)
+    return {
+        "reach": reach,
+        "enlarged": float(min(_ENLARGED, 0.35 * free / reach)),
+        "codes": base64.b64encode(quantise(offsets, -reach, reach)).decode("ascii"),
+        "lead": base64.b64encode(scene.cage_lead.values.astype("<f4").tobytes()).decode("ascii"),
+        "force": [name for name, *_ in QUANTITIES if name in scene].index("cage_force"),
     }
 
 

@@ -14,9 +14,9 @@ import numpy as np
 
 import macroslip
 from macroslip.bearing.frames import ROWS, initial_angles
-from macroslip.case.case import Radau
+from macroslip.case.parts import Radau
 from macroslip.integrate.detail import MECHANISMS
-from macroslip.integrate.record import COUNTS, TRACES, Record
+from macroslip.integrate.record import COUNTS, TRACES, RollerRecord
 from macroslip.integrate.status import Status
 from macroslip.integrate.surface import STATIONS
 from macroslip.loads.source_file import without_folders
@@ -27,6 +27,7 @@ from macroslip.roller.contacts import references
 if TYPE_CHECKING:
     import xarray as xr
 
+    from macroslip.bearing import Bearing
     from macroslip.case.case import Case
     from macroslip.roller.model import RollerModel
 
@@ -119,7 +120,7 @@ def to_dataset(
     model: RollerModel,
     edges: np.ndarray,
     end: float,
-    results: dict[tuple[str, int], tuple[int, Record]],
+    results: dict[tuple[str, int], tuple[int, RollerRecord]],
     notes: dict[str, Any],
     drag_power: float,
 ) -> xr.Dataset:
@@ -187,14 +188,14 @@ def to_dataset(
     return xr.Dataset(data, coordinates, attributes)
 
 
-def _gathered(records: list[list[Record]], failed: np.ndarray, name: str) -> np.ndarray:
+def _gathered(records: list[list[RollerRecord]], failed: np.ndarray, name: str) -> np.ndarray:
     """One array of every record over (row, roller, ...); NaN for rollers that failed."""
     values = np.array([[getattr(record, name) for record in line] for line in records], dtype=float)
     values[failed] = np.nan
     return values
 
 
-def _window_values(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def _window_values(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Energies, powers and shares of time in the window."""
     ratio = _gathered(records, failed, "spin_ratio")[..., 0]
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -209,7 +210,7 @@ def _window_values(records: list[list[Record]], failed: np.ndarray) -> dict[str,
     }
 
 
-def _of_integrator(records: list[list[Record]]) -> dict[str, np.ndarray]:
+def _of_integrator(records: list[list[RollerRecord]]) -> dict[str, np.ndarray]:
     """What the integrator did, also of rollers that failed."""
     counts = np.array([[record.count for record in line] for line in records])
     ended = np.array([[record.end for record in line] for line in records])
@@ -221,7 +222,7 @@ def _of_integrator(records: list[list[Record]]) -> dict[str, np.ndarray]:
     }
 
 
-def _contact_details(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def _contact_details(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """What only contacts with microslip or asperities know."""
     extreme = _gathered(records, failed, "extreme")
     with np.errstate(invalid="ignore"):
@@ -274,11 +275,16 @@ def _coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, An
         "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
         "start_angle": (_ROLLERS, angles, about),
     }
-    if curved:
-        edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * case.bearing.roller_length
-        middles = 0.5 * (edges_along[1:] + edges_along[:-1])
-        found["mechanism"] = list(MECHANISMS)
-        found["station"] = ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"})
-        found["raceway"] = list(INTERFACES[:2])
-        found |= surface_maps.coordinates(case.bearing)
-    return found
+    return found | contact_coordinates(case.bearing) if curved else found
+
+
+def contact_coordinates(bearing: Bearing) -> dict[str, Any]:
+    """Places and mechanisms that contacts with microslip or asperities tell apart."""
+    edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
+    middles = 0.5 * (edges_along[1:] + edges_along[:-1])
+    return {
+        "mechanism": list(MECHANISMS),
+        "station": ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"}),
+        "raceway": list(INTERFACES[:2]),
+        **surface_maps.coordinates(bearing),
+    }

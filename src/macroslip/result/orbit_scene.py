@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.result.orbit_position import in_window, position, travelled
+from macroslip.result.run_input import run_input
 from macroslip.result.traced_power import traced_power
 
 if TYPE_CHECKING:
@@ -33,7 +34,8 @@ def scene(result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCE
     xarray.Dataset
         Over (row, roller, time), as 32-bit numbers: slip [m/s], roller_load [N] and power [W], summed over the
         interfaces, at the instant; and angle [degrees] of the rollers at the first kept time over (row, roller), and
-        travelled [degrees] since then over (time).
+        travelled [degrees] since then over (time). Where pockets were computed also cage_force [N], pocket_offset [m],
+        and cage_lead [degrees], by which a cage is ahead of pure rolling, over (row, time).
     """
     import xarray as xr
 
@@ -51,7 +53,22 @@ def scene(result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCE
     order = ("row", "roller", "time")
     found = xr.Dataset({name: one.transpose(*order).astype(np.float32) for name, one in values.items()})
     found.power.attrs = {"units": "W", "long_name": "frictional power, all interfaces, at the instant"}
+    if "pocket_offset" in thin:
+        for name in ("cage_force", "pocket_offset"):
+            found[name] = thin[name].transpose(*order).astype(np.float32)
+        found["cage_lead"] = (
+            ("row", "time"),
+            _leads(thin),
+            {"units": "degree", "long_name": "cage ahead of pure rolling"},
+        )
     found["angle"] = angle.isel(time=slice(None, None, every)).isel(time=part).isel(time=0, drop=True)
     moved = turned[::every][part]
     found["travelled"] = ("time", moved - moved[0], {"units": "degree", "long_name": "angle travelled since the start"})
     return found
+
+
+def _leads(result: xr.Dataset) -> np.ndarray:
+    """Angle by which each row's cage is ahead of pure rolling [degrees], shape (row, time)."""
+    pitch = run_input(result).bearing.pitch_radius
+    lead = np.degrees(result.cage_lag.transpose("cage", "time").values / pitch).astype(np.float32)
+    return np.broadcast_to(lead, (result.sizes["row"], lead.shape[1]))

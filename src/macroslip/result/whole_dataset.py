@@ -7,23 +7,23 @@ What is added: `cage` (both, or downwind and upwind), `side` of the pocket (fron
 from __future__ import annotations
 
 import json
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 import macroslip
 from macroslip.bearing.frames import ROWS, initial_angles
-from macroslip.integrate.detail import MECHANISMS
 from macroslip.integrate.status import Status
 from macroslip.loads.source_file import without_folders
-from macroslip.result.dataset import CITATIONS, INTERFACES
+from macroslip.result.dataset import CITATIONS, INTERFACES, VARIABLES, contact_coordinates
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.contacts import references
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS
 from macroslip.whole_bearing.model import whole_bearing
-from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, Record
+from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, BearingRecord
 from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ _CITATION = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068
 
 
 def simulate_whole_bearing(
-    case: Case, models: dict[str, RollerModel], motion: Motion, times: Times, notes: dict[str, Any]
+    case: Case, models: dict[str, RollerModel], motion: Motion, times: Times, notes: dict[str, Any], drag_power: float
 ) -> xr.Dataset:
     """Compute orbit and spin of all rollers, and the cages.
 
@@ -55,6 +55,8 @@ def simulate_whole_bearing(
         With those of traces as outputs, if any were asked for.
     notes : dict
         Attributes of the result on its accuracy, by name.
+    drag_power : float
+        Mean power of the lubricant's drag on all rollers of both rows in the window [W].
 
     Returns
     -------
@@ -77,11 +79,14 @@ def simulate_whole_bearing(
             tolerance=case.integrator.tolerance, max_steps=case.integrator.max_steps, interrupt=interrupt,
         )  # fmt: skip
         try:
+            # On Windows an interrupt is noticed only when a wait ends.
+            while not wait([future], timeout=0.5, return_when=FIRST_COMPLETED).done:
+                pass
             status, record = future.result()
         except BaseException:
             interrupt[0] = 1
             raise
-    return whole_dataset(case, bearing, motion, status, record, notes, curved=curved)
+    return whole_dataset(case, bearing, motion, status, record, notes, curved=curved, drag_power=drag_power)
 
 
 class _Collector:
@@ -107,10 +112,11 @@ def whole_dataset(
     bearing: WholeBearing,
     motion: Motion,
     status: int,
-    record: Record,
+    record: BearingRecord,
     notes: dict[str, Any],
     *,
     curved: bool,
+    drag_power: float,
 ) -> xr.Dataset:
     """Collect a record. Every variable has `units` and `long_name`."""
     import xarray as xr
@@ -121,12 +127,12 @@ def whole_dataset(
     _put_common(out, record, status, shape)
     _put_cage(out, record)
     _put_books(out, record)
+    about = "temperature of the oil at the inlets of the contacts"
+    out.put("inlet_temperature", (), np.array(case.oil.inlet_temperature), "K", about)
     if curved:
-        dims = ("row", "roller", "interface", "mechanism")
-        about = "energy in the window by what makes surfaces slide: slip of the middle, curvature, contact angle"
-        out.put("mechanism_energy", dims, out.by_roller(record.mechanism_energy), "J", about)
+        _put_details(out, record)
     if case.traces is not None:
-        _put_traces(out, record, bearing, motion)
+        _put_traces(out, record, bearing, motion, curved=curved)
     edges = record.edges
     case_end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     cages = ["both"] if bearing.cages == 1 else list(ROWS)
@@ -150,7 +156,7 @@ def whole_dataset(
         "book_time": ("book_time", record.out_time, {"units": "s", "long_name": "time"}),
     }  # fmt: skip
     if curved:
-        coordinates["mechanism"] = list(MECHANISMS)
+        coordinates |= contact_coordinates(case.bearing)
     if case.traces is not None:
         coordinates["time"] = ("time", record.out_time, {"units": "s", "long_name": "time"})
     attributes = {
@@ -161,13 +167,15 @@ def whole_dataset(
         "window_start": float(edges[0]),
         "window_end": case_end,
         **notes,
+        "rollers_per_row": case.bearing.rollers_per_row,
+        "drag_power": drag_power,
         "input": json.dumps(case.as_dict(), ensure_ascii=False),
         "citations": "\n".join([*CITATIONS, *references(case.laws), _CITATION]),
     }
     return xr.Dataset(out.data, coordinates, attributes)
 
 
-def _put_common(out: _Collector, record: Record, status: int, shape: tuple[int, int]) -> None:
+def _put_common(out: _Collector, record: BearingRecord, status: int, shape: tuple[int, int]) -> None:
     """What a result on imposed orbits has too."""
     rollers = ("row", "roller")
     out.put(
@@ -177,6 +185,8 @@ def _put_common(out: _Collector, record: Record, status: int, shape: tuple[int, 
         "J",
         "energy dissipated by friction in the window",
     )
+    about = "energy dissipated by rolling resistance in the window, apart from the energy of friction"
+    out.put("rolling_energy", (*rollers, "interface"), out.by_roller(record.rolling_energy), "J", about)
     dims = (*rollers, "orbit", "interface")
     about = "energy dissipated by friction in each complete orbit"
     out.put("orbit_energy", dims, out.by_roller(record.orbit_energy), "J", about)
@@ -205,7 +215,36 @@ def _put_common(out: _Collector, record: Record, status: int, shape: tuple[int, 
     out.put("end_slip", rollers, slip, "m/s", "mean slip at inner and outer raceway at which the integration ended")
 
 
-def _put_cage(out: _Collector, record: Record) -> None:
+def _put_details(out: _Collector, record: BearingRecord) -> None:
+    """What only contacts with microslip or asperities know, as in a result on imposed orbits."""
+    details = record.details
+    with np.errstate(invalid="ignore", divide="ignore"):
+        extreme = np.where(np.isinf(details.extreme), np.nan, details.extreme)
+        error = np.where(
+            details.quadrature[..., 0] > 0.0, details.quadrature[..., 1] / details.quadrature[..., 0], np.nan
+        )
+    values = {
+        "mechanism_energy": record.mechanism_energy,
+        "asperity_energy": record.asperity_energy,
+        "station_energy": details.station_energy,
+        "flash_temperature": extreme[..., 0],
+        "power_density": extreme[..., 1],
+        "slide_roll_ratio": extreme[..., 2],
+        "min_film_ratio": extreme[..., 3],
+        "quadrature_error": error,
+    }
+    for name, value in values.items():
+        dims, units, about = VARIABLES[name]
+        out.put(name, dims, out.by_roller(value), units, about)
+    for name, value in {
+        "surface_energy": details.surface_energy,
+        "surface_power_density": details.surface_density,
+    }.items():
+        dims, units, about = VARIABLES[name]
+        out.put(name, dims, np.full_like(value, np.nan) if out.failed else value, units, about)
+
+
+def _put_cage(out: _Collector, record: BearingRecord) -> None:
     """Pockets and cages."""
     rollers = ("row", "roller")
     sided = (*rollers, "side")
@@ -231,7 +270,7 @@ def _put_cage(out: _Collector, record: Record) -> None:
     out.put("cage_slip_deviation", ("cage",), deviation, "1", "standard deviation of the cage's slip in the window")
 
 
-def _put_books(out: _Collector, record: Record) -> None:
+def _put_books(out: _Collector, record: BearingRecord) -> None:
     """Books of angular momentum and energy."""
     dims = ("book_time",)
     for k, name in enumerate(STOCKS):
@@ -247,7 +286,7 @@ def _put_books(out: _Collector, record: Record) -> None:
     out.put("pocket_loss", dims, pocket_loss(record), "J", "energy dissipated by impacts and squeeze films")
 
 
-def _put_traces(out: _Collector, record: Record, bearing: WholeBearing, motion: Motion) -> None:
+def _put_traces(out: _Collector, record: BearingRecord, bearing: WholeBearing, motion: Motion, *, curved: bool) -> None:
     """Series of rollers and cages."""
     trace = dict(zip(TRACES, np.moveaxis(record.trace, -1, 0), strict=True))
     dims = ("row", "roller", "time")
@@ -283,11 +322,16 @@ def _put_traces(out: _Collector, record: Record, bearing: WholeBearing, motion: 
     about = "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up"
     out.put("traction", (*dims, "interface"), stack("traction", INTERFACES), "N", about)
     out.put("power", (*dims, "interface"), stack("power", INTERFACES), "W", "frictional power")
+    about = "power of rolling resistance, apart from that of friction"
+    out.put("rolling_power", (*dims, "interface"), stack("rolling", INTERFACES), "W", about)
     about = "central film thickness; NaN without load"
     out.put("film_thickness", (*dims, "interface"), stack("film", INTERFACES), "m", about)
     out.put("pocket_offset", dims, channel("pocket_offset"), "m", "roller's way ahead of the middle of its pocket")
     about = "orbit speed less that of pure rolling"
     out.put("orbit_speed_deviation", dims, channel("orbit_speed_deviation"), "rad/s", about)
+    if curved:
+        dims_, units, about = VARIABLES["skew_moment"]
+        out.put("skew_moment", dims_, _skew_moments(bearing, channel, speed), units, about)
     whole = np.moveaxis(trace["pocket_offset"].reshape(record.out_time.size, len(ROWS), -1), 0, -1)
     ahead = (np.roll(whole, -1, axis=1) - whole)[:, out.numbers]
     out.put("spacing_deviation", dims, ahead, "m", "distance to the next roller ahead along the orbit, less the pitch")
@@ -300,3 +344,20 @@ def _put_traces(out: _Collector, record: Record, bearing: WholeBearing, motion: 
     }
     for k, name in enumerate(CAGE_TRACES):
         out.put(name, ("cage", "time"), record.cage_trace[:, :, k].T, *names[name])
+
+
+def _skew_moments(bearing: WholeBearing, channel: Callable[[str], np.ndarray], speed: np.ndarray) -> np.ndarray:
+    """Skew moments of both raceways [N m] from their power, which is −u2 sin α/R times them; NaN at standstill."""
+    orbit = channel("orbit_speed_deviation") + bearing.bodies[0].orbit_ratio * speed
+    found = []
+    for name, ring, sign in (
+        ("inner", (orbit - speed) * bearing.inner_radius, 1.0),
+        ("outer", -orbit * bearing.outer_radius, -1.0),
+    ):
+        ratio = np.array([getattr(model, name).shape.spin_ratio for model in bearing.models])[:, None, None]
+        # A contact without microslip has no skew moment at all.
+        with np.errstate(invalid="ignore", divide="ignore"):
+            moment = np.where(ratio == 0.0, 0.0, -channel(f"skew_power_{name}") / (ring * ratio))
+        # A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer one.
+        found.append(sign * moment)
+    return np.stack(found, axis=-1)

@@ -7,8 +7,20 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from numba.extending import overload
+
 from macroslip.compiled import jit
-from macroslip.roller.contact_force import cage_force, friction_power, raceway_force
+from macroslip.film.film_law import film_thickness
+from macroslip.roller.contact_force import (
+    LOWEST_ENTRAINMENT_SPEED,
+    CurvedContact,
+    asperity_power,
+    cage_force,
+    friction_power,
+    is_curved,
+    raceway_force,
+)
+from macroslip.traction.traction_law import patch_traction
 
 #: Part of a load or speed by which it is changed for a difference.
 _PART = 1e-4
@@ -31,6 +43,8 @@ class RacewayContact(NamedTuple):
         ∂/∂u2 at constant slip [N s/m].
     power : float
         Frictional power ∫τ v dA [W].
+    asperity_power : float
+        Part of it that asperities dissipate [W].
     """
 
     spin: float
@@ -42,18 +56,20 @@ class RacewayContact(NamedTuple):
     spin_by_speed: float
     pull_by_speed: float
     power: float
+    asperity_power: float
 
 
 class CageContact(NamedTuple):
     """A cage contact, which slides alike all over.
 
-    Force on the roller [N], its derivatives by slip [N s/m] and by load [-], and frictional power [W].
+    Force on the roller [N], its derivatives by slip [N s/m] and by load [-], frictional power and its part by asperities [W].
     """
 
     force: float
     by_slip: float
     by_load: float
     power: float
+    asperity_power: float
 
 
 @jit
@@ -64,6 +80,47 @@ def _forces(contact, load, ring_speed, slip):
 
 
 @jit
+def _plain_contact(contact, load, ring_speed, slip):
+    """A contact that slides alike all over: its laws know all derivatives."""
+    if load <= 0.0:
+        return RacewayContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    mean_speed = ring_speed - 0.5 * slip
+    entrainment, direction = abs(mean_speed), 1.0 if mean_speed >= 0.0 else -1.0
+    if entrainment < LOWEST_ENTRAINMENT_SPEED:
+        entrainment, direction = LOWEST_ENTRAINMENT_SPEED, 0.0
+    film, film_by_speed, film_by_load = film_thickness(contact.film, load, entrainment)
+    force, by_slip, by_film, by_load = patch_traction(contact.traction, load, film, slip)
+    by_speed = by_film * film_by_speed * direction
+    by_slip -= 0.5 * by_speed
+    by_load += by_film * film_by_load
+    return RacewayContact(force, force, by_slip, by_slip, by_load, by_load, by_speed, by_speed, abs(force * slip), 0.0)
+
+
+@jit
+def _curved_contact(contact, load, ring_speed, slip):
+    """A contact over which slip varies: its derivatives by load and ring speed are differences."""
+    if load <= 0.0:
+        return RacewayContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    here = _forces(contact, load, ring_speed, slip)
+    power = friction_power(contact, slip, ring_speed, here.spin, here.detail)
+    change = _PART * load
+    more = _forces(contact, load + change, ring_speed, slip)
+    faster = _PART * abs(ring_speed) + 1e-9
+    ahead = _forces(contact, load, ring_speed + faster, slip)
+    return RacewayContact(
+        here.spin,
+        here.pull,
+        here.spin_slope,
+        here.pull_slope,
+        (more.spin - here.spin) / change,
+        (more.pull - here.pull) / change,
+        (ahead.spin - here.spin) / faster,
+        (ahead.pull - here.pull) / faster,
+        power,
+        here.detail.asperity_power,
+    )
+
+
 def raceway_contact(contact, load, ring_speed, slip):
     """Traction and frictional power of a raceway contact, with derivatives.
 
@@ -84,26 +141,14 @@ def raceway_contact(contact, load, ring_speed, slip):
     RacewayContact
         Odd in (u2, Δu) together; power is even.
     """
-    here = _forces(contact, load, ring_speed, slip)
-    power = friction_power(contact, slip, ring_speed, here.spin, here.detail)
-    if load <= 0.0:
-        return RacewayContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    change = _PART * load
-    more, less = _forces(contact, load + change, ring_speed, slip), _forces(contact, load - change, ring_speed, slip)
-    faster = _PART * abs(ring_speed) + 1e-9
-    ahead = _forces(contact, load, ring_speed + faster, slip)
-    behind = _forces(contact, load, ring_speed - faster, slip)
-    return RacewayContact(
-        here.spin,
-        here.pull,
-        here.spin_slope,
-        here.pull_slope,
-        0.5 * (more.spin - less.spin) / change,
-        0.5 * (more.pull - less.pull) / change,
-        0.5 * (ahead.spin - behind.spin) / faster,
-        0.5 * (ahead.pull - behind.pull) / faster,
-        power,
-    )
+    compiled = _curved_contact if isinstance(contact, CurvedContact) else _plain_contact
+    return compiled(contact, load, ring_speed, slip)
+
+
+@overload(raceway_contact)
+def _raceway_contact(contact, load, ring_speed, slip):
+    compiled = _curved_contact if is_curved(contact) else _plain_contact
+    return lambda contact, load, ring_speed, slip: compiled(contact, load, ring_speed, slip)
 
 
 @jit
@@ -124,5 +169,5 @@ def cage_contact(contact, load, slip):
     CageContact
     """
     slope = 0.5 if slip >= 0.0 else -0.5
-    force, by_slip, by_load, _ = cage_force(contact, load, slip, 0.5 * abs(slip), slope)
-    return CageContact(force, by_slip, by_load, abs(force * slip))
+    force, by_slip, by_load, detail = cage_force(contact, load, slip, 0.5 * abs(slip), slope)
+    return CageContact(force, by_slip, by_load, abs(force * slip), asperity_power(detail))

@@ -53,10 +53,11 @@ class Ended:
 class Session:
     """A study under way."""
 
+    _log: Log
+
     def __init__(self, study: Study, directory: Path, progress: Callable[[Progress], None] | None):
         self.study, self.directory, self._report = study, directory, progress
         self.ended = Ended(Progress(len(study)))
-        self._log: Log | None = None
         self._id = uuid.uuid4().hex
 
     @contextmanager

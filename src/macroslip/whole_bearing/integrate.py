@@ -8,6 +8,8 @@ import numpy as np
 
 from macroslip.compiled import jit
 from macroslip.integrate.status import COMPLETED, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
+from macroslip.ring.orbit import instant
+from macroslip.whole_bearing.detail import book_details, collect
 from macroslip.whole_bearing.ledger import book_flows
 from macroslip.whole_bearing.record import book_stage, book_state, stage_powers, write_output
 from macroslip.whole_bearing.refresh import refresh
@@ -31,9 +33,8 @@ def _begin(bearing, motion, space):
     shaft_speed = locate(bearing, motion, 0, time, moment.values.rollers, moment.values.cages, moment.stations)
     tractions.marked[:] = True
     space.work[0] += evaluate_marked(
-        bearing.models, bearing.rollers.row, moment.stations, time, moment.values.rollers, tractions.marked,
-        tractions.known,
-    )  # fmt: skip
+        bearing, moment.stations, time, moment.values.rollers, tractions.marked, tractions.known
+    )
     stage_powers(bearing, moment, tractions.known)
     return Clock(time, 0, shaft_speed)
 
@@ -87,7 +88,7 @@ def _orbit_of(edges, time, likely):
 
 
 @jit
-def _book(bearing, middle_speed, start, end, orbit, space, record):
+def _book(bearing, motion, middle_speed, start, end, orbit, space, record):
     """Book a step. Returns its orbit."""
     h = end.time - start.time
     if start.time >= record.edges[0]:
@@ -95,6 +96,9 @@ def _book(bearing, middle_speed, start, end, orbit, space, record):
         book_stage(space.first, h * (1.0 - GAMMA), orbit, record)
         book_stage(space.last, h * GAMMA, orbit, record)
         book_state(bearing, end.shaft_speed, space.last, h, record)
+        collect(bearing, space.first, space.last, h, GAMMA, record.details)
+        angle = instant(motion, end.interval, end.time).shaft_angle
+        book_details(bearing, space.last, space.tractions.due, angle, end.time, orbit, record.details)
     book_flows(bearing, middle_speed, space.first, h * (1.0 - GAMMA), record.book)
     book_flows(bearing, end.shaft_speed, space.last, h * GAMMA, record.book)
     return orbit
@@ -127,7 +131,7 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
     limits : Limits
     space : Space
         With the initial state in `state`.
-    record : Record
+    record : BearingRecord
         Filled.
 
     Returns
@@ -181,9 +185,13 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
         record.worst[0] = max(record.worst[0], worst)
         spent += _raceway_energy(space, h)
         middle = clock_at(motion, clock.time + GAMMA * h, clock.interval)
-        orbit = _book(bearing, middle.shaft_speed, clock, end, orbit, space, record)
+        orbit = _book(bearing, motion, middle.shaft_speed, clock, end, orbit, space, record)
         _advance(space)
         clock, step, failed = end, h * min(1.0 if failed else _GROWTH, factor), False
+    # What has not been spread yet is, as power lies at the end.
+    space.tractions.due[:] = True
+    angle = instant(motion, clock.interval, clock.time).shaft_angle
+    book_details(bearing, space.last, space.tractions.due, angle, clock.time, orbit, record.details)
     count[_EVALUATIONS], count[_ITERATIONS], count[_REFRESHED] = space.work[0], space.work[1], space.work[2]
     record.end[0] = clock.time
     record.end_slip[:] = 0.5 * (space.state.rollers[:, 0] + space.state.rollers[:, 1])

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 #: Part of the tolerance that a step's error of speed may take, against the raceway speed.
 _SPEED_SHARE = 0.5
+#: Longest time between evaluations of a roller's tractions [s].
+_LONGEST_REST = 0.05
+#: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 3e-4 of itself at most.
+_CAGE_REACH = 0.05
 
 
 class Limits(NamedTuple):
@@ -28,6 +33,11 @@ class Limits(NamedTuple):
     max_steps : int
     rests : bool
         Whether tractions may follow from slopes between evaluations.
+    longest_rest : float
+        Longest time for which they may [s].
+    cage_reach : float
+        Relative change of load or slip within which the slopes of a cage's contact serve; what they leave out goes with
+        its square.
     interrupt : ndarray of int8, shape (1,)
         Anything but zero ends the integration.
     """
@@ -39,6 +49,8 @@ class Limits(NamedTuple):
     longest_step: float
     max_steps: int
     rests: bool
+    longest_rest: float
+    cage_reach: float
     interrupt: np.ndarray
 
 
@@ -52,5 +64,7 @@ def limits_of(tolerance: float, speed_scale: float, longest_step: float) -> Limi
         longest_step=longest_step,
         max_steps=100_000_000,
         rests=True,
+        longest_rest=_LONGEST_REST,
+        cage_reach=min(_CAGE_REACH, _CAGE_REACH * math.sqrt(tolerance / 2e-4)),
         interrupt=np.zeros(1, dtype=np.int8),
     )

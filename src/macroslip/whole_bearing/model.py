@@ -11,6 +11,7 @@ from macroslip.bearing import geometry
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.constants import GRAVITY
 from macroslip.mechanisms import Laws
+from macroslip.roller.films import Films, NoFilms
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.whole_bearing.cage import Cage, inner_radii
 from macroslip.whole_bearing.pocket import Pocket, prepare_pocket
@@ -48,7 +49,9 @@ class WholeBearing(NamedTuple):
     models : tuple of two RollerModel
         Of the downwind and of the upwind row.
     bodies : tuple of two RollerModel
-        The same without contacts: kernels pick a row's numbers out of these without copying its contacts.
+        The same without contacts and films: kernels pick a row's numbers out of these without copying its contacts.
+    films : Films or NoFilms
+        The oil around a roller, the same in both rows; in the pockets as wide as their play leaves it.
     rollers : Rollers
     pocket : Pocket
     roller_mass, radius, pitch_radius, inner_radius, outer_radius : float
@@ -71,6 +74,7 @@ class WholeBearing(NamedTuple):
 
     models: Any
     bodies: Any
+    films: Any
     rollers: Rollers
     pocket: Pocket
     roller_mass: float
@@ -85,6 +89,13 @@ class WholeBearing(NamedTuple):
     translates: bool
     radial_play: float
     guide_friction: float
+
+
+def _pocket_films(films: Films | NoFilms, pocket: Pocket) -> Films | NoFilms:
+    """The films with the true width of the pockets; without play roughness keeps surfaces apart."""
+    if isinstance(films, NoFilms):
+        return films
+    return films._replace(pocket_gap=max(pocket.half_gap, pocket.least_film))
 
 
 def whole_bearing(
@@ -115,9 +126,11 @@ def whole_bearing(
     cages = 2 if cage.arrangement == "per-row" else 1
     radius = geometry.roller_radius(bearing)
     weighs = gravity and cage.weight
+    pocket = prepare_pocket(cage, bearing, lubricant, interfaces(bearing, lubricant)[2].hertz.stiffness)
     return WholeBearing(
         models=models,
-        bodies=tuple(model._replace(inner=0.0, outer=0.0, cage=0.0) for model in models),
+        bodies=tuple(model._replace(films=0.0, inner=0.0, outer=0.0, cage=0.0) for model in models),
+        films=_pocket_films(models[0].films, pocket),
         rollers=Rollers(
             row=row,
             cage=row if cages == 2 else np.zeros_like(row),
@@ -125,7 +138,7 @@ def whole_bearing(
             sine=np.sin(angles),
             inner_radius=inner_radii(bearing, cage.diameter_deviations(count).ravel()),
         ),
-        pocket=prepare_pocket(cage, bearing, lubricant, interfaces(bearing, lubricant)[2].hertz.stiffness),
+        pocket=pocket,
         roller_mass=2.0 / models[0].mobility,
         radius=radius,
         pitch_radius=bearing.pitch_radius,

@@ -8,21 +8,33 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.film.film_law import film_in_range, film_thickness
+from macroslip.whole_bearing.detail import Details, new_details
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS, stocks
 from macroslip.whole_bearing.space import PUSH
-from macroslip.whole_bearing.traction import INNER, LOAD, OUTER, POWER, PULL, SLIP, SPEED, SPIN
+from macroslip.whole_bearing.traction import (
+    CAGE_LOAD,
+    CAGE_ROUGH,
+    INNER,
+    LOAD,
+    OUTER,
+    ROUGH,
+    SKEW,
+    cage_shear_from,
+    shear_from,
+)
 
 #: Traces of a roller by position.
 TRACES = (
     "spin", "slip_inner", "slip_outer", "roller_load", "traction_inner", "traction_outer", "traction_cage", "cage_force",
     "power_inner", "power_outer", "power_cage", "pocket_offset", "orbit_speed_deviation", "film_inner", "film_outer",
-    "film_cage",
+    "film_cage", "rolling_inner", "rolling_outer", "rolling_cage",
+    "skew_power_inner", "skew_power_outer",
 )  # fmt: skip
 #: Traces of a cage by position.
 CAGE_TRACES = ("cage_speed", "cage_lag", "cage_x", "cage_y", "cage_torque")
 
 
-class Record(NamedTuple):
+class BearingRecord(NamedTuple):
     """Results, written in place. Interfaces: inner, outer, cage. Pocket sides: front, rear.
 
     Attributes
@@ -31,6 +43,10 @@ class Record(NamedTuple):
         Times [s] at which nominal orbits of the window begin and end; the window opens at the first.
     energy : ndarray, shape (n, 3)
         Frictional energy in the window [J].
+    rolling_energy : ndarray, shape (n, 3)
+        Energy of rolling resistance in the window [J], apart from `energy`.
+    asperity_energy : ndarray, shape (n, 3)
+        Part of `energy` that asperities dissipate [J].
     mechanism_energy : ndarray, shape (n, 3, 3)
         The same by interface and by slip of the middle, curvature and contact angle [J].
     orbit_energy, peak_power : ndarray, shape (n, orbits, 3)
@@ -56,7 +72,7 @@ class Record(NamedTuple):
         Mean slip of both raceways there [m/s].
     out_time : ndarray, shape (m,)
         Output times [s].
-    trace : ndarray, shape (m, n, 16)
+    trace : ndarray, shape (m, n, 21)
         See `TRACES`; empty first axis where none were asked for.
     cage_trace : ndarray, shape (m, c, 5)
         See `CAGE_TRACES`.
@@ -64,10 +80,14 @@ class Record(NamedTuple):
         Books, see `macroslip.whole_bearing.ledger`.
     book : ndarray, shape (13,)
         Books as they are now.
+    details : Details
+        What curved contacts leave behind beside.
     """
 
     edges: np.ndarray
     energy: np.ndarray
+    rolling_energy: np.ndarray
+    asperity_energy: np.ndarray
     mechanism_energy: np.ndarray
     orbit_energy: np.ndarray
     peak_power: np.ndarray
@@ -89,14 +109,17 @@ class Record(NamedTuple):
     flows: np.ndarray
     held: np.ndarray
     book: np.ndarray
+    details: Details
 
 
-def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) -> Record:
+def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) -> BearingRecord:
     """An empty record."""
     orbits, outputs = edges.size - 1, out_time.size
-    return Record(
+    return BearingRecord(
         edges=edges,
         energy=np.zeros((count, 3)),
+        rolling_energy=np.zeros((count, 3)),
+        asperity_energy=np.zeros((count, 3)),
         mechanism_energy=np.zeros((count, 3, 3)),
         orbit_energy=np.zeros((count, orbits, 3)),
         peak_power=np.zeros((count, orbits, 3)),
@@ -118,48 +141,59 @@ def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) 
         flows=np.full((outputs, len(FLOWS)), np.nan),
         held=np.full((outputs, len(STOCKS)), np.nan),
         book=np.zeros(len(FLOWS)),
+        details=new_details(count, orbits),
     )
 
 
 @jit_inline
-def sheet_skew(sheet, at, ratio):
-    """Power [W] of a contact's skew moment at its evaluation: what is left of its power beside spin and lag."""
-    lag = sheet[at + PULL] - sheet[at + SPIN]
-    return sheet[at + POWER] - sheet[at + SPIN] * sheet[at + SLIP] - sheet[at + SPEED] * ratio * lag
-
-
-@jit_inline
 def raceway_power(sheet, at, ratio, spin, pull, load, speed, slip):
-    """Frictional power [W] of a raceway contact by mechanism, with the forces of a stage; the skew moment's part by its load."""
+    """Powers [W] of a raceway contact with the forces of a stage.
+
+    Friction by mechanism, rolling resistance, and the part of friction by asperities; that and the skew moment's part
+    follow the load.
+    """
     known = sheet[at + LOAD]
     if load <= 0.0 or known <= 0.0:
-        return 0.0, 0.0, 0.0
-    skew = sheet_skew(sheet, at, ratio) * (1.0 + 1.5 * (load - known) / known)
-    return spin * slip, speed * ratio * (pull - spin), skew
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    grown = (load - known) / known
+    skew = sheet[at + SKEW] * (1.0 + 1.5 * grown)
+    shear = shear_from(sheet, at, load, speed, slip)
+    lag = pull - spin + 2.0 / ratio * shear
+    return (
+        (spin - shear) * slip,
+        speed * ratio * lag,
+        skew,
+        -shear * (2.0 * speed - slip),
+        sheet[at + ROUGH] * (1.0 + grown),
+    )
 
 
 @jit
 def stage_powers(bearing, moment, sheets):
     """Fill the moment's powers [W] of every interface.
 
-    First all of it, then its parts by what makes surfaces slide: slip of the middle, curvature, contact angle.
+    First all friction, then its parts by what makes surfaces slide: slip of the middle, curvature, contact angle; then
+    rolling resistance, which is apart from friction, and the part of friction by asperities.
     """
     stations, state, powers = moment.stations, moment.values.rollers, moment.powers
-    pitch = bearing.pitch_radius
+    inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
     for j in range(powers.shape[0]):
         sheet, f = sheets[j], moment.force[j]
         inner = raceway_power(
-            sheet, INNER, pitch / bearing.rollers.inner_radius[j],
+            sheet, INNER, inner_ratio,
             f[0], f[2], stations.inner_load[j], stations.inner_speed[j], state[j, 0],
         )  # fmt: skip
         outer = raceway_power(
-            sheet, OUTER, pitch / bearing.outer_radius,
+            sheet, OUTER, outer_ratio,
             f[1], f[3], stations.outer_load[j], stations.outer_speed[j], state[j, 1],
         )  # fmt: skip
-        for k in range(3):
+        for k in range(5):
             powers[j, 0, k + 1], powers[j, 1, k + 1] = inner[k], outer[k]
         powers[j, 0, 0], powers[j, 1, 0] = inner[0] + inner[1] + inner[2], outer[0] + outer[1] + outer[2]
-        powers[j, 2, 0] = powers[j, 2, 1] = f[4] * f[6]
+        shear = cage_shear_from(sheet, f[5], f[6])
+        powers[j, 2, 0] = powers[j, 2, 1] = (f[4] - shear) * f[6]
+        powers[j, 2, 4] = shear * f[6]
+        powers[j, 2, 5] = sheet[CAGE_ROUGH] * abs(f[5]) / sheet[CAGE_LOAD] if sheet[CAGE_LOAD] > 0.0 else 0.0
 
 
 @jit
@@ -170,6 +204,8 @@ def book_stage(moment, span, orbit, record):
         for i in range(3):
             power = powers[j, i, 0]
             record.energy[j, i] += span * power
+            record.rolling_energy[j, i] += span * powers[j, i, 4]
+            record.asperity_energy[j, i] += span * powers[j, i, 5]
             for k in range(3):
                 record.mechanism_energy[j, i, k] += span * powers[j, i, k + 1]
             if orbit >= 0:
@@ -252,4 +288,6 @@ def write_output(bearing, index, shaft_speed, moment, record):
         line[13] = _film(model.inner, stations.inner_load[j], abs(stations.inner_speed[j] - 0.5 * state[j, 0]))
         line[14] = _film(model.outer, stations.outer_load[j], abs(stations.outer_speed[j] - 0.5 * state[j, 1]))
         line[15] = _film(model.cage, abs(f[5]), 0.5 * abs(f[6]))
+        line[19], line[20] = powers[j, 0, 3], powers[j, 1, 3]
+        line[16], line[17], line[18] = powers[j, 0, 4], powers[j, 1, 4], powers[j, 2, 4]
         record.cage_trace[index, rollers.cage[j], 4] -= pitch * (f[5] + bearing.lever * f[4])

@@ -25,8 +25,8 @@ from macroslip.whole_bearing.traction import (
 
 #: Allowed relative error of power where slopes foretell it, in tolerances.
 _POWER_SHARE = 25.0
-#: Longest time between evaluations [s], and factors by which it changes.
-_LONGEST_REST, _REST_GROWTH, _REST_PART = 0.05, 2.0, 0.3
+#: Factors by which the time between evaluations changes.
+_REST_GROWTH, _REST_PART = 2.0, 0.3
 #: How many times its allowance a foretold force may be off before the step is repeated.
 _FAR_OFF = 6.0
 
@@ -85,9 +85,7 @@ def refresh(bearing, limits, time, space, power_scale):
         resting = not tractions.fresh[j]
         tractions.due[j] = not (resting and time - tractions.known[j, WHEN] < rest[j])
         tractions.marked[j] = tractions.due[j] and (resting or sheets[j, WHEN] != time)
-    done = evaluate_marked(
-        bearing.models, bearing.rollers.row, moment.stations, time, moment.values.rollers, tractions.marked, sheets
-    )
+    done = evaluate_marked(bearing, moment.stations, time, moment.values.rollers, tractions.marked, sheets)
     space.work[0] += done
     space.work[2] += done // 2
     good = True
@@ -104,5 +102,5 @@ def refresh(bearing, limits, time, space, power_scale):
         if good and tractions.due[j]:
             factor = 0.8 / math.sqrt(max(tractions.ratio[j], 1e-4))
             span = time - tractions.known[j, WHEN]
-            rest[j] = min(_LONGEST_REST, span * max(_REST_PART, min(factor, _REST_GROWTH)))
+            rest[j] = min(limits.longest_rest, span * max(_REST_PART, min(factor, _REST_GROWTH)))
     return good

@@ -38,7 +38,7 @@ class Moment(NamedTuple):
     stations : Stations
     force : ndarray, shape (n, 8)
         See the columns above.
-    powers : ndarray, shape (n, 3, 4)
+    powers : ndarray, shape (n, 3, 6)
         Of every interface [W], see `macroslip.whole_bearing.record.stage_powers`.
     """
 
@@ -53,7 +53,7 @@ class Tractions(NamedTuple):
 
     Attributes
     ----------
-    sheets, known : ndarray, shape (n, 30)
+    sheets, known : ndarray, shape (n, 44)
         Those of the step under way, and those kept from before it, see `macroslip.whole_bearing.traction`.
     rest : ndarray, shape (n,)
         Time [s] for which those kept serve.
@@ -112,7 +112,7 @@ def new_space(count: int, cages: int) -> Space:
         return Unknowns(np.zeros((count, 3)), np.zeros((cages, 6)))
 
     def moment() -> Moment:
-        return Moment(unknowns(), new_stations(count), np.zeros((count, 8)), np.zeros((count, 3, 4)))
+        return Moment(unknowns(), new_stations(count), np.zeros((count, 8)), np.zeros((count, 3, 6)))
 
     flags = [np.zeros(count, dtype=np.bool_) for _ in range(4)]
     return Space(

@@ -58,12 +58,15 @@ class Stage(NamedTuple):
         [rad/s].
     tolerance : float
         Largest force that may be left unbalanced [N].
+    cage_reach : float
+        Relative change of load or slip within which the slopes of a cage's contact serve.
     """
 
     step: float
     time: float
     shaft_speed: float
     tolerance: float
+    cage_reach: float
 
 
 class _Meeting(NamedTuple):
@@ -145,9 +148,7 @@ def _raceway_forces(bearing, stage, moment, tractions):
         if not tractions.fresh[j] and out_of_reach(sheets[j], stations, j):
             tractions.fresh[j] = True
         tractions.marked[j] = tractions.fresh[j] and not tractions.settled[j]
-    evaluations = evaluate_marked(
-        bearing.models, bearing.rollers.row, stations, stage.time, moment.values.rollers, tractions.marked, sheets
-    )
+    evaluations = evaluate_marked(bearing, stations, stage.time, moment.values.rollers, tractions.marked, sheets)
     for j in range(force.shape[0]):
         if tractions.marked[j]:
             sheet, f = sheets[j], force[j]
@@ -176,7 +177,9 @@ def _meet(bearing, stage, moment, star, sheet, j):
     push, by_offset, by_speed = pocket_force(bearing.pocket, offset, speed)
     # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
     sliding = 0.5 * (v_in + v_out + shaft_speed * inner_radius) + bearing.lever * bearing.pitch_radius * cage_turn
-    friction, by_sliding, by_push = cage_from(bearing.models[0].cage, sheet, push, sliding)
+    friction, by_sliding, by_push = cage_from(
+        bearing.models[0].cage, bearing.films, sheet, push, sliding, stage.cage_reach
+    )
     f = moment.force[j]
     f[FRICTION], f[PUSH], f[CAGE_SLIDING], f[POCKET_SPEED] = friction, push, sliding, speed
     give = by_speed + stage.step * by_offset
@@ -243,7 +246,7 @@ def _assemble(bearing, stage, moment, star, tractions, arrow):
         values.cages[c, 5] = star.cages[c, 5] + stage.step * values.cages[c, 3]
     _begin_cages(bearing, stage, values.cages, star.cages, arrow)
     evaluations = _raceway_forces(bearing, stage, moment, tractions)
-    inertia, worst = bearing.roller_mass / stage.step, 0.0
+    inertia, worst, finite = bearing.roller_mass / stage.step, 0.0, True
     for j in range(bearing.rollers.row.size):
         sheet, f = tractions.sheets[j], moment.force[j]
         met = _meet(bearing, stage, moment, star, sheet, j)
@@ -253,12 +256,15 @@ def _assemble(bearing, stage, moment, star, tractions, arrow):
         rest_out = inertia * (values.rollers[j, 1] - star.rollers[j, 1]) + turning + driving
         arrow.rest[j, 0], arrow.rest[j, 1] = rest_in, rest_out
         worst = max(worst, abs(rest_in), abs(rest_out))
+        # A maximum may pass over what is not a number.
+        finite = finite and abs(rest_in) + abs(rest_out) < math.inf
         _write_block(inertia, stations, sheet, met, j, arrow.inverse[j])
         _add_to_border(bearing, stage, stations, met, j, arrow)
     for c in range(bearing.cages):
         for i in range(3 if bearing.translates else 1):
             worst = max(worst, abs(arrow.border_rest[c, i]))
-    return worst, evaluations
+            finite = finite and abs(arrow.border_rest[c, i]) < math.inf
+    return worst if finite else math.inf, evaluations
 
 
 @jit

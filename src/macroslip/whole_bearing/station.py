@@ -9,6 +9,7 @@ import numpy as np
 
 from macroslip.compiled import jit
 from macroslip.ring.orbit import instant
+from macroslip.roller.films import film_load
 from macroslip.roller.forces import interference
 
 
@@ -94,8 +95,9 @@ def locate(bearing, motion, interval, time, state, cages, stations):
             outward = (model.centrifugal * orbit * orbit - model.weight_in_plane * y) * model.cos_contact_angle
             outward += model.weight_along_axis * model.sin_contact_angle
             stations.elastic_load[j] = load
-            stations.inner_load[j] = load - min(outward, 0.0)
-            stations.outer_load[j] = load + max(outward, 0.0)
+            pressed = load + film_load(bearing.films, load, approach, outward, -orbit * bearing.outer_radius)
+            stations.inner_load[j] = pressed - min(outward, 0.0)
+            stations.outer_load[j] = pressed + max(outward, 0.0)
             stations.tangential[j] = model.weight_in_plane * x + model.drag * orbit * abs(orbit)
             stations.inner_speed[j] = orbit * rollers.inner_radius[j] - ring
             stations.outer_speed[j] = -orbit * bearing.outer_radius

@@ -119,14 +119,14 @@ def take_step(bearing, motion, limits, start, end, space):
     middle = clock_at(motion, start.time + step, start.interval)
     _set_star(bearing, 0.0, middle.shaft_speed - start.shaft_speed, space)
     _guess(step, space.star, space.slope, space.first.values)
-    stage = Stage(step, middle.time, middle.shaft_speed, tolerance)
+    stage = Stage(step, middle.time, middle.shaft_speed, tolerance, limits.cage_reach)
     before = _solve_at(bearing, motion, stage, middle, space.first, space)
     if not before <= tolerance:
         return before, False
     _keep_rate(step, space.star, space.first, space.first_rate)
     _set_star(bearing, (1.0 - GAMMA) * h, end.shaft_speed - start.shaft_speed, space)
     _guess(step, space.star, space.first_rate, space.last.values)
-    stage = Stage(step, end.time, end.shaft_speed, tolerance)
+    stage = Stage(step, end.time, end.shaft_speed, tolerance, limits.cage_reach)
     worst = _solve_at(bearing, motion, stage, end, space.last, space)
     if not worst <= tolerance:
         return worst, False

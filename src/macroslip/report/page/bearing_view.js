@@ -26,6 +26,10 @@
   function decode(data) {
     const scene = { ...data, travelled: new Float32Array(bytes(data.travelled)) };
     scene.quantities = data.quantities.map((one) => ({ ...one, codes: new Uint16Array(bytes(one.codes)) }));
+    if (data.pockets) {
+      const { codes, lead } = data.pockets;
+      scene.pockets = { ...data.pockets, codes: new Uint16Array(bytes(codes)), lead: new Float32Array(bytes(lead)) };
+    }
     return scene;
   }
 
@@ -54,7 +58,7 @@
     scene.quantities.forEach((one, k) => element("option", { value: k, text: one.heading }, colour));
     label("Rollers coloured by", colour);
     const speed = element("select", { class: "speed" });
-    [["0.1", "a tenth"], ["0.25", "a quarter"], ["1", "real time"], ["4", "four times"]].forEach(([value, text]) => {
+    [["0.01", "a hundredth"], ["0.1", "a tenth"], ["0.25", "a quarter"], ["1", "real time"], ["4", "four times"]].forEach(([value, text]) => {
       element("option", { value, text }, speed);
     });
     speed.value = "0.25";
@@ -98,6 +102,23 @@
       return (((scene.angle[row][roller] + turned) % 360) + 360) % 360;
     };
 
+    /** Between samples, so that slow motion moves evenly. */
+    function between(read) {
+      const k = Math.min(Math.floor(at), scene.count - 1), next = Math.min(k + 1, scene.count - 1);
+      const first = read(k);
+      return first + (read(next) - first) * (at - k);
+    }
+
+    /** Way of a roller ahead of the middle of its pocket as drawn, and angle of its cage ahead of pure rolling [degrees]. */
+    function pocketed(row, roller) {
+      const { reach, enlarged, codes, lead } = scene.pockets;
+      const offset = between((k) => {
+        const code = codes[index(row, roller, k)];
+        return code === MISSING ? 0 : reach * (2 * code / TOP - 1);
+      });
+      return { way: enlarged * offset, lead: between((k) => lead[row * scene.count + k]) };
+    }
+
     const name = (row, roller) => `${scene.rows[row]} roller ${scene.rollers[roller]}`;
 
     function told(row, roller, k) {
@@ -136,6 +157,20 @@
           .forEach(([text, x, y]) => drawn("text", { x, y, text, "text-anchor": "middle", style: `font-size:${0.055 * reach}px` }, svg));
         const note = drawn("text", { x: 0, y: 0, "text-anchor": "middle", style: `font-size:${0.055 * reach}px` }, svg);
         const loads = scene.rollers.map(() => drawn("line", { class: "load" }, svg));
+        const pockets = !scene.pockets ? [] : scene.rollers.map(() => {
+          const group = drawn("g", { class: "pocket" }, svg);
+          const gap = roller + scene.pockets.enlarged * scene.pockets.reach;
+          const spars = [-1, 1].map((side) => drawn("line", {
+            class: "spar", x1: side * gap, x2: side * gap, y1: -0.75 * roller, y2: 0.75 * roller,
+            stroke: "currentColor", "stroke-width": 0.06 * roller,
+          }, group));
+          const flashes = [-1, 1].map((side) => drawn("circle", { class: "flash", cx: side * gap, r: 0, fill: "#d1495b" }, group));
+          return { group, spars, flashes };
+        });
+        if (scene.pockets) drawn("circle", {
+          class: "cage", r: pitch, fill: "none", stroke: "currentColor", "stroke-width": 0.04 * roller,
+          "stroke-dasharray": `${0.2 * roller} ${0.2 * roller}`,
+        }, svg);
         const rollers = scene.rollers.map((number, k) => drawn("circle", {
           class: "roller", r: roller, "data-row": title, "data-roller": number, "data-index": k,
         }, svg));
@@ -168,7 +203,7 @@
           const count = scene.rollers.length;
           choose(row, chosen.row === row ? (chosen.roller + move + count) % count : 0);
         });
-        return { svg, rollers, loads, note, row };
+        return { svg, rollers, loads, note, row, pockets };
       });
       charts.replaceChildren();
       plots = scene.quantities.map((q) => {
@@ -252,10 +287,24 @@
     function update() {
       const k = Math.round(at), q = scene.quantities[quantity], load = scene.quantities[1];
       const { roller, pitch, outer } = scene.radii;
-      views.forEach(({ row, rollers, loads, note }) => {
+      const force = scene.pockets ? scene.quantities[scene.pockets.force] : null;
+      views.forEach(({ row, rollers, loads, note, pockets }) => {
         let total = 0;
         rollers.forEach((circle, n) => {
-          const angle = degrees(row, n, at) * Math.PI / 180, sine = Math.sin(angle), cosine = Math.cos(angle);
+          let angle = degrees(row, n, at) * Math.PI / 180;
+          if (scene.pockets) {
+            const { way, lead } = pocketed(row, n);
+            angle += lead * Math.PI / 180;
+            const { group, flashes } = pockets[n], push = value(force, row, n, k) || 0;
+            const x = -pitch * Math.sin(angle), y = pitch * Math.cos(angle);
+            group.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${(angle * 180 / Math.PI + 180).toFixed(3)})`);
+            // A push along the orbit comes from the spar behind; a flash grows with the decades of the force.
+            const size = Math.abs(push) > 1 ? 0.12 * roller * (1 + Math.log10(Math.abs(push))) : 0;
+            flashes[0].setAttribute("r", push > 0 ? size : 0);
+            flashes[1].setAttribute("r", push < 0 ? size : 0);
+            angle += way / pitch;
+          }
+          const sine = Math.sin(angle), cosine = Math.cos(angle);
           circle.setAttribute("transform", `translate(${(-pitch * sine).toFixed(2)} ${(pitch * cosine).toFixed(2)})`);
           circle.setAttribute("fill", tint(part(q, row, n, k)));
           circle.classList.toggle("chosen", chosen.row === row && chosen.roller === n);
@@ -307,5 +356,4 @@
   }
 
   document.querySelectorAll("[data-view]").forEach(start);
-  document.documentElement.dataset.ready = performance.now().toFixed(0);
 })();

@@ -1,0 +1,52 @@
+"""Derivatives of the oil's forces, which Newton's method and the sheets of tractions rest on."""
+
+import pytest
+
+from macroslip.mechanisms import Laws
+from macroslip.roller.films import NoFilms
+from macroslip.roller.model import roller_model
+from macroslip.whole_bearing.oil import cage_oil, has_oil, raceway_oil
+
+SPEED, SLIP = -0.37, 2e-3
+
+
+@pytest.fixture(scope="module")
+def films(bearing, lubricant):
+    return roller_model(bearing, lubricant, 1, tilt=0.0, laws=Laws.paper().but(rolling="whole-film")).films
+
+
+@pytest.mark.parametrize("outer", [False, True])
+@pytest.mark.parametrize("load", [2.0, 300.0, 3e4])
+@pytest.mark.parametrize("direction", [-1.0, 1.0])
+def test_raceway(films, outer, load, direction):
+    speed, slip = direction * SPEED, direction * SLIP
+    found = raceway_oil(films, outer, load, speed, slip)
+    for name, places in {
+        "slip": ((load, speed, slip + 1e-6), (load, speed, slip - 1e-6)),
+        "load": ((load * 1.00001, speed, slip), (load * 0.99999, speed, slip)),
+        "speed": ((load, speed + 1e-6, slip), (load, speed - 1e-6, slip)),
+    }.items():
+        more, less = (raceway_oil(films, outer, *place) for place in places)
+        width = 2e-5 * load if name == "load" else 2e-6
+        for force in ("sliding", "shear"):
+            slope = (getattr(more, force) - getattr(less, force)) / width
+            assert getattr(found, f"{force}_by_{name}") == pytest.approx(slope, rel=1e-4, abs=1e-9)
+    assert found.shear * speed < 0.0
+
+
+@pytest.mark.parametrize("load", [0.5, 30.0])
+def test_cage(films, load):
+    slip = 0.35
+    found = cage_oil(films, load, slip)
+    more, less = cage_oil(films, load, slip + 1e-5), cage_oil(films, load, slip - 1e-5)
+    assert found.sliding_by_slip == pytest.approx((more.sliding - less.sliding) / 2e-5, rel=1e-4)
+    assert found.shear_by_slip == pytest.approx((more.shear - less.shear) / 2e-5, rel=1e-4)
+    more, less = cage_oil(films, load * 1.0001, slip), cage_oil(films, load * 0.9999, slip)
+    assert found.sliding_by_load == pytest.approx((more.sliding - less.sliding) / (2e-4 * load), rel=1e-4)
+    assert found.shear_by_load == pytest.approx((more.shear - less.shear) / (2e-4 * load), rel=1e-4)
+
+
+def test_without_oil_there_is_nothing():
+    assert not has_oil(NoFilms())
+    assert not any(raceway_oil(NoFilms(), False, 1e3, SPEED, SLIP))
+    assert not any(cage_oil(NoFilms(), 1e3, SLIP))
