@@ -187,6 +187,33 @@ def check_no_zero_byte(name: str) -> None:
 
 
 @contextmanager
+def reading(path: Path, remedy: str) -> Iterator[None]:
+    """Say of a file or folder that its reader cannot make sense of it, whatever the libraries below stumble over.
+
+    Parameters
+    ----------
+    path : Path
+        What is read.
+    remedy : str
+        What to do about a damaged one.
+
+    Raises
+    ------
+    InputError
+        In place of anything but an error of the system or of memory, which have their own words.
+    """
+    try:
+        yield
+    except (InputError, MemoryError):
+        raise
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno is not None:  # libraries use the class for damage too
+            raise
+        what = f"it is damaged ({type(error).__name__}: {' '.join(str(error).split())})"
+        raise InputError(what, where=str(path), remedy=remedy) from error
+
+
+@contextmanager
 def published_together(directory: Path, last: str) -> Iterator[Path]:
     """A folder beside `directory` to write into; what it holds moves into `directory` when the block ends well.
 

@@ -4,8 +4,12 @@ import re
 import resource
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
+import typer
 from typer.testing import CliRunner
+
+from macroslip.cli.failure import command
 
 SECONDS, MEGABYTES, CHARACTERS = 10.0, 400, 20_000
 """What one command may take on a small file: processor time, memory beyond what it had, length of its message."""
@@ -28,7 +32,7 @@ def _files(folder):
     return {str(path.relative_to(folder)) for path in folder.rglob("*")}
 
 
-def ends_well(folder, file, *arguments, app=None, writes=()):
+def ends_well(folder, file, *arguments, app=None):
     """Run a command on a file that may hold anything; gives its message, which is empty if the file is accepted.
 
     Either it accepts the file, or it says in one paragraph what is wrong with it and what to do, and leaves nothing.
@@ -45,7 +49,7 @@ def ends_well(folder, file, *arguments, app=None, writes=()):
     assert seconds < SECONDS, f"{seconds:.1f} s"
     assert grown < MEGABYTES, f"{grown:.0f} MB"
     if done.exit_code == 0:
-        assert _files(folder) == before | set(writes)
+        assert _files(folder) == before
         return ""
     message = done.stderr
     assert _files(folder) == before
@@ -56,3 +60,14 @@ def ends_well(folder, file, *arguments, app=None, writes=()):
     text = message.removesuffix("\n")
     assert all(letter.isprintable() or letter == "\n" for letter in text) and "\n\n" not in text, repr(text)
     return message
+
+
+def app_of(reader):
+    """A command line of one command that reads a file, with the error handling that all commands have."""
+    app = typer.Typer(pretty_exceptions_enable=False)
+
+    def read(path: Path) -> None:
+        reader(path)
+
+    command(app, read)
+    return app

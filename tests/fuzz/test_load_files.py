@@ -6,7 +6,6 @@ import os
 import re
 from pathlib import Path
 
-import numpy as np
 import pyarrow.parquet
 import pytest
 from hypothesis import given, settings
@@ -71,7 +70,7 @@ def _inspect(folder, named):
     return ends_well(folder, named, "loads", "inspect", named, "--json")
 
 
-@settings(max_examples=40)
+@settings(max_examples=10)
 @given(data=st.data())
 def test_damaged(files, data):
     folder, contents, named = files
@@ -119,4 +118,4 @@ def test_every_prefix_of_a_binary_header(files):
         (folder / name).write_bytes(contents[name][:length])
         _inspect(folder, named)
     (folder / name).write_bytes(contents[name])
-    assert np.isfinite(len(contents))
+    assert _inspect(folder, named) == ""

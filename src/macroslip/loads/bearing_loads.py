@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from macroslip.files import reading
 from macroslip.loads import series
-from macroslip.loads.source_file import reading, source_file
+from macroslip.loads.source_file import DAMAGED, source_file
 
 _FILE_KINDS = {".parquet": "table", ".csv": "table"}
 
@@ -116,6 +117,6 @@ class BearingLoads:
         )
         from macroslip.loads.table import read_bearing_table
 
-        with reading(path):
+        with reading(path, DAMAGED):
             columns = read_bearing_table(path)
         return cls(**series.cut(columns, start, end, str(path)), source=str(path))

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from macroslip.errors import InputError
+from macroslip.files import reading
 from macroslip.loads import series
-from macroslip.loads.source_file import reading, source_file
+from macroslip.loads.source_file import DAMAGED, source_file
 
 _FILE_KINDS = {
     ".outb": "OpenFAST binary output",
@@ -150,7 +151,7 @@ class HubLoads:
             The file is absent, empty, damaged or cut off, lacks a channel, or holds values that `HubLoads` refuses.
         """
         path, extension = source_file(path, _FILE_KINDS)
-        with reading(path):
+        with reading(path, DAMAGED):
             columns = _reader(extension)(path, speed_needed=shaft_speed is None)
         taken = columns.pop("reading")
         if shaft_speed is not None:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 
 from macroslip.errors import InputError
+
+#: What to do about a file that no reader can make sense of.
+DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it holds."
 
 
 def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
@@ -53,24 +55,3 @@ def without_folders(source: str) -> str:
     'front bearing under run.outb'
     """
     return re.sub(r"(?:(?<=\s)|^)(?:[A-Za-z]:)?[\\/](?:.*[\\/])?", "", source)
-
-
-@contextmanager
-def reading(path: Path) -> Iterator[None]:
-    """Say of a file that its reader cannot make sense of it, whatever the libraries below stumble over.
-
-    Raises
-    ------
-    InputError
-        In place of anything but an error of the system or of memory, which have their own words.
-    """
-    try:
-        yield
-    except (InputError, OSError, MemoryError):
-        raise
-    except Exception as error:
-        raise InputError(
-            f"the file is damaged ({type(error).__name__}: {' '.join(str(error).split())})",
-            where=str(path),
-            remedy="Write or copy it again; macroslip loads inspect shows what a file holds.",
-        ) from error

@@ -16,8 +16,9 @@ from xarray.backends import BackendArray
 from xarray.core import indexing
 
 from macroslip.bearing.frames import ROWS
+from macroslip.files import reading
 from macroslip.study.outcome import Outcome
-from macroslip.study.store import RUNS, read_manifest, read_result
+from macroslip.study.store import REMEDY, RUNS, read_manifest, read_result
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 from macroslip.study.tables import Latest
 
@@ -64,12 +65,17 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     InputError
         If the folder holds no study; and when values are asked for, if a stored result is gone or damaged.
     """
+    directory = Path(directory).absolute()
+    with reading(directory, REMEDY):
+        return _opened(directory)
+
+
+def _opened(directory: Path) -> xr.Dataset:
     import pyarrow.parquet as pq
     import xarray as xr
 
-    directory = Path(directory).absolute()
     manifest, _ = read_manifest(directory)
-    runs = pq.read_table(directory / RUNS)
+    runs = pq.read_table(directory / RUNS, page_checksum_verification=True)
     found = list(Latest(directory).of(runs["run"].to_pylist()))
     coordinates: dict[str, Any] = {
         "run": ("case", np.array(runs["run"].to_pylist(), dtype=object), _about("1", "name of the run"))
@@ -115,8 +121,9 @@ def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dat
     import pyarrow.parquet as pq
 
     directory = Path(directory).absolute()
-    read_manifest(directory)
-    runs = pq.read_table(directory / RUNS, columns=["run"])["run"].to_pylist()
+    with reading(directory, REMEDY):
+        read_manifest(directory)
+        runs = pq.read_table(directory / RUNS, columns=["run"])["run"].to_pylist()
     for number, record in enumerate(Latest(directory).of(runs)):
         if record and "detail" in record:
             yield number, read_result(directory, record["key"], record["detail"])

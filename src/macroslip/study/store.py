@@ -22,6 +22,8 @@ FORMAT = 1
 MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES = (
     "manifest.json", "runs.parquet", "journal.jsonl", "summary.parquet", "log.txt", "cases",
 )  # fmt: skip
+#: What to do about a folder whose tables are damaged.
+REMEDY = "Write it again with macroslip study STUDY.yaml -o DIR --resume; results are kept."
 #: Attribute with the description of variables that have no values.
 _EMPTY = "variables_without_values"
 #: Folder of the runs by which the temperature of a study is found; a study of its own.
@@ -148,8 +150,7 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
         remedy = "Name a folder that macroslip study has written."
         raise InputError("there is no study in this folder", where=str(directory), remedy=remedy) from None
     except (OSError, ValueError, KeyError, TypeError) as error:
-        remedy = "Write it again with macroslip study STUDY.yaml -o DIR --resume; results are kept."
-        raise InputError(f"the manifest cannot be read ({error})", where=str(path), remedy=remedy) from None
+        raise InputError(f"the manifest cannot be read ({error})", where=str(path), remedy=REMEDY) from None
     if found != FORMAT:
         raise InputError(
             f"the study has format {found!r}",

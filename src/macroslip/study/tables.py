@@ -181,7 +181,7 @@ def _write(path: Path, schema: pa.Schema, rows: Iterator[dict[str, Any]]) -> Non
     temporary = unfinished(path)
     try:
         with temporary.open("wb") as file:
-            with pq.ParquetWriter(file, schema, compression="zstd") as writer:
+            with pq.ParquetWriter(file, schema, compression="zstd", write_page_checksum=True) as writer:
                 for batch in _batched(rows, _BATCH):
                     writer.write_table(pa.Table.from_pylist(list(batch), schema=schema))
             file.flush()
