@@ -7,13 +7,21 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import typer
+from hypothesis import settings
 from typer.testing import CliRunner
 
 from macroslip.cli.failure import command
 
+MORE = 40
+"""Examples of `make test-deep` for each one of the slice that always runs."""
 SECONDS, MEGABYTES, CHARACTERS = 10.0, 400, 20_000
 """What one command may take on a small file: processor time, memory beyond what it had, length of its message."""
 _ADDRESSES = 4 * 1024**3  # ends an allocation of any size before it hurts
+
+
+def examples(number):
+    """Settings of a test: so many examples, the same ones always, or many fresh ones in a search."""
+    return settings(max_examples=number if settings().derandomize else MORE * number)
 
 
 @contextmanager

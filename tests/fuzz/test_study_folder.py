@@ -1,7 +1,7 @@
 """The folder of a study with random damage, read as `aggregate` and `report` read it."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.large_study import study, write_study
@@ -10,7 +10,7 @@ from macroslip.study.reader import open_study, stored_results
 from macroslip.study.store import JOURNAL, MANIFEST, RUNS
 from macroslip.study.weights import Weibull
 from tests.fuzz.mutations import damaged
-from tests.fuzz.oracle import app_of, ends_well
+from tests.fuzz.oracle import app_of, ends_well, examples
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_undamaged_is_accepted(folder, contents):
     assert result.is_file()
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(data=st.data())
 def test_damaged(folder, contents, data):
     name = data.draw(st.sampled_from(sorted(contents)))

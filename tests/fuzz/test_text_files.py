@@ -1,15 +1,14 @@
 """Case, study, bearing and lubricant files with random damage."""
 
-
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import Bearing, Lubricant
 from macroslip.catalogue.source import parse
 from macroslip.study.study_file import read_study
 from tests.fuzz.mutations import damaged, misshapen
-from tests.fuzz.oracle import app_of, ends_well
+from tests.fuzz.oracle import app_of, ends_well, examples
 
 TABLE = "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n0,20,0,-300,80\n1,20,0,-310,80\n2,20,0,-300,80\n"
 CASE = """
@@ -67,7 +66,7 @@ def folder(tmp_path_factory):
     return folder
 
 
-@settings(max_examples=60)
+@examples(40)
 @given(content=_either(CASE, CONSTANT))
 def test_case_file(folder, content):
     (folder / "mine.yaml").write_bytes(content)
@@ -76,7 +75,7 @@ def test_case_file(folder, content):
     )
 
 
-@settings(max_examples=60)
+@examples(40)
 @given(content=_either(STUDY))
 def test_study_file(folder, content):
     (folder / "mine.yaml").write_bytes(content)
@@ -84,7 +83,7 @@ def test_study_file(folder, content):
 
 
 @pytest.mark.parametrize("noun", RECORDS)
-@settings(max_examples=25)
+@examples(15)
 @given(data=st.data())
 def test_catalogue_file(folder, noun, data):
     content = data.draw(_either(RECORDS[noun]))

@@ -151,6 +151,8 @@ def _holds_bearing_loads(file: Path) -> bool:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    if not file.is_file():  # a pipe would wait for ever
+        return False
     try:
         if file.suffix.lower() == ".parquet":
             names = pq.read_schema(file).names

@@ -190,7 +190,8 @@ def _read_sel(path: Path) -> Output:
             where=str(path),
             remedy=_AGAIN,
         ) from error
-    data = next((one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == ".dat"), None)
+    beside = (one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == ".dat")
+    data = next((one for one in beside if one.is_file()), None)
     if data is None:
         raise InputError(f"there is no {path.stem}.dat beside it", where=str(path), remedy="Copy the data file too.")
     values = _binary(data, scans, channels, scale) if scale is not None else _text(data, scans, channels)
