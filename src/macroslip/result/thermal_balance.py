@@ -12,7 +12,8 @@ from macroslip.result.heat_balance import balance_temperature, tabulated_power
 if TYPE_CHECKING:
     import xarray as xr
 
-    from macroslip.case.case import Case, Heat
+    from macroslip.case.case import Case
+    from macroslip.case.parts import Heat
 
 #: Change of temperature [K] between two guesses at which the balance counts as found, first rise over the surroundings
 #: [K], and most guesses.

@@ -16,7 +16,7 @@ from macroslip.study.loads_list import Load, LoadList
 from macroslip.study.settings import Setting
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Heat
+    from macroslip.case.parts import Heat
     from macroslip.study.weights import Weighting
 
 #: Key of the temperature of the oil.

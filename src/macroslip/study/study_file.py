@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from macroslip.case.case import BALANCE
+from macroslip.case.keys import CaseFile
 from macroslip.catalogue import Record
 from macroslip.catalogue.input_section import read_fields
 from macroslip.catalogue.problems import together
@@ -21,11 +22,14 @@ from macroslip.study.study_keys import StudyFile, Variations
 from macroslip.study.variation import Sample, grid
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Case, Heat
+    from macroslip.case.case import Case
+    from macroslip.case.parts import Heat
     from macroslip.study.loads_list import Load
     from macroslip.study.weights import Weighting
 
-_REMEDY = "docs/studies.md has a study file that runs."
+#: Keys of a case file that a study file does not have at its top.
+_OF_A_CASE = CaseFile.__annotations__.keys() - StudyFile.__annotations__.keys()
+_REMEDY = "Write a study file that runs with: macroslip init --example study"
 
 
 def read_study(path: str | PathLike[str]) -> Study:
@@ -36,7 +40,7 @@ def read_study(path: str | PathLike[str]) -> Study:
     Parameters
     ----------
     path : path
-        YAML file; docs/studies.md explains every key. Relative paths in it start at its own folder.
+        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
 
     Returns
     -------
@@ -50,6 +54,14 @@ def read_study(path: str | PathLike[str]) -> Study:
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
     data, source = parse(text, str(path), _REMEDY)
+    keys = [key for key in data if key in _OF_A_CASE]
+    # A single one is a slip of the pen, for which the closest key of a study is named.
+    if len(keys) > 1 and "case" not in data:
+        raise InputError(
+            f"the keys {', '.join(keys)} are those of a case",
+            where=str(path),
+            remedy="Run a case file by macroslip run; in a study they belong under the key case.",
+        )
     return _study(data, source, path.parent)
 
 
@@ -197,8 +209,9 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
 def _parameters(variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
     ranges = sample.ranges if sample else {}
+    grid: dict[str, Any] = dict(variations.grid or {})  # lists of settings, which the reader has made of the axes
     places: dict[str, dict[str, str]] = {
-        "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
+        "grid": {key: settings[0].unit for key, settings in grid.items()},
         "list": {one.key: one.unit for item in variations.list or [] for one in item},
         "sample": {key: one.unit for key, one in ranges.items() if one is not None},
         "models": {one.key: one.unit for settings in models.values() for one in settings},

@@ -9,8 +9,9 @@ from typing import Annotated, Any
 from pydantic import ValidationError
 
 from macroslip.catalogue.forms import Choice, Flag, Form, Text, Texts
-from macroslip.catalogue.input_section import MappingOf, detail_of, details_inside, input_section
+from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import shown
+from macroslip.catalogue.section_forms import MappingOf, detail_of, details_inside
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 from macroslip.result.dataset import VARIABLES
@@ -174,7 +175,7 @@ class StudyLoads:
 
 
 _Grid = Annotated[
-    dict[str, Any] | None,
+    dict[str, Axis] | None,
     MappingOf(
         "values of each parameter, of which every combination is run",
         "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",

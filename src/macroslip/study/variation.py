@@ -12,8 +12,9 @@ import numpy as np
 from macroslip.catalogue import Record
 from macroslip.catalogue.fields import dimensions
 from macroslip.catalogue.forms import Choice, Quantity, Text, Whole
-from macroslip.catalogue.input_section import MappingOf, OrWord, input_section
+from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import unknown_key
+from macroslip.catalogue.section_forms import MappingOf, OrWord
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 from macroslip.study.settings import RECORDS, Setting
