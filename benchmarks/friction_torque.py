@@ -3,6 +3,7 @@
     python benchmarks/friction_torque.py curves -o docs/figures/friction_torque_curves.png     two minutes
     python benchmarks/friction_torque.py wind                                                  three minutes
     python benchmarks/friction_torque.py inlets                                                one minute
+    python benchmarks/friction_torque.py fullness                                              four minutes
 
 Few rollers stand for all, over short windows: `curves` takes two rollers of each row over an orbit of steady load, `wind`
 two rollers of each row over 60 s of each of the 21 load cases.
@@ -11,6 +12,7 @@ two rollers of each row over 60 s of each of the 21 load cases.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -120,36 +122,62 @@ def _draw(found: dict[str, list[Torque]], output: str) -> None:
     figure.savefig(output, dpi=120)
 
 
+class OverWind(NamedTuple):
+    """Torques of one load case, and the mean friction power [W]."""
+
+    name: str
+    speed: int
+    torque: Torque
+    power: float
+
+
+def over_wind(lubricant: Lubricant) -> Iterator[OverWind]:
+    """The 21 load cases with a lubricant."""
+    for speed in range(12, 25, 2):
+        for turbulence in "ABC":
+            hub = HubLoads.bundled(f"{speed}{turbulence}").window(0.0, WINDOW)
+            case = Case(loads=hub, rollers=ROLLERS, laws=Laws.physical(), lubricant=lubricant)
+            loads = main_bearing_load(hub, case.drivetrain)
+            one = torque(case, loads)
+            yield OverWind(f"{speed}{turbulence}", speed, one, one.total * float(np.mean(loads.shaft_speed)))
+
+
+def print_ratios(every: list[OverWind]) -> None:
+    """Print the model's torques over SKF's: mean over the load cases, and range; and the trend of the power."""
+    for name, own, other in (
+        ("sliding over M_sl", "sliding", "skf_sliding"),
+        ("rolling over M_rr", "rolling", "skf_rolling"),
+        ("total over SKF's", "total", "skf"),
+    ):
+        ratio = np.array([getattr(one.torque, own) / getattr(one.torque, other) for one in every])
+        print(f"{name}: {ratio.mean():.2f}, {ratio.min():.2f} to {ratio.max():.2f}")
+    speeds = sorted({one.speed for one in every})
+    mean = [float(np.mean([one.power for one in every if one.speed == speed])) for speed in speeds]
+    print("power [W] over wind speed: " + ", ".join(f"{v} m/s {p:.0f}" for v, p in zip(speeds, mean, strict=True)))
+    at = {speed: float(np.interp(speed, speeds, mean)) for speed in (12, 13, 15)}
+    print(f"12 over 15 m/s: {at[12] / at[15]:.2f}; 12 over 13 m/s: {at[12] / at[13]:.2f}", flush=True)
+
+
 def wind() -> None:
     """Print the 21 cases, and means over turbulence classes by wind speed."""
     print("| case | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | all | Palmgren | power [W] |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
-    powers: dict[int, list[float]] = {}
     every = []
-    for speed in range(12, 25, 2):
-        for turbulence in "ABC":
-            hub = HubLoads.bundled(f"{speed}{turbulence}").window(0.0, WINDOW)
-            case = Case(loads=hub, rollers=ROLLERS, laws=Laws.physical())
-            loads = main_bearing_load(hub, case.drivetrain)
-            one = torque(case, loads)
-            power = one.total * float(np.mean(loads.shaft_speed))
-            powers.setdefault(speed, []).append(power)
-            every.append(one)
-            parts = (one.sliding, one.rolling, one.cage, one.drag, one.total)
-            others = (one.skf_sliding, one.skf_rolling, one.skf, one.palmgren, power)
-            print(
-                f"| {speed}{turbulence} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |", flush=True
-            )
-    rolling = np.array([one.rolling / one.skf_rolling for one in every])
-    total = np.array([one.total / one.skf for one in every])
-    sliding = np.array([one.sliding / one.skf_sliding for one in every])
-    for name, ratio in (("sliding over M_sl", sliding), ("rolling over M_rr", rolling), ("total over SKF's", total)):
-        print(f"{name}: {ratio.mean():.2f}, {ratio.min():.2f} to {ratio.max():.2f}")
-    mean = {speed: float(np.mean(values)) for speed, values in powers.items()}
-    print("power [W] over wind speed: " + ", ".join(f"{speed} m/s {power:.0f}" for speed, power in mean.items()))
-    places = list(mean)
-    at = {speed: float(np.interp(speed, places, list(mean.values()))) for speed in (12, 13, 15)}
-    print(f"12 over 15 m/s: {at[12] / at[15]:.2f}; 12 over 13 m/s: {at[12] / at[13]:.2f}")
+    for found in over_wind(Lubricant.read("vg460-pao")):
+        every.append(found)
+        one = found.torque
+        parts = (one.sliding, one.rolling, one.cage, one.drag, one.total)
+        others = (one.skf_sliding, one.skf_rolling, one.skf, one.palmgren, found.power)
+        print(f"| {found.name} | " + " | ".join(f"{part:.0f}" for part in (*parts, *others)) + " |", flush=True)
+    print_ratios(every)
+
+
+def fullness() -> None:
+    """Print the ratios over the 21 cases for inlets from starved to flooded."""
+    oil = Lubricant.read("vg460-pao")
+    for film in (5.0, 10.0, 30.0, 1000.0):
+        print(f"inlet full from {film:g} films on")
+        print_ratios(list(over_wind(oil.replace(inlet_film=film))))
 
 
 def compare_inlets() -> None:
@@ -176,12 +204,10 @@ def compare_inlets() -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("curves", "wind", "inlets"))
+    parser.add_argument("what", choices=("curves", "wind", "inlets", "fullness"))
     parser.add_argument("-o", "--output", help="picture of the curves")
     given = parser.parse_args()
     if given.what == "curves":
         curves(given.output)
-    elif given.what == "wind":
-        wind()
     else:
-        compare_inlets()
+        {"wind": wind, "inlets": compare_inlets, "fullness": fullness}[given.what]()

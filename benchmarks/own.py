@@ -9,14 +9,14 @@ from benchmarks.outcome import Reference, Solution
 from macroslip.integrate.load_zone import empty_classes
 from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
-from macroslip.integrate.record import Record, new_record
+from macroslip.integrate.record import RollerRecord, new_record
 from macroslip.integrate.status import COMPLETED
 
 #: Tolerance of the reference.
 REFERENCE_TOLERANCE = 1e-9
 
 
-def integrate(history: History, tolerance: float, trace_time: np.ndarray) -> tuple[int, Record]:
+def integrate(history: History, tolerance: float, trace_time: np.ndarray) -> tuple[int, RollerRecord]:
     """Status and record of the whole history; a step ends at each trace time [s]."""
     record = new_record(np.array([history.start, history.end]), trace_time, history.limits.speed_scale)
     stops = np.unique(np.concatenate([trace_time, [history.end]]))

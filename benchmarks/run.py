@@ -18,7 +18,7 @@ from benchmarks.outcome import ASKED
 from benchmarks.rivals import INSTALL
 from benchmarks.scaling import linearity, real_time, two_threads
 from benchmarks.verify import AGREEMENT, verify
-from macroslip.case.case import Radau
+from macroslip.case.parts import Radau
 from macroslip.errors import InputError
 from macroslip.files import published_together
 from macroslip.machine import machine

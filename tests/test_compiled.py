@@ -9,6 +9,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -16,7 +17,10 @@ import pytest
 
 import macroslip
 from macroslip import kernel_cache
+from macroslip.compiled import borrowed, jit
 from macroslip.kernel_cache import KEPT
+
+pytestmark = pytest.mark.slow
 
 SOURCE = Path(macroslip.__file__).parents[1]
 
@@ -51,10 +55,12 @@ name = "mechanisms"
 if sys.argv[2] == "law":
     import own_law
     name = "linear"
-from macroslip import BearingLoads, Case, Laws, Window, simulate
-loads = BearingLoads.constant([0.0, 0.0, -1e3], 2.0, 1.0)
-found = simulate(Case(loads=loads, rollers=[0], laws=Laws(traction=name), window=Window(start=0.0)))
-print(repr(float(found.end_slip.sel(row="downwind").item())))
+from macroslip import Bearing, Laws, Lubricant
+from macroslip.roller.contact_force import raceway_force
+from macroslip.roller.model import roller_model
+laws = Laws(traction=name)
+model = roller_model(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1, tilt=0.0, laws=laws)
+print(repr(raceway_force(model.inner, 2e4, 1e-4, -0.4, 0.4, -0.5).spin))
 """
 
 
@@ -229,3 +235,24 @@ def test_elementwise_broadcasts_and_keeps_scalars():
     assert double(1.0, 2.0) == 4.0
     assert np.ndim(double(1.0, 2.0)) == 0
     assert double(np.array([1.0, 2.0]), np.array([[0.0], [1.0]])).tolist() == [[2.0, 4.0], [3.0, 5.0]]
+
+
+class _Pair(NamedTuple):
+    values: np.ndarray
+    inner: tuple
+
+
+@jit
+def _sum_and_write(pair, others):
+    pair, others = borrowed(pair), borrowed(others)
+    pair.values[0] += 1.0
+    return pair.values.sum() + pair.inner[0].sum() * pair.inner[1] + others.sum()
+
+
+def test_borrowed_arrays_are_the_same_and_are_not_counted():
+    pair, others = _Pair(np.arange(3.0), (np.ones((2, 2)), 10.0)), np.ones(4)
+    counts = [sys.getrefcount(one) for one in (pair.values, pair.inner[0], others)]
+    for number in range(1000):
+        assert _sum_and_write(pair, others) == 3.0 + (number + 1) + 40.0 + 4.0
+    assert [sys.getrefcount(one) for one in (pair.values, pair.inner[0], others)] == counts
+    assert pair.values[0] == 1000.0

@@ -22,12 +22,12 @@ _HOMES = {
     "load_laws": "macroslip.plugins",
     "Case": "macroslip.case.case",
     "Cage": "macroslip.whole_bearing.cage",
-    "Radau": "macroslip.case.case",
-    "ExplicitEuler": "macroslip.case.case",
-    "BackwardEuler": "macroslip.case.case",
-    "Heat": "macroslip.case.case",
-    "Window": "macroslip.case.case",
-    "Traces": "macroslip.case.case",
+    "Radau": "macroslip.case.parts",
+    "ExplicitEuler": "macroslip.case.parts",
+    "BackwardEuler": "macroslip.case.parts",
+    "Heat": "macroslip.case.parts",
+    "Window": "macroslip.case.parts",
+    "Traces": "macroslip.case.parts",
     "read_case": "macroslip.case.case_file",
     "simulate": "macroslip.result.simulate",
     "progress_bar": "macroslip.progress",
@@ -45,7 +45,7 @@ _FOLDERS = ("film", "traction", "hertz")
 if os.environ.get("NUMBA_NUM_THREADS", "").strip().lstrip("-").isdecimal() and int(os.environ["NUMBA_NUM_THREADS"]) < 1:
     del os.environ["NUMBA_NUM_THREADS"]
 
-__all__ = ["__version__", *_HOMES, *_FOLDERS]
+__all__ = ["__version__", *_HOMES, *_FOLDERS]  # pyright: ignore[reportUnsupportedDunderAll]
 
 
 def __getattr__(name: str) -> Any:

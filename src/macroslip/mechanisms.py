@@ -137,14 +137,13 @@ class Laws:
     @property
     def name(self) -> str:
         """The set's name, or the one it is nearest to with what differs."""
-        best = None
+        differences = {}
         for model in NAMED_SETS:
             other = Laws.named(model)
             names = [one.name for one in fields(self) if getattr(self, one.name) != getattr(other, one.name)]
-            off = [f"{name} {_word(getattr(self, name))}" for name in names]
-            if best is None or len(off) < len(best[1]):
-                best = model, off
-        return best[0] + (f", but {', '.join(sorted(best[1]))}" if best[1] else "")
+            differences[model] = sorted(f"{name} {_word(getattr(self, name))}" for name in names)
+        nearest = min(differences, key=lambda model: len(differences[model]))
+        return nearest + (f", but {', '.join(differences[nearest])}" if differences[nearest] else "")
 
     @property
     def is_closed_form(self) -> bool:

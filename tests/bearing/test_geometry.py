@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.integrate import tplquad
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, contact_normal, initial_angles
-from macroslip.bearing.inertia import roller_mass, spin_inertia, transverse_inertia
+from macroslip.bearing.frames import initial_angles
+from macroslip.bearing.inertia import roller_mass, spin_inertia
 from macroslip.bearing.kinematics import orbital_speed, pure_rolling_spin
 from macroslip.errors import InputError
 
@@ -93,7 +93,6 @@ def test_inertia_is_that_of_a_solid_cylinder():
     mass = roller_mass(density, r, length)
     assert mass == pytest.approx(moment(lambda x, y, z: 1.0), rel=1e-9)
     assert spin_inertia(mass, r) == pytest.approx(moment(lambda x, y, z: x * x + y * y), rel=1e-9)
-    assert transverse_inertia(mass, r, length) == pytest.approx(moment(lambda x, y, z: y * y + z * z), rel=1e-9)
 
 
 def test_rows_start_at_the_bottom_half_a_pitch_apart():
@@ -105,17 +104,3 @@ def test_rows_start_at_the_bottom_half_a_pitch_apart():
     assert down[-1] == pytest.approx(1.5 * np.pi - 2 * np.pi / 28)
     with pytest.raises(InputError, match="there is no row 'front'. Allowed: downwind or upwind."):
         initial_angles("front", 28)
-
-
-def test_contact_normals():
-    assert {row: AXIAL_SIGNS[row] for row in ROWS} == {"downwind": 1, "upwind": -1}
-    angles = np.linspace(0, 7, 12).reshape(3, 4)
-    for sign in (1, -1):
-        normals = contact_normal(angles, 0.2, sign)
-        assert normals.shape == (3, 4, 3)
-        np.testing.assert_allclose(np.linalg.norm(normals, axis=-1), 1, rtol=1e-14)
-        np.testing.assert_allclose(normals[..., 2], sign * math.sin(0.2), rtol=1e-14)
-    # At the top the normal points up; the downwind row's normal leans downwind.
-    np.testing.assert_allclose(contact_normal(np.pi / 2, 0.2, 1), [0, math.cos(0.2), math.sin(0.2)], atol=1e-15)
-    # A full ring of rollers has no net radial push.
-    np.testing.assert_allclose(contact_normal(initial_angles("upwind", 28), 0.2, -1).sum(axis=0)[:2], 0, atol=1e-13)

@@ -10,6 +10,8 @@ from benchmarks import histories as room
 from benchmarks import rivals, run
 from benchmarks.__main__ import app
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def short(monkeypatch):

@@ -7,6 +7,8 @@ from benchmarks.right_hand_side import EVALUATIONS, jacobian, pack, rates, unpac
 from macroslip.ring.orbit import instant
 from macroslip.roller.forces import slip_forces, station
 
+pytestmark = pytest.mark.slow
+
 
 def states(history, count=40):
     """Random times, and slips of every size and sign."""

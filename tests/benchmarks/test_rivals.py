@@ -11,6 +11,8 @@ from benchmarks.quiet import silence
 from macroslip.ring.orbit import instant
 from macroslip.roller.forces import station
 
+pytestmark = pytest.mark.slow
+
 TIGHT = {
     "lsoda": {"stops": True, "rtol": 1e-10, "atol": 1e-12},
     "cvode": {"stops": "restart", "rtol": 1e-9, "atol": 1e-11, "longest_step": 0.02},

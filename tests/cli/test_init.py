@@ -4,7 +4,9 @@ import pytest
 from ruamel.yaml import YAML
 
 from macroslip.case.keys import CaseFile
-from macroslip.catalogue.input_section import keys_of
+from macroslip.catalogue.section_forms import keys_of
+
+pytestmark = pytest.mark.slow
 
 
 def test_init_then_run(folder, macroslip):

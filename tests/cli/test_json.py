@@ -7,6 +7,8 @@ import xarray as xr
 
 from macroslip import Bearing, Lubricant
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(("noun", "kind"), [("bearing", Bearing), ("lubricant", Lubricant)])
 def test_catalogue(macroslip, noun, kind):
@@ -17,6 +19,35 @@ def test_catalogue(macroslip, noun, kind):
         assert shown["name"] == one["name"]
         for key, origin in kind.read(one["name"]).provenance.items():
             assert shown["values"][key]["value"] == origin.value and shown["values"][key]["tag"] == origin.tag
+
+
+def test_bearing_estimate(macroslip, folder):
+    page = (
+        "--bore",
+        "630 mm",
+        "--outside",
+        "920 mm",
+        "--width",
+        "290 mm",
+        "--c0",
+        "17600 kN",
+        "--e",
+        0.3,
+        "--c",
+        "9307 kN",
+    )
+    done = macroslip("bearing", "estimate", *page, "-o", "mine.yaml", "--json")
+    assert (done.code, done.err) == (0, "")
+    found = json.loads(done.out)
+    written = Bearing.read(folder / "mine.yaml")
+    for key, one in found["values"].items():
+        low, high = one["10 to 90 %"]
+        assert low <= one["median"] <= high
+        assert written.provenance[key].value == one["median"] and written.provenance[key].unit == one["unit"]
+    assert {"roller_diameter", "contact_angle"} <= set(found["values"])
+    shown = macroslip("bearing", "estimate", *page, "-o", "mine.yaml", "--force").out
+    assert f"is {found['C by ISO 281 / published [1]']:.3f} of the published one" in shown
+    assert (found["name"], found["written"]) == ("mine", "mine.yaml")
 
 
 def test_run(quick, macroslip, folder):

@@ -12,6 +12,8 @@ import pytest
 import macroslip as package
 from macroslip.cli import progress
 
+pytestmark = pytest.mark.slow
+
 
 def start(*arguments):
     command = [sys.executable, "-c", "from macroslip.cli import main; main()", *arguments]

@@ -4,7 +4,7 @@ import importlib.util
 
 import pytest
 
-from macroslip.cli.needs import CYCLES, FIGURES, WORKERS, require
+from macroslip.cli.needs import FIGURES, WORKERS, require
 from macroslip.errors import MacroslipError
 
 
@@ -22,29 +22,31 @@ def without(monkeypatch):
 
 
 def test_all_is_there():
-    require(FIGURES, WORKERS, CYCLES)
+    require(FIGURES, WORKERS)
 
 
 def test_the_message_names_package_and_remedy(without):
-    without("fatpack")
-    with pytest.raises(MacroslipError, match=r"for cycles: true: fatpack\. .*pip install 'macroslip\[cycles\]'$"):
-        require(FIGURES, CYCLES)
+    without("jinja2")
+    with pytest.raises(
+        MacroslipError, match=r"for a page or a picture: jinja2\. .*pip install 'macroslip\[figures\]'$"
+    ):
+        require(FIGURES, WORKERS)
 
 
 def test_several_needs_are_one_message_with_one_remedy(without):
-    without("fatpack", "distributed")
+    without("jinja2", "distributed")
     with pytest.raises(MacroslipError) as error:
-        require(WORKERS, CYCLES)
-    assert "--workers and --scheduler and cycles: true: distributed, fatpack." in str(error.value)
-    assert str(error.value).endswith("pip install 'macroslip[cluster,cycles]'")
+        require(WORKERS, FIGURES)
+    assert "--workers and --scheduler and a page or a picture: distributed, jinja2." in str(error.value)
+    assert str(error.value).endswith("pip install 'macroslip[cluster,figures]'")
 
 
 def test_a_dry_run_refuses_what_the_run_would_refuse(folder, macroslip, without):
-    (folder / "study.yaml").write_text("loads: {bundled: [14B]}\ncycles: true\n")
-    without("fatpack", "distributed")
+    (folder / "study.yaml").write_text("loads: {bundled: [14B]}\n")
+    without("distributed")
     done = macroslip("study", "study.yaml", "--dry-run", "--workers", "2")
     assert (done.code, done.out) == (2, "")
-    assert "distributed" in done.err and "fatpack" in done.err and "[cluster,cycles]" in done.err
+    assert "distributed" in done.err and "[cluster]" in done.err
 
 
 def test_doctor_says_which_command_lacks_what(macroslip, without):

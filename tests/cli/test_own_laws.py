@@ -11,6 +11,8 @@ import xarray as xr
 from macroslip import Bearing, Lubricant
 from macroslip.roller.model import interfaces
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
@@ -59,6 +61,7 @@ def test_film_and_traction_laws_of_ones_own(run, folder):
     assert float(heaviest.film_thickness.sel(interface="inner")) == pytest.approx(thickness, rel=1e-4)
 
 
+@pytest.mark.deep  # each compiles the whole integrator once more; tests/roller/test_own_laws.py tests their forces
 @pytest.mark.parametrize(
     "laws",
     [

@@ -2,6 +2,8 @@
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_file_in_the_way_is_one_paragraph_and_nothing_is_written(folder, macroslip):
     (folder / "results").write_text("mine")

@@ -15,6 +15,8 @@ from macroslip import Case, HubLoads, simulate
 from macroslip.integrate.status import Status
 from macroslip.result.rating import with_rating
 
+pytestmark = pytest.mark.slow
+
 DATA = Path(__file__).parents[1] / "data"
 OUTB = DATA / "sample14B.outb"
 

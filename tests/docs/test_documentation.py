@@ -5,7 +5,6 @@ import re
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -13,7 +12,7 @@ import pytest
 from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
 from macroslip.case.keys import INTEGRATORS, CaseFile, LawsKeys
 from macroslip.catalogue.forms import Choice
-from macroslip.catalogue.input_section import fields_of, form_of, keys_of
+from macroslip.catalogue.section_forms import fields_of, form_of, keys_of
 from macroslip.integrate.status import Status
 from macroslip.study.export import tables
 from macroslip.study.outcome import Outcome
@@ -28,18 +27,35 @@ SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
 PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 OURS = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.py"), *EXAMPLES]
-ARGUMENTS = {"02_openfast_file.py": [str(SAMPLE)]}
-#: What the pages name as the user's own files.
-PREPARATION = """
-import shutil, sys
+SCRIPTS = [*EXAMPLES, ROOT / "docs" / "drawings.py"]
+#: Makes what the pages name as the user's own files, then runs the code of every page given in a folder of its own, each
+#: block of code in a namespace of its own. Pages share a process, which has imported and compiled what the others need.
+RUNNER = """
+import contextlib, os, pathlib, runpy, shutil, sys, traceback
 from macroslip.cli import app
+
+sample, own_film, *folders = map(pathlib.Path, sys.argv[1:])
+prepared = pathlib.Path("prepared").resolve()
+prepared.mkdir()
+os.chdir(prepared)
 app(["init", "case.yaml"], standalone_mode=False)
 app(["run", "case.yaml", "-o", "case.nc", "--quiet"], standalone_mode=False)
-shutil.copy(sys.argv[1], "turbine.outb")
-shutil.copy(sys.argv[2], "own_film.py")
+shutil.copy(sample, "turbine.outb")
+shutil.copy(own_film, "own_film.py")
+for folder in folders:
+    shutil.copytree(prepared, folder, dirs_exist_ok=True)
+    os.chdir(folder)
+    with open("printed.txt", "w", encoding="utf-8") as printed, contextlib.redirect_stdout(printed):
+        try:
+            for block in sorted(folder.glob("block*.py")):
+                runpy.run_path(str(block))
+        except BaseException:
+            pathlib.Path("failure.txt").write_text(traceback.format_exc(), encoding="utf-8")
+        else:
+            pathlib.Path("done.txt").touch()
 """
-#: Runs each file given in a namespace of its own.
-RUNNER = "import runpy, sys\nfor path in sys.argv[1:]: runpy.run_path(path)"
+#: This page registers laws, on which all kernels would depend that are compiled after it.
+LAWS = ROOT / "docs" / "laws.md"
 
 
 def python_blocks(page: Path) -> list[str]:
@@ -62,45 +78,55 @@ def python(*arguments: str, folder: Path) -> subprocess.CompletedProcess:
 
 
 @pytest.fixture(scope="module")
-def runs(tmp_path_factory):
-    """Outcome of every example and of every page's code, run at once, each in a process and a folder of its own."""
-    prepared = tmp_path_factory.mktemp("prepared")
-    # First of all and alone: this also compiles the kernels.
-    assert (
-        first := python("-c", PREPARATION, str(SAMPLE), str(ROOT / "examples" / "own_film.py"), folder=prepared)
-    ).returncode == 0, first.stderr
+def scripts(tmp_path_factory):
+    """Outcome of every example and of the drawings, each run as a user does."""
 
-    def run(path: Path) -> subprocess.CompletedProcess:
-        folder = tmp_path_factory.mktemp(path.stem)
-        if path.suffix == ".py":
-            return python(str(path), *ARGUMENTS.get(path.name, []), folder=folder)
-        for made in prepared.iterdir():
-            shutil.copy(made, folder)
-        files = [folder / f"block{number}.py" for number in range(len(python_blocks(path)))]
-        for file, code in zip(files, python_blocks(path), strict=True):
-            file.write_text(code, encoding="utf-8")
-        return python("-c", RUNNER, *map(str, files), folder=folder)
-
-    paths = [*EXAMPLES, *(page for page in PAGES if python_blocks(page)), ROOT / "docs" / "drawings.py"]
-    with ThreadPoolExecutor(2) as pool:
+    def run(path):
         # The drawings go to a folder of their own, so that a run of the tests changes no file.
-        ARGUMENTS["drawings.py"] = [str(tmp_path_factory.mktemp("pictures"))]
-        return dict(zip(paths, pool.map(run, paths), strict=True))
+        arguments = {"02_openfast_file.py": [str(SAMPLE)], "drawings.py": [str(tmp_path_factory.mktemp("pictures"))]}
+        return python(str(path), *arguments.get(path.name, []), folder=tmp_path_factory.mktemp(path.stem))
+
+    return {path: run(path) for path in SCRIPTS}
 
 
-@pytest.mark.parametrize("path", [*EXAMPLES, ROOT / "docs" / "drawings.py"], ids=lambda path: path.name)
-def test_script_runs_and_says_something(path, runs):
-    assert runs[path].returncode == 0, runs[path].stderr
-    assert 1 <= len(runs[path].stdout.splitlines()) <= 15
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """What the code of every page prints, or how it fails."""
+    folders = {page: tmp_path_factory.mktemp(page.stem) for page in PAGES if python_blocks(page)}
+    for page, folder in folders.items():
+        for number, code in enumerate(python_blocks(page)):
+            (folder / f"block{number:02}.py").write_text(code, encoding="utf-8")
+    own_film, ended = ROOT / "examples" / "own_film.py", []
+    for these in ([page for page in folders if page != LAWS], [LAWS]):
+        arguments = map(str, (SAMPLE, own_film, *(folders[page] for page in these)))
+        ended.append(python("-c", RUNNER, *arguments, folder=tmp_path_factory.mktemp("pages")))
+
+    def read(folder):
+        if (folder / "done.txt").exists():
+            return (folder / "printed.txt").read_text(encoding="utf-8"), None
+        failure = folder / "failure.txt"
+        return "", failure.read_text(encoding="utf-8") if failure.exists() else [one.stderr for one in ended]
+
+    return {page: read(folder) for page, folder in folders.items()}
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
+def test_script_runs_and_says_something(path, scripts):
+    assert scripts[path].returncode == 0, scripts[path].stderr
+    assert 1 <= len(scripts[path].stdout.splitlines()) <= 15
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("page", [page for page in PAGES if python_blocks(page)], ids=lambda page: page.name)
-def test_code_of_page_runs(page, runs):
-    assert runs[page].returncode == 0, runs[page].stderr
+def test_code_of_page_runs(page, pages):
+    _, failure = pages[page]
+    assert failure is None, failure
 
 
-def test_numbers_that_the_model_page_quotes(runs):
-    printed = runs[ROOT / "docs" / "model.md"].stdout
+@pytest.mark.slow
+def test_numbers_that_the_model_page_quotes(pages):
+    printed, _ = pages[ROOT / "docs" / "model.md"]
     assert re.findall(r"([\d.]+) of the load", printed) == ["0.06", "0.14", "3.30", "47.11"]
     assert re.findall(r"([\d.]+) W", printed) == ["8.7", "7.1"]
 
@@ -108,11 +134,12 @@ def test_numbers_that_the_model_page_quotes(runs):
 NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["physical.md", "physical-study.md"])
-def test_pages_quote_what_their_code_prints(name, runs):
+def test_pages_quote_what_their_code_prints(name, pages):
     page = ROOT / "docs" / name
     quoted = "".join(re.findall(r"^```text\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE))
-    printed = runs[page].stdout
+    printed, _ = pages[page]
     assert re.sub(NUMBER, "#", quoted) == re.sub(NUMBER, "#", printed)
     for old, new in zip(re.findall(NUMBER, quoted), re.findall(NUMBER, printed), strict=True):
         last_digit = 10.0 ** -len(old.partition(".")[2])
@@ -135,7 +162,7 @@ def test_index_names_every_page_and_every_example():
 
 def test_input_page_names_every_key_of_a_case():
     quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
-    sections = {"drivetrain", "forces", "laws", "cage", "integrator", "window"}
+    sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
     names = [key for key, _ in keys_of(CaseFile) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
     names = [key.removeprefix("loads.hub.").removeprefix("loads.main_bearing.") for key in names]
@@ -177,7 +204,10 @@ def test_studies_page_gives_the_units_of_the_summary():
 def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     assert len(read_study(ROOT / "examples" / "study.yaml")) == 96
     text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    block, balance = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    (tmp_path / "balance.yaml").write_text(balance, encoding="utf-8")
+    balanced = read_study(tmp_path / "balance.yaml")
+    assert (len(balanced), balanced.heat.conductance, balanced.weights.shape) == (21, 60.0, 2.0)
     (tmp_path / "dlc12").mkdir()
     shutil.copy(SAMPLE, tmp_path / "dlc12" / "14mps_seed1.outb")
     shutil.copy(ROOT / "src/macroslip/bearing/catalogue/skf-240-600-bc.yaml", tmp_path / "other-bearing.yaml")

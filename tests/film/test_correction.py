@@ -35,14 +35,11 @@ def square_in_range(law, load, entrainment_speed):
 
 
 @pytest.fixture(scope="module", autouse=True)
-def square():
+def square(package_laws):
     law.register(
         "square", Square, reference="a test", prepare=lambda interface: Square(2e-3), thickness=square_thickness,
         in_range=square_in_range, range_notes=lambda interface: ["always"],
     )  # fmt: skip
-    yield
-    # Other tests list the laws of the package.
-    del law._laws._entries["square"]
 
 
 def test_heating_factor_at_its_ends_and_in_between():

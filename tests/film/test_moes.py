@@ -13,6 +13,8 @@ from scipy.optimize import brentq
 from macroslip.film import film_law as law
 from macroslip.film.moes import log_moes, moes
 
+pytestmark = pytest.mark.slow
+
 powers = {"log_load": st.floats(-6.0, 4.0), "log_material": st.floats(-3.0, 2.0)}
 
 

@@ -16,6 +16,8 @@ from macroslip.integrate.status import Status
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.roller.model import roller_model
 
+pytestmark = pytest.mark.slow
+
 
 def solve(bearing, lubricant, displacement, speed, start_angle, slip, times, acceleration=0.0, tolerance=1e-7):
     """Slip at `times` and energies up to the last, from the production integrator under a fixed ring displacement."""

@@ -8,6 +8,8 @@ import pytest
 from macroslip import BackwardEuler, BearingLoads, Case, ExplicitEuler, HubLoads, Radau, Window, simulate
 from macroslip.integrate.status import Status
 
+pytestmark = pytest.mark.slow
+
 
 def run(loads, integrator, roller=3, **settings):
     return simulate(Case(loads=loads, rollers=[roller], integrator=integrator, **settings)).isel(roller=0)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -94,14 +94,15 @@ def test_load_that_comes_and_goes_within_an_interval_is_an_edge(
     ring = np.array([[dx, dy, 0.0], [dx + rise_x, dy + rise_y, 0.0]])
     dense = direct_interference(model, motion_of([0.0, span], [near, far], ring), angle, np.linspace(0.0, span, 401))
     above, below = dense.max() - max(dense[0], dense[-1]), min(dense[0], dense[-1]) - dense.min()
-    firm = 1e-5
-    for excess, level, forbidden in (
+    firm, seen = 1e-5, 1e-13
+    assume(max(above, below) > seen)
+    ways = (
         (above, -max(dense[0], dense[-1]) - 0.9 * above, FREE),
         (below, firm - min(dense[0], dense[-1]) + 0.9 * below, FIRM),
-    ):
-        if excess > 1e-13:
-            ring[:, 2] = level / model.sin_contact_angle
-            assert classes_of(model, motion_of([0.0, span], [near, far], ring), angle, firm).tolist() != [forbidden]
+    )
+    for level, forbidden in ((level, forbidden) for excess, level, forbidden in ways if excess > seen):
+        ring[:, 2] = level / model.sin_contact_angle
+        assert classes_of(model, motion_of([0.0, span], [near, far], ring), angle, firm).tolist() != [forbidden]
 
 
 @pytest.mark.parametrize(

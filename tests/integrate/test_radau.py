@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Laws, Radau, Traces, Window, main_bearing_load, simulate
 from macroslip.integrate.status import Status
 
+pytestmark = pytest.mark.slow
+
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 
 

@@ -35,6 +35,8 @@ from macroslip.roller.forces import slip_forces, station
 from macroslip.roller.model import ring_geometry, roller_model
 from macroslip.traction.film_shear_law import microslip_traction
 
+pytestmark = pytest.mark.slow
+
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 # The oil around the rollers has tests of its own, tests/roller/test_films.py.
 FULL, PAPER = Laws.physical().but(rolling="none"), Laws.paper()
@@ -544,3 +546,18 @@ def test_a_lubricant_without_the_values_is_refused():
     bare = OIL.replace(limiting_shear=None, starvation=None)
     with pytest.raises(InputError, match="(?s)limiting.shear.*starvation|starvation.*limiting.shear"):
         simulate(Case(loads=BearingLoads.constant([0, -3e5, 0], 2.0, 1.0), lubricant=bare, laws=FULL, rollers=[0]))
+
+
+def test_a_floating_roller_leaves_no_heat_in_the_ellipse_of_its_cage_contact():
+    """The oil of the pocket is sheared over all of it; without rolling resistance metal touches, and there is a flash."""
+    loads = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=2.143, duration=14.0)
+    floating, dry = (
+        simulate(Case(loads=loads, rollers=[0], laws=Laws.physical().but(rolling=rolling)))
+        for rolling in ("whole-film", "none")
+    )
+    for name in ("flash_temperature", "power_density"):
+        largest = floating[name].max(("roller", "orbit"))
+        # The film of the pocket, tens of micrometres thick, leaves less in the small ellipse than a loaded raceway has.
+        assert float(largest.sel(interface="cage").max()) < 0.1 * float(largest.sel(interface="inner").max())
+        assert float(largest.sel(interface=["inner", "outer"]).min()) > 0.0
+        assert float(dry[name].sel(interface="cage").min()) > 0.0

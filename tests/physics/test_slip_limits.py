@@ -10,6 +10,8 @@ import pytest
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, main_bearing_load, simulate
 from macroslip.bearing import Bearing, geometry, inertia
 
+pytestmark = pytest.mark.slow
+
 ORBIT_RATIO = 0.4539395888955974
 
 

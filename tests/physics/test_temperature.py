@@ -4,6 +4,8 @@ import pytest
 
 from macroslip import Case, HubLoads, Laws, Lubricant, simulate
 
+pytestmark = pytest.mark.slow
+
 OIL = Lubricant.read("vg460-pao")
 
 

@@ -7,7 +7,10 @@ import matplotlib
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Case, InputError, Traces, open_result, simulate
+from macroslip import BearingLoads, Case, InputError, Laws, Traces, open_result, simulate
+from macroslip.result.surface_maps import energy_density
+
+pytestmark = pytest.mark.slow
 
 matplotlib.use("agg")
 
@@ -49,6 +52,31 @@ def test_every_picture_is_drawn_on_new_axes_or_on_those_given(result, name):
     projection = {"projection": "polar"} if name == "orbit" else {}
     axes = Figure().add_subplot(**projection)
     assert draw(axes=axes) is axes
+
+
+def test_maps_are_those_of_the_result():
+    from matplotlib import pyplot
+
+    loads = BearingLoads.constant([0.0, -343.5e3, 100e3], 2.143, 8.0)
+    result = simulate(Case(loads=loads, rollers=[0], laws=Laws.physical()))
+    for quantity, density in (("energy", energy_density(result)), ("power", result.surface_power_density)):
+        drawn = result.macroslip.plot.maps(quantity)
+        assert [axes.get_title(loc="left") for axes in drawn] == [
+            f"{row} row, {raceway} raceway" for row in ("downwind", "upwind") for raceway in ("outer", "inner")
+        ]
+        for axes, row, raceway in zip(drawn, ["downwind"] * 2 + ["upwind"] * 2, ["outer", "inner"] * 2, strict=True):
+            (image,) = axes.images
+            values = 1e-6 * density.sel(row=row, raceway=raceway).values
+            assert image.get_array().sum() == pytest.approx(values.sum(), rel=1e-12) and values.sum() >= 0.0
+    _, own = pyplot.subplots(1, 4)
+    assert result.macroslip.plot.maps(axes=own)[3] is own[3]
+    with pytest.raises(InputError, match="'energy' or 'power'"):
+        result.macroslip.plot.maps("heat")
+
+
+def test_without_microslip_there_are_no_maps(result):
+    with pytest.raises(InputError, match="microslip"):
+        result.macroslip.plot.maps()
 
 
 def test_pictures_that_need_traces_say_so(result):

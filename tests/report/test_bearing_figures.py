@@ -14,6 +14,8 @@ from macroslip.reproduction.sensitivity_figures import plot_tornado
 from macroslip.reproduction.solver_figures import plot_cage_energy
 from macroslip.result.orbit_profile import orbit_profile
 
+pytestmark = pytest.mark.slow
+
 ROWS, INTERFACES = ["downwind", "upwind"], ["inner", "outer", "cage"]
 
 

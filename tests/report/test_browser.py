@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from macroslip.bearing import Bearing
-from macroslip.report.page import Beside, Pictures, Points, Section, Statements, Table, Verbatim, render
+from macroslip.report.page import Beside, Opening, Pictures, Points, Section, Statements, Table, Verbatim, render
 from macroslip.report.pictures import picture
 from macroslip.report.results_page import results_page
 from macroslip.result.orbit_scene import scene
+
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +34,7 @@ def opened(browser, file):
     """Open the page offline at a width [px]; gives it with everything it asked for and complained of."""
     contexts = []
 
-    def at(width=1280, **options):
+    def at(width=1280, anchor="#bearing", **options):
         context = browser.new_context(viewport={"width": width, "height": 900}, offline=True, **options)
         contexts.append(context)
         page = context.new_page()
@@ -40,7 +42,7 @@ def opened(browser, file):
         context.on("request", lambda request: page.requests.append(request.url))
         page.on("console", lambda message: page.complaints.append(message.text))
         page.on("pageerror", lambda error: page.complaints.append(str(error)))
-        page.goto(file.as_uri())
+        page.goto(file.as_uri() + anchor)
         return page
 
     yield at
@@ -69,6 +71,9 @@ def test_it_opens_without_network_errors_or_sideways_scrolling(opened, file, wid
     print(f"interactive {ready} ms after the start of the page, {width} px wide")
     assert page.complaints == []
     assert [url for url in page.requests if not url.startswith("data:")] == [file.as_uri()]
+    if width == 390:
+        page.get_by_text("Contents").click()
+    page.get_by_role("button", name="Open all").click()
     wide = page.evaluate("[document.documentElement.scrollWidth, document.documentElement.clientWidth]")
     assert wide[0] <= wide[1] <= width
     broken = page.eval_on_selector_all("img", "all => all.filter(one => !one.naturalWidth).length")
@@ -217,12 +222,75 @@ def test_a_finger_on_a_telephone_chooses_a_roller(opened):
     assert page.locator(".view button").bounding_box()["height"] >= 44
 
 
-def test_print_leaves_the_controls_out(opened):
-    page = opened()
+def test_print_has_everything_but_the_controls(opened):
+    page = opened(anchor="")
+    assert page.locator(".rings").is_hidden()
     page.emulate_media(media="print")
-    assert page.locator(".controls").is_hidden()
-    assert page.locator("nav").is_hidden()
+    for name in (".controls", "nav", ".time"):
+        assert page.locator(name).is_hidden()
     assert page.locator("h1").is_visible()
+    # Also where no script opened what is folded.
+    assert page.locator("details.fold[open]").count() == 0
+    assert page.locator(".rings").is_visible() and page.locator(".verbatim").is_visible()
+    page.emulate_media(media="screen")
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    assert page.locator("details.fold:not([open])").count() == 0
+    page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    assert page.locator("details.fold[open]").count() == 0
+
+
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (1920, 1080)])
+def test_the_opening_fits_on_one_screen(opened, width, height):
+    page = opened(width, anchor="")
+    box = page.locator("#answer").bounding_box()
+    assert box["y"] + box["height"] <= height
+    assert page.locator("#answer p").count() == 5 and page.locator("#answer img").count() == 4
+
+
+def test_contents_lead_to_folded_sections(opened):
+    page = opened(anchor="")
+    assert page.locator("details.fold[open]").count() == 0
+    page.get_by_role("link", name="Films").click()
+    assert page.locator("details.fold[open]").count() == 1
+    films = page.locator("#films")
+    assert films.locator("img").first.is_visible() and 0 <= films.bounding_box()["y"] < 200
+    assert page.locator("nav a[aria-current]").inner_text() == "Films"
+    # They stay in sight beside a wide page.
+    assert page.locator("nav").bounding_box()["y"] >= 0
+    page.get_by_role("button", name="Fold all").click()
+    assert page.locator("details.fold[open]").count() == 0
+    # The same link once more: its section is opened again.
+    page.get_by_role("link", name="Films").click()
+    assert films.locator("img").first.is_visible()
+
+
+def test_contents_are_folded_above_a_narrow_page(opened):
+    page = opened(390, anchor="")
+    link = page.get_by_role("link", name="Films")
+    assert link.is_hidden()
+    page.get_by_text("Contents").click()
+    link.click()
+    assert link.is_hidden() and page.locator("#films img").first.is_visible()
+
+
+def test_a_link_from_outside_opens_its_section(opened):
+    page = opened(anchor="#provenance")
+    assert page.locator("#provenance .verbatim").is_visible()
+    assert page.locator("details.fold[open]").count() == 1
+
+
+def test_text_that_is_searched_for_opens_its_section(opened):
+    """A text fragment is found as the search in a page finds text."""
+    page = opened(anchor="#:~:text=engineering%20estimate")
+    page.wait_for_function("document.querySelectorAll('details.fold[open]').length > 0")
+    assert page.locator("#provenance > details").get_attribute("open") is not None
+
+
+def test_a_keyboard_opens_a_section(opened):
+    page = opened(anchor="")
+    page.locator("#films summary").focus()
+    page.keyboard.press("Enter")
+    assert page.locator("#films img").first.is_visible()
 
 
 @pytest.mark.parametrize("width", [1280, 390])
@@ -239,11 +307,14 @@ def test_no_kind_of_block_makes_the_page_scroll_sideways(browser, tmp_path, widt
         Table(tuple("abcdefgh"), (("a long cell of text",) * 8,), long),
     )
     path = tmp_path / "page.html"
-    path.write_text(render("Title", long, (Section("one", long, blocks),)), encoding="utf-8")
+    path.write_text(
+        render("Title", long, Opening((long,) * 5, (drawn[0],) * 4), (Section("one", long, blocks, long, long),)),
+        encoding="utf-8",
+    )
     context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
     try:
         page = context.new_page()
-        page.goto(path.as_uri())
+        page.goto(path.as_uri() + "#one")
         assert page.evaluate("document.documentElement.scrollWidth") <= width
         # A wide picture keeps its letters, in a frame of its own.
         assert page.locator("img.wide").bounding_box()["width"] == pytest.approx(9.0 * 96.0, abs=1.0)

@@ -1,6 +1,7 @@
 """Pages on results: what stands in them, what is refused, and that they are one self-contained file."""
 
 import base64
+import json
 import re
 
 import numpy as np
@@ -11,9 +12,11 @@ from macroslip import BearingLoads, Case, InputError, simulate
 from macroslip.bearing import Bearing
 from macroslip.report.bearing_view import LEAST_POWER, MISSING, quantise, scene_data
 from macroslip.report.bibliography import bibtex
-from macroslip.report.page import Paragraph, Section, Table, View, render
+from macroslip.report.page import Opening, Paragraph, Section, Table, View, render
 from macroslip.report.results_page import results_page
 from macroslip.result.orbit_scene import scene
+
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +28,59 @@ def bare():
 @pytest.fixture(scope="module")
 def page(result):
     return results_page({"fourteen": result}, title="Four rollers")
+
+
+def opening(page):
+    (text,) = re.findall(r'<section id="answer">.*?</section>', page, re.DOTALL)
+    return text
+
+
+def sentences(page):
+    return re.findall(r"<p[^>]*>(.*?)</p>", opening(page))
+
+
+def test_the_opening_has_the_numbers_in_five_sentences_and_four_figures(page, result):
+    told = sentences(page)
+    assert len(told) == 5 and opening(page).count("<img") == 4
+    energy = result.energy.sum("interface").mean("roller")
+    for row in ("downwind", "upwind"):
+        assert f"{float(energy.sel(row=row)):.3g} J {row}" in told[0]
+        assert f"{float(result.min_spin_ratio.sel(row=row).min()):.3g} of pure rolling {row}" in told[2]
+        load = result.roller_load.sel(row=row)
+        found = float(re.search(rf"([\d.e-]+) % {row}", told[2])[1])
+        assert found == pytest.approx(100.0 * float((load > 0.0).mean()), rel=5e-3)
+    place = result.peak_power.where(result.peak_power == result.peak_power.max(), drop=True)
+    where = "cage" if (interface := place.interface.item()) == "cage" else f"{interface} raceway"
+    assert f"{float(place.max()):.3g} W, at the {where} of a roller of the {place.row.item()} row" in told[1]
+    given = json.loads(result.attrs["input"])
+    tags = [one["tag"] for part in ("bearing", "lubricant") for one in given[part].values() if isinstance(one, dict)]
+    assert f"{tags.count('E')} of {len(tags)} values of bearing and lubricant are engineering estimates" in told[3]
+    assert told[4] == "All 8 rollers completed."
+
+
+def test_several_results_are_compared_in_the_opening(result):
+    less = result.copy(deep=True)
+    less["energy"] = 0.5 * less.energy
+    page = results_page({"whole": result, "half": less})
+    assert "the " not in sentences(page)[0] and "2 results are compared" in sentences(page)[0]
+    energy = result.energy.sum("interface").mean("roller")
+    most = str(energy.row[int(np.argmax(energy.values))].item())
+    assert f"The {most} row of whole dissipates most, {float(energy.max()):.3g} J a roller." in sentences(page)
+    assert opening(page).count("<img") == 4
+    # Their sections are told apart, in the contents too.
+    assert page.count('<span class="group">whole</span>') > 3 and 'id="energy-1"' in page
+
+
+def test_an_opening_is_kept_short():
+    with pytest.raises(ValueError, match="five sentences and four pictures"):
+        Opening(("one",) * 6, ())
+
+
+def test_every_section_is_in_the_contents_and_can_be_folded(page):
+    names = re.findall(r'<section id="([^"]+)"', page)
+    assert re.findall(r'<li><a href="#([^"]+)"', page) == names
+    assert page.count('<details class="fold">') == len(names) - 1
+    assert {"answer", "numbers", "bearing", "energy", "power", "load-zone", "films", "provenance"} <= set(names)
 
 
 def test_a_page_refers_to_nothing_outside_itself(page):
@@ -83,7 +139,7 @@ def test_failed_rollers_are_told_first(result):
     for name in ("energy", "orbit_energy", "peak_power"):
         failed[name].loc[{"row": "upwind", "roller": 7}] = np.nan
     page = results_page({"one": failed})
-    assert "1 of 8 rollers FAILED" in page
+    assert "1 of 8 rollers FAILED" in opening(page).split("</p>")[0]
     assert "roller 7 of the upwind row ended at t = " in page and "the step limit was reached" in page
 
 
@@ -119,8 +175,8 @@ def test_what_is_no_result_is_refused(results, message):
 
 def test_names_are_escaped_wherever_they_stand(hostile):
     table = Table((hostile,), ((hostile,),), hostile)
-    section = Section("a", hostile, (Paragraph(hostile), table, View({hostile: {}})))
-    page = render(hostile, hostile, (section,))
+    section = Section("a", hostile, (Paragraph(hostile), table, View({hostile: {}})), hostile, hostile)
+    page = render(hostile, hostile, Opening((hostile,), ()), (section,))
     assert "<img" not in page and "7*7" in page
     assert page.count("<script") == page.count("</script>") == 2
     assert "</script><" not in page.split('class="scenes">')[1].split("</script>")[0]

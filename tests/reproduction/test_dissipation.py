@@ -8,6 +8,8 @@ from macroslip.reproduction.dissipation import PARTS, dissipation, explained, kn
 from macroslip.reproduction.paper_numbers import paper_numbers
 from macroslip.reproduction.statement import AGREES, Statement
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def study(small_paper_study):
@@ -46,7 +48,10 @@ def test_stations_add_up_to_the_raceways_energy(study, parts):
 def test_microslip_dissipates_downwind_where_the_load_is(parts):
     down = parts.part_energy.sel(row="downwind")
     micro = down.sel(part=[one for one in PARTS if "," in one and "sliding" not in one]).sum("part")
-    assert (micro > 0.95 * down.sum("part")).all()
+    cage = down.sel(part="cage")
+    assert (micro > 0.95 * (down.sum("part") - cage)).all()
+    # Rolling resistance presses the rollers against the cage.
+    assert ((cage > 0.02 * micro) & (cage < 0.2 * micro)).all()
     assert ((parts.asperity_share >= 0.0) & (parts.asperity_share < 1.0)).all()
 
 

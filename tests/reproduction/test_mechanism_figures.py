@@ -15,7 +15,7 @@ from macroslip.reproduction.mechanism_figures import (
     shown,
 )
 from macroslip.reproduction.torque_figures import plot_torque, torque_figure
-from macroslip.reproduction.uncertainty_figures import plot_correlations, plot_ranges, uncertainty_figure
+from macroslip.reproduction.uncertainty_figures import plot_correlations, plot_indices, plot_ranges, uncertainty_figure
 from macroslip.torque import TorqueHistory
 
 CASES, ROWS = ["12A", "12B", "24B"], ["downwind", "upwind"]
@@ -67,6 +67,9 @@ def summary():
             "range": (("quantity", "quantile"), [[1.0, 2.0, 4.0], [50.0, 80.0, 100.0]]),
             "rank_correlation": (("quantity", "parameter"), [[0.9, -0.2], [np.nan, -0.8]]),
             "probability": (("quantity", "parameter"), [[1e-6, 0.4], [np.nan, 1e-4]]),
+            "first_order": (("quantity", "parameter"), [[0.8, 0.0], [np.nan, 0.5]]),
+            "total_order": (("quantity", "parameter"), [[0.9, 0.01], [np.nan, 0.5]]),
+            "explained": ("quantity", [0.93, np.nan]),
         },
         {
             "quantity": ["energy", "ratio"],
@@ -114,6 +117,13 @@ def test_ranges_and_correlations(axes, summary):
     other = plot_correlations(new_figure(4.0, 3.0)[1][0], summary)
     assert [text.get_text() for text in other.texts] == ["+", "−"]
     assert len(other.collections) == 3
+
+
+def test_indices_are_drawn_where_they_are_worth_telling(axes, summary):
+    plot_indices(axes, summary)
+    sizes = [float(one.get_sizes()[0]) for one in axes.collections]
+    assert sizes == pytest.approx([330.0 * part for part in (0.9, 0.8, 0.5, 0.5)])
+    assert [text.get_text() for text in axes.texts] == ["0.93"]
 
 
 def test_torque_over_a_part_of_the_history(axes):

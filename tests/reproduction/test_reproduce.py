@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import shutil
 from functools import partial
 from pathlib import Path
 
@@ -19,6 +20,9 @@ from macroslip.reproduction.single_roller import inflexion_angle, static_load, s
 from macroslip.reproduction.solver_experiments import nonlinear_tolerance, step_size
 from macroslip.reproduction.stability import compare_stability
 from macroslip.reproduction.statement import AGREES, DIFFERS, NOT_COMPUTED, PARTLY, UNKNOWN
+from macroslip.reproduction.studies import FOLDER, computed
+
+pytestmark = pytest.mark.slow
 
 SMALL = {"rollers": [0, 14], "window": Window(end=30.0)}
 #: Studies of the reproduction, made small.
@@ -274,6 +278,15 @@ def quick(monkeypatch, small, experiments):
     return partial(module.reproduce, threads=1)
 
 
+@pytest.fixture(scope="module")
+def paper_studies(small, tmp_path_factory):
+    """Results of the studies under the paper's model, as a run that was stopped leaves them."""
+    folder = tmp_path_factory.mktemp("studies")
+    for stage in ("study", "detail", "sensitivity"):
+        computed(small(f"{stage}_paper", **STUDIES[stage]), folder / f"{stage}_paper", may_fail=True)
+    return folder
+
+
 def test_everything_is_written_says_the_same_and_is_used_again(quick, study, monkeypatch, tmp_path):
     target = tmp_path / "results"
     target.mkdir()
@@ -318,7 +331,8 @@ def test_everything_is_written_says_the_same_and_is_used_again(quick, study, mon
     }
 
 
-def test_the_physical_model_gets_its_own_column_sections_and_files(quick, monkeypatch, tmp_path):
+def test_the_physical_model_gets_its_own_column_sections_and_files(quick, paper_studies, monkeypatch, tmp_path):
+    shutil.copytree(paper_studies, tmp_path / "results" / FOLDER)
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
     only(monkeypatch, paper=Laws.paper(), physical=Laws.physical())
     calls = []
@@ -355,7 +369,7 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, monkey
     page = (tmp_path / "results" / "report.html").read_text(encoding="utf-8")
     for words in (
         "Under <em>physical</em>",
-        'id="rollers-physical"',
+        'id="films-physical"',
         "Figure 4a: energy over mean wind speed (model physical)",
         "case 14B, model physical",
         "Figure 3a: constant load and speed (model physical)",
@@ -367,11 +381,13 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, monkey
         assert words in page
 
 
-def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
+def test_failed_rollers_head_the_summary(quick, paper_studies, study, monkeypatch, tmp_path):
+    shutil.copytree(paper_studies, tmp_path / "results" / FOLDER)
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
     monkeypatch.setattr(model_run, "paper_study", lambda directory: with_failed_roller(study))
     monkeypatch.setattr(module, "_save", lambda *arguments: None)
     summary = quick(tmp_path / "results")
+    assert summary["reused"] == ["study_paper", "detail_paper", "sensitivity_paper"]
     assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")
     assert summary["failed_rollers"]["study_by_case"] == {"14B": 1}
     assert summary["figures"]["4b"]["data_vars"]["energy_ratio"]["data"][2] is None
@@ -380,13 +396,15 @@ def test_failed_rollers_head_the_summary(quick, study, monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("exists", [False, True])
-def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(quick, monkeypatch, tmp_path, exists):
+def test_a_failure_in_the_middle_leaves_nothing_that_looks_finished(
+    quick, paper_studies, monkeypatch, tmp_path, exists
+):
     from macroslip.reproduction import paper_figures
 
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
     target = tmp_path / "results"
     if exists:
-        target.mkdir()
+        shutil.copytree(paper_studies, target / FOLDER)
         (target / "summary.json").write_text("old")
 
     def broken(turns):

@@ -9,6 +9,8 @@ from macroslip import simulate
 from macroslip.reproduction.sensitivity import VARIATIONS, sensitivity
 from macroslip.reproduction.studies import base_case, computed, reproduction_study
 
+pytestmark = pytest.mark.slow
+
 SHORT = {"rollers": [0, 14], "loads": {"end": "16 s"}}  # holds a roller load of 110 kN
 
 

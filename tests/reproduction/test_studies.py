@@ -7,6 +7,8 @@ from macroslip.reproduction.model_run import DETAILED_CASE, MODELS
 from macroslip.reproduction.paper_study import paper_study
 from macroslip.reproduction.studies import base_case, computed, reproduction_study
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("stage", ["study", "detail", "sensitivity"])
@@ -17,8 +19,8 @@ def test_every_study_has_the_laws_of_its_model(stage, model):
 def test_the_sample_is_of_the_physical_model_and_shorter_loads():
     study = reproduction_study("uncertainty_physical")
     case = base_case(study)
-    assert (case.laws, float(case.loads.time[-1]), case.roller_numbers) == (Laws.physical(), 200.0, (0,))
-    assert len(study) == 3 * 65
+    assert (case.laws, float(case.loads.time[-1]), case.roller_numbers) == (Laws.physical(), 100.0, (0,))
+    assert len(study) == 2 * 129
 
 
 def test_the_detailed_case_is_one_of_the_study():

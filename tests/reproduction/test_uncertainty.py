@@ -11,12 +11,16 @@ from macroslip.reproduction.uncertainty import uncertainty
 from macroslip.reproduction.uncertainty_summary import (
     drivers,
     quantities,
+    robust,
     sample_size,
+    strongest,
     uncertainty_summary,
     with_uncertainty,
 )
 from macroslip.study.build import template
 from macroslip.study.study_file import study_of
+
+pytestmark = pytest.mark.slow
 
 SHORT = {"loads": {"end": "14 s"}}
 
@@ -60,7 +64,10 @@ def test_values_carry_the_names_of_their_keys(made, sample):
     assert found["hub to bearing"] == point["drivetrain.hub_to_bearing"]
     assert found["roller diameter"] == pytest.approx(1e3 * point["bearing.roller_diameter"])
     assert found["inlet temperature"] == pytest.approx(point["lubricant.at"] - 273.15)
-    assert all(one.low <= found[one.name] <= one.high for one in VALUES)
+    assert found["contact angle"] == pytest.approx(np.rad2deg(point["bearing.contact_angle"]))
+    assert ("limiting-shear", "eyring")[int(found["law of shear"])] == point["laws.rheology"]
+    assert all(one.low * (1 - 1e-12) <= found[one.name] <= one.high * (1 + 1e-12) for one in VALUES)
+    assert np.isnan(sample.value.values[0]).all()
 
 
 def test_the_torque_is_work_over_angle(sample):
@@ -68,6 +75,19 @@ def test_the_torque_is_work_over_angle(sample):
     turns = (0.338367 + 0.407033) / 0.338367
     work = 28 * sample.orbit_energy.sel(sample=0).sum(("row", "interface"))
     np.testing.assert_allclose(sample.torque.sel(sample=0), work / (2.0 * np.pi * turns), rtol=1e-5)
+
+
+def test_the_friction_power_has_rolling_and_drag_in_it(made, sample):
+    from dataclasses import replace
+
+    from macroslip import HubLoads
+    from macroslip.result.thermal_balance import friction_power
+
+    case = replace(base_case(made), loads=HubLoads.bundled("12B").window(None, 14.0))
+    power = friction_power(simulate(case))
+    assert float(sample.friction_power.sel(sample=0, case="12B")) == pytest.approx(power, rel=1e-12)
+    sliding = sample.torque.sel(sample=0, case="12B") * case.loads.shaft_speed.mean()
+    assert power > 2.0 * float(sliding)  # the inlets take most
 
 
 def test_a_refused_sample_is_counted_with_its_reason(made, tmp_path):
@@ -96,10 +116,12 @@ def test_a_failed_roller_takes_its_sample_out_and_is_counted(made, tmp_path):
 
 def synthetic(sample, count=32):
     """A sample in which energy downwind follows the first value, and both ratios fall over wind speed."""
-    values = np.linspace(0.0, 1.0, count + 1)[:, None] * np.ones(sample.sizes["parameter"])
-    values[:, 1:] = np.random.default_rng(1).permuted(values[:, 1:], axis=0)
+    places = np.linspace(0.0, 1.0, count + 1)[:, None] * np.ones(sample.sizes["parameter"])
+    places[:, 1:] = np.random.default_rng(1).permuted(places[:, 1:], axis=0)
+    numbers = [[one.low + place * (one.high - one.low) for place in places[:, k]] for k, one in enumerate(VALUES)]
+    values = np.array(numbers).T
     energy = np.ones((count + 1, 2, 2, 3))
-    energy[:, 0, 0] *= 9.0 + values[:, :1]
+    energy[:, 0, 0] *= 9.0 + places[:, :1]
     peak = np.broadcast_to(np.array([[4.0, 1.0], [3.0, 1.0]]), (count + 1, 2, 2))
     window = np.broadcast_to(np.array([2.0, 1.0]), (count + 1, 2))
     dims = {"orbit_energy": ("sample", "case", "row", "interface"), "peak_power": ("sample", "case", "row")}
@@ -108,6 +130,7 @@ def synthetic(sample, count=32):
         "peak_power": (dims["peak_power"], peak),
         "window_energy": (("sample", "case"), window),
         "torque": (("sample", "case"), window),
+        "friction_power": (("sample", "case"), window),
         "value": (("sample", "parameter"), values),
         "outcome": ("sample", np.zeros(count + 1, dtype=np.int8)),
         "reason": ("sample", [""] * (count + 1)),
@@ -120,10 +143,13 @@ def test_ranges_drivers_and_trends_follow_the_numbers(sample):
     made = synthetic(sample)
     found = quantities(made)
     name = "energy, downwind / upwind, 12B"
-    np.testing.assert_allclose(found.result.sel(quantity=name), 9.0 + made.value[:, 0])
+    np.testing.assert_allclose(found.result.sel(quantity=name), 9.0 + made.value[:, 0] / 0.4)
     # A quantity that does not change has no rank; that is no driver, and said by no number.
     summary = uncertainty_summary(made.assign(torque=made.torque + made.value[:, 0]))
     assert drivers(summary, name)[0] == (str(VALUES[0].name), pytest.approx(1.0))
+    # The one value that moves it has all of its variance, and the fit foretells it.
+    assert strongest(summary, name) == [(VALUES[0].name, pytest.approx(1.0, abs=0.02), pytest.approx(1.0, abs=0.02))]
+    assert float(summary.explained.sel(quantity=name)) > 0.99
     low, middle, high = summary.range.sel(quantity=name).values
     assert low < middle < high
     assert middle == pytest.approx(9.5, abs=0.05)
@@ -131,6 +157,15 @@ def test_ranges_drivers_and_trends_follow_the_numbers(sample):
     assert shares["energy ratio within a factor of 2 of 10, any case"] == 1.0
     assert shares["ratio of peak powers falls from case to case of 12B, 24B"] == 1.0
     assert shares["cage takes at least half of the energy of both rows, any case"] == 0.0
+    words = dict(robust(summary))
+    assert words["energy highest in 12B of 12B, 24B"] == "robust"
+    assert words["cage takes at least half of the energy of both rows, any case"] == "robustly not so"
+    half = made.window_energy.copy()
+    half[1:9] = half[1:9, ::-1].values
+    assert (
+        dict(robust(uncertainty_summary(made.assign(window_energy=half))))["energy highest in 12B of 12B, 24B"]
+        == "not robust"
+    )
     swapped = made.peak_power.isel(case=[1, 0]).assign_coords(case=made.case)
     contrary = uncertainty_summary(made.assign(peak_power=swapped))
     assert float(contrary.trend_share.sel(trend="ratio of peak powers highest in 12B")) == 0.0

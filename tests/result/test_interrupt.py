@@ -10,6 +10,8 @@ import time
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 #: Seconds from the interrupt to the end of the process.
 PROMISED = 2.0
 

@@ -13,6 +13,8 @@ from macroslip.result.orbit_scene import scene
 from macroslip.result.run_input import run_input
 from macroslip.result.traced_power import traced_power
 
+pytestmark = pytest.mark.slow
+
 SPEED = 2.1
 
 

@@ -8,6 +8,8 @@ import pytest
 from macroslip import BackwardEuler, BearingLoads, Case, HubLoads, InputError, Laws, Traces, simulate
 from macroslip.result.surface_maps import energy_density, roller_energy_density, share_above
 
+pytestmark = pytest.mark.slow
+
 SPLIT = ("slip_sign", "film_regime")
 
 
@@ -113,12 +115,14 @@ def test_film_regimes_follow_the_films(weight):
     assert float(energy.sel(film_regime="1 and above")) > 0.0
 
 
-def test_the_largest_power_per_area_is_that_of_the_orbits(turbulent):
-    found = turbulent.surface_power_density.max(("angle", "station")).transpose("row", "raceway").values
-    if turbulent.sizes["orbit"]:
-        expected = turbulent.power_density.sel(interface=["inner", "outer"]).max(("roller", "orbit")).values
-        assert (found >= expected * (1.0 - 1e-12)).all()
-    assert (found > 0.0).all()
+def test_the_largest_power_per_area_is_that_of_the_orbits():
+    loads = HubLoads.bundled("14B").window(0.0, 16.0)
+    result = simulate(Case(loads=loads, laws=Laws.physical(), rollers=[0]))
+    found = result.surface_power_density.max(("angle", "station")).transpose("row", "raceway").values
+    expected = result.power_density.sel(interface=["inner", "outer"]).max(("roller", "orbit")).values
+    assert result.sizes["orbit"] >= 1
+    # The maps take the time before the first and after the last whole orbit too.
+    assert (found >= expected * (1.0 - 1e-12)).all() and (expected > 0.0).all()
 
 
 def test_thresholds_are_the_users(turbulent):

@@ -8,6 +8,8 @@ from macroslip.errors import InputError
 from macroslip.result.run_input import run_input
 from macroslip.result.thermal_balance import friction_power
 
+pytestmark = pytest.mark.slow
+
 LOADS = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=2.143, duration=9.0)
 
 

@@ -7,6 +7,8 @@ from macroslip import Bearing, BearingLoads, Case, rate_case, simulate
 from macroslip.result.rating import with_rating
 from macroslip.study.rating_values import VARIABLES, rating_values
 
+pytestmark = pytest.mark.slow
+
 LOADS = BearingLoads.constant([0.0, -400e3, 60e3], 2.1, 1.0)
 
 

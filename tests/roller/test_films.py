@@ -14,6 +14,8 @@ from macroslip.roller.forces import INNER, OUTER, Station, net_force, slip_force
 from macroslip.roller.model import roller_model
 from macroslip.rolling.light_contact import light_contact, pocket_contact
 
+pytestmark = pytest.mark.slow
+
 BEARING = Bearing.read("skf-240-600-bc")
 OIL = Lubricant.read("vg460-pao")
 FLOODED = OIL.replace(fullness=1.0, inlet_film=1e6)

@@ -9,6 +9,8 @@ from macroslip.film.moes import moes
 from macroslip.rolling.elastic_line import RIGID, Inlet, WholeFilm, line_rolling, log_elastic
 from macroslip.rolling.martin import FLOW, SHEAR
 
+pytestmark = pytest.mark.slow
+
 GRID = [
     (0.1, 13.4),
     (0.6, 4.0),

@@ -11,6 +11,8 @@ from macroslip.errors import InputError
 from macroslip.rolling import martin
 from macroslip.rolling.gap import GapShape, film_at_gap, film_at_load, prepare_gap, ratios
 
+pytestmark = pytest.mark.slow
+
 
 def finite_elements(kappa, aspect, nodes=(120, 28)):
     """Load and rolling integrals by bilinear elements and Gauss points on X = c tan θ, with projected Newton steps."""

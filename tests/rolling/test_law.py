@@ -17,6 +17,8 @@ from macroslip.rolling.film import light_film
 from macroslip.rolling.gap import film_at_load
 from macroslip.rolling.law import LOWEST_SPEED, NoRolling, beside_ellipse, prepare_rolling, rolling_resistance
 
+pytestmark = pytest.mark.slow
+
 SPEED = 0.396
 SHAFT_SPEED = 20.463 * math.pi / 30.0
 

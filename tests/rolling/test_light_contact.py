@@ -13,6 +13,8 @@ from macroslip.rolling.gap import GapShape
 from macroslip.rolling.law import prepare_rolling, rolling_resistance
 from macroslip.rolling.light_contact import contact_at_gap, light_contact
 
+pytestmark = pytest.mark.slow
+
 SPEED = 0.396
 
 

@@ -21,6 +21,8 @@ from macroslip import InputError, MacroslipError, open_study, run_study  # noqa:
 from macroslip.study import cluster as module  # noqa: E402
 from macroslip.study.study_file import study_of  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 
 def listening(process):
     """Addresses and ports that a process and its children listen on."""

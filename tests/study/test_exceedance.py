@@ -10,6 +10,8 @@ from macroslip.study.export import tables, write_tables
 from macroslip.study.study_file import study_of
 from macroslip.study.weights import YEAR, Given, Weibull
 
+pytestmark = pytest.mark.slow
+
 WEIGHTS = Given({12.0: 0.6, 14.0: 0.3})
 
 

@@ -14,6 +14,8 @@ from macroslip.study import journal as journal_module
 from macroslip.study import tables as tables_module
 from macroslip.study.study_file import study_of
 
+pytestmark = pytest.mark.slow
+
 
 def complete(out, count):
     """All results are there, sound and finite."""

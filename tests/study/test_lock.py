@@ -9,6 +9,8 @@ import pytest
 from macroslip import InputError
 from macroslip.study.lock import locked
 
+pytestmark = pytest.mark.slow
+
 HOLD = (
     "import sys; from pathlib import Path; from macroslip.study.lock import locked\n"
     "with locked(Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"

@@ -9,6 +9,8 @@ from macroslip.study.store import from_bytes, to_bytes
 from macroslip.study.study_file import study_of
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def directory(tmp_path_factory):

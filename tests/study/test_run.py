@@ -11,6 +11,8 @@ from macroslip.study.reader import stored_results
 from macroslip.study.study_file import study_of
 from macroslip.study.summary import ALWAYS_KEPT
 
+pytestmark = pytest.mark.slow
+
 
 def test_results_are_those_of_simulate(tmp_path, load_files, content):
     ended = run_study(study_of(content, load_files), tmp_path / "out")

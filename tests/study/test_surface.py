@@ -11,6 +11,8 @@ from macroslip.study.study_file import study_of
 from macroslip.study.surface import weighted_maps
 from macroslip.study.weights import Given
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):

@@ -7,6 +7,8 @@ from macroslip import Bearing, BearingLoads, Case, Laws, Traces, simulate
 from macroslip.bearing import geometry
 from macroslip.torque import computed_torque
 
+pytestmark = pytest.mark.slow
+
 #: Thrust alone, without weight: every roller of a row runs as all others, and after some seconds steadily.
 LOADS = BearingLoads.constant([0.0, 0.0, 150e3], shaft_speed=2.143, duration=8.0)
 TRACES = Traces(step=1.0, start=8.0)

@@ -21,6 +21,8 @@ from macroslip.traction.chord import characteristic_stress, chord_stress, log_vi
 from macroslip.traction.chord_table import HIGHEST_PRESSURE, chord_table, film_place, interpolated_stress
 from macroslip.traction.film_shear import heated_shear
 
+pytestmark = pytest.mark.slow
+
 OIL = Lubricant.read("vg460-pao")
 FULL = Laws.physical()
 #: Laws, and the errors promised: everywhere without skids, at the 99th percentile with skids, and at worst.

@@ -23,6 +23,8 @@ from macroslip.traction.film_shear_law import (
 )
 from macroslip.traction.slip_field import SlipField, slip_at
 
+pytestmark = pytest.mark.slow
+
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 FULL = Laws.physical()
 RADIUS, GAMMA = 0.035, 0.042

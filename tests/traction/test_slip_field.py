@@ -76,10 +76,8 @@ def test_slip_is_that_of_rigid_bodies(models, sign, speed, ring, skid):
     of_ring = speed - orbital if ring == "inner" else -orbital
     bracket = spin - of_ring * math.cos(ALPHA)
     assert field.curvature_rate == pytest.approx(bracket, rel=1e-12)
-    assert field.spin_rate == pytest.approx(-of_ring * sign * math.sin(ALPHA), rel=1e-12) if ring == "inner" else True
-    if ring == "outer":
-        assert field.spin_rate == pytest.approx(-orbital * sign * math.sin(ALPHA), rel=1e-12)
-        assert field.curvature_rate == pytest.approx(spin + orbital * math.cos(ALPHA), rel=1e-12)
+    past = of_ring if ring == "inner" else -of_ring
+    assert field.spin_rate == pytest.approx(-past * sign * math.sin(ALPHA), rel=1e-12)
 
 
 @rows

@@ -8,7 +8,7 @@ from numba.core.errors import TypingError
 from scipy.interpolate import BSpline, NdBSpline
 
 from macroslip.compiled import jit
-from macroslip.traction.spline_cell import along_line, in_cell
+from macroslip.traction.spline_cell import along_line, channels_in_cell, channels_in_square, in_cell
 
 SHAPE = (9, 7, 12)
 COEFFICIENTS = np.random.default_rng(4).normal(size=SHAPE)
@@ -26,6 +26,16 @@ def line(coefficients, cell, place):
 @jit
 def cell(coefficients, cells, first, third, weights):
     return in_cell(coefficients, cells, first, third, weights)
+
+
+@jit
+def four_in_cell(coefficients, cells, places):
+    return channels_in_cell(coefficients, cells, places)
+
+
+@jit
+def four_in_square(coefficients, cells, places):
+    return channels_in_square(coefficients, cells, places)
 
 
 def split(place, count):
@@ -63,3 +73,26 @@ def test_a_cell(x, y, z):
 def test_other_arrays_are_refused_and_not_misread(coefficients):
     with pytest.raises(TypingError, match="coefficients of a spline are an array of float64"):
         cell(coefficients, (0, 0, 0), 0.5, 0.5, (0.0, 0.0, 0.0, 1.0))
+
+
+@given(x=places[0], y=places[1], z=places[2])
+def test_four_splines_in_a_cell(x, y, z):
+    four = np.stack([COEFFICIENTS * (n + 1) + n for n in range(4)], axis=-1)
+    cells, there = zip(*(split(place, count) for place, count in zip((x, y, z), SHAPE, strict=True)), strict=True)
+    value, by_third = four_in_cell(four, cells, there)
+    spline = NdBSpline(tuple(KNOTS), COEFFICIENTS, 3)
+    expected, slope = float(spline((x, y, z))), float(spline((x, y, z), nu=(0, 0, 1)))
+    np.testing.assert_allclose(value, [expected * (n + 1) + n for n in range(4)], atol=1e-12)
+    np.testing.assert_allclose(by_third, [slope * (n + 1) for n in range(4)], atol=1e-12)
+
+
+@given(x=places[0], y=places[1])
+def test_four_splines_in_a_square(x, y):
+    four = np.stack([COEFFICIENTS[..., 0] * (n + 1) + n for n in range(4)], axis=-1)
+    cells, there = zip(*(split(place, count) for place, count in zip((x, y), SHAPE[:2], strict=True)), strict=True)
+    found = four_in_square(four, cells, there)
+    spline = NdBSpline(tuple(KNOTS[:2]), COEFFICIENTS[..., 0], 3)
+    for order, values in zip(((0, 0), (1, 0), (0, 1)), found, strict=True):
+        expected = float(spline((x, y), nu=order))
+        constant = np.arange(4.0) if order == (0, 0) else 0.0
+        np.testing.assert_allclose(values, expected * np.arange(1.0, 5.0) + constant, atol=1e-12)

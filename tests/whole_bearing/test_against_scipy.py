@@ -21,6 +21,8 @@ from macroslip.whole_bearing.cage import Cage
 from macroslip.whole_bearing.guidance import guide_force
 from macroslip.whole_bearing.pocket import pocket_force
 
+pytestmark = pytest.mark.slow
+
 ROLLERS = 3
 
 

@@ -6,6 +6,8 @@ import pytest
 from macroslip import BackwardEuler, BearingLoads, Cage, Case, InputError
 from macroslip.bearing import Bearing
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(
     ("wrong", "words"),

@@ -10,6 +10,8 @@ from macroslip.whole_bearing.books import energy_residual, momentum_residual, po
 from macroslip.whole_bearing.ledger import FLOWS
 from macroslip.whole_bearing.pocket import restitution
 
+pytestmark = pytest.mark.slow
+
 RADIAL = (0.0, -2.0e-4, 0.0)
 THRUST = (0.0, 0.0, 8.0e-4)
 FREE = (0.0, 0.0, 0.0)

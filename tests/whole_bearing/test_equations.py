@@ -4,7 +4,10 @@ The roller's frame (x', y', z') turns with the orbit's speed Ω about Z, z' bein
 (0, Ω sin α, Ω cos α). The roller turns in the inertial frame with (0, Ω sin α, ω). Moments of inertia are I_x' = I_y' and I_z'.
 """
 
+import pytest
 import sympy as sp
+
+pytestmark = pytest.mark.slow
 
 t = sp.symbols("t")
 alpha, m, pitch, r, inertia_y, inertia_z = sp.symbols("alpha m rho r I_y I_z", positive=True)

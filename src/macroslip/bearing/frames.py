@@ -15,7 +15,7 @@ import numpy as np
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
 ROWS: tuple[str, ...] = ("downwind", "upwind")
 """Names of the rows, in the order in which results list them."""
@@ -57,31 +57,3 @@ def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
     if row not in ROWS:
         raise InputError(f"there is no row {row!r}", allowed=" or ".join(ROWS), remedy="Choose one of the two rows.")
     return -np.pi / 2 + 2 * np.pi * (np.arange(rollers_per_row) + _STAGGER[row]) / rollers_per_row
-
-
-def contact_normal(angle: ArrayLike, contact_angle: float, axial_sign: int) -> NDArray[np.float64]:
-    """Direction in which the rollers push on the outer ring, n = (cos phi cos alpha, sin phi cos alpha, s sin alpha).
-
-    Parameters
-    ----------
-    angle : array_like, shape (...)
-        Roller positions phi [rad].
-    contact_angle : float
-        Contact angle alpha [rad], 0 to below pi/4.
-    axial_sign : int
-        Axial sign s of the row, +1 downwind or -1 upwind.
-
-    Returns
-    -------
-    ndarray, shape (..., 3)
-        Unit vectors (X0, Y0, Z0), pointing outward; a load on the inner ring along them presses on the roller.
-
-    Examples
-    --------
-    >>> contact_normal(np.radians(-90), np.radians(30), -1).round(6).tolist()
-    [0.0, -0.866025, -0.5]
-    """
-    angle = np.asarray(angle, dtype=float)
-    cosine = np.cos(contact_angle)
-    axial = np.full_like(angle, axial_sign * np.sin(contact_angle))
-    return np.stack([np.cos(angle) * cosine, np.sin(angle) * cosine, axial], axis=-1)

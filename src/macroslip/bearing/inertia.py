@@ -55,30 +55,3 @@ def spin_inertia(mass: float, roller_radius: float) -> float:
     0.00196
     """
     return mass * roller_radius**2 / 2
-
-
-def transverse_inertia(mass: float, roller_radius: float, roller_length: float) -> float:
-    """Moment of inertia about an axis through the roller's centre across its own, m r^2/4 + m l^2/12, (13).
-
-    It is the same about x' and y': I_x' = I_y'.
-
-    Parameters
-    ----------
-    mass : float
-        Mass of the roller [kg], positive.
-    roller_radius : float
-        Roller radius [m], positive.
-    roller_length : float
-        Roller length [m], positive.
-
-    Returns
-    -------
-    float
-        Moment of inertia [kg m2].
-
-    Examples
-    --------
-    >>> round(transverse_inertia(3.2, 0.035, 0.106), 9)
-    0.003976267
-    """
-    return mass * roller_radius**2 / 4 + mass * roller_length**2 / 12

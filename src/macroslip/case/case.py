@@ -6,15 +6,14 @@ import hashlib
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from numbers import Integral, Real
-from typing import Annotated, Any
+from typing import Any
 
 from macroslip.bearing import Bearing
-from macroslip.catalogue.forms import Quantity, Whole
-from macroslip.catalogue.input_section import input_section
+from macroslip.case.parts import BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
 from macroslip.catalogue.problems import shown
-from macroslip.catalogue.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
+from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.overview import html_overview
@@ -30,113 +29,6 @@ BALANCE = "balance"
 def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") -> None:
     if not good:
         raise InputError(what, where=where, allowed=allowed, remedy=remedy)
-
-
-_Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0, name="step")]
-
-
-@input_section("integrator", "error-controlled, implicit, in the slip")
-class Radau:
-    """The production integrator: Radau IIA in the slip, L-stable, order 5, error-controlled.
-
-    Parameters
-    ----------
-    tolerance : float
-        Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
-    max_steps : int
-        Steps and rejections after which a roller counts as failed.
-    """
-
-    tolerance: Annotated[
-        float,
-        Quantity(
-            "relative tolerance per step", NUMBER, 1e-10, 1e-2, name="tolerance",
-            remedy="2e-4 gives energies and spin to 1e-4 and peak power to 1 %",
-        ),
-    ] = 2e-4  # fmt: skip
-    max_steps: Annotated[int, Whole("steps after which a roller counts as failed", 1)] = 100_000_000
-
-
-@input_section("integrator", "fixed step, explicit, on the spin")
-class ExplicitEuler:
-    """Explicit Euler on the spin at a fixed step [s], as in the paper's Appendix A; unstable in the load zone."""
-
-    step: _Step
-
-
-@input_section("integrator", "fixed step, implicit, on the spin")
-class BackwardEuler:
-    """Backward Euler on the spin at a fixed step, the paper's method.
-
-    Parameters
-    ----------
-    step : float
-        [s].
-    tolerance : float
-        Relative change of spin at which the nonlinear iteration stops, 1e-16 to 1e-2.
-    """
-
-    step: _Step
-    tolerance: Annotated[
-        float,
-        Quantity("relative change of spin at which the iteration stops", NUMBER, 1e-16, 1e-2, name="tolerance"),
-    ] = 1e-12
-
-
-@input_section("window", "part of the time over which energies and peaks are taken")
-class Window:
-    """Part of the history over which energies and peaks are taken; the simulation always starts with the history.
-
-    Parameters
-    ----------
-    start : float, optional
-        [s] on the loads' time axis. None: when the rollers have completed one orbit, or at the first sample if they
-        never do.
-    end : float, optional
-        [s]; None: the last sample.
-    """
-
-    start: Annotated[
-        float | None, Quantity("start; auto: when the rollers have completed one orbit", TIME, words=("auto",))
-    ] = None
-    end: Annotated[float | None, Quantity("end; without it, the end of the loads", TIME)] = None
-
-
-@input_section("traces", "series to keep for every simulated roller")
-class Traces:
-    """Series to be kept for every simulated roller.
-
-    Parameters
-    ----------
-    step : float
-        Time between samples [s]. The integrator ends a step at each of them.
-    start, end : float, optional
-        First and last time [s] on the loads' time axis; None: first and last sample of the loads.
-    """
-
-    step: Annotated[float, Quantity("time between samples", TIME, 0.0, above=True, name="step")]
-    start: Annotated[float | None, Quantity("first time", TIME)] = None
-    end: Annotated[float | None, Quantity("last time", TIME)] = None
-
-
-@input_section("heat", "how the bearing loses its heat, for temperature: balance")
-class Heat:
-    """How the bearing loses the heat of its friction to its surroundings.
-
-    Parameters
-    ----------
-    conductance : float
-        Heat flow per kelvin [W/K]; 40 to 80 is an estimate for the main bearing of a 2 MW turbine.
-    ambient : float
-        Temperature of the surroundings [K].
-    """
-
-    conductance: Annotated[
-        float, Quantity("heat flow to the surroundings per kelvin", CONDUCTANCE, 0.0, above=True, name="conductance")
-    ]
-    ambient: Annotated[
-        float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15, name="ambient temperature")
-    ]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -282,7 +174,9 @@ class Case:
     @property
     def roller_numbers(self) -> tuple[int, ...]:
         """Numbers of the rollers to simulate in each row."""
-        return tuple(range(self.bearing.rollers_per_row)) if self.rollers == "all" else tuple(self.rollers)
+        if isinstance(self.rollers, str):  # "all"
+            return tuple(range(self.bearing.rollers_per_row))
+        return tuple(self.rollers)
 
     def as_dict(self) -> dict[str, Any]:
         """The full input as plain data; of the load series its source, extent and a hash of all its numbers."""
@@ -294,7 +188,7 @@ class Case:
         return {
             "loads": {
                 "kind": type(loads).__name__,
-                "source": loads.source,
+                "source": without_folders(loads.source),
                 "samples": int(loads.time.size),
                 "start": float(loads.time[0]),
                 "end": float(loads.time[-1]),

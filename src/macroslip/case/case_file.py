@@ -13,8 +13,9 @@ from macroslip.bearing import Bearing
 from macroslip.case.case import Case
 from macroslip.case.keys import LOAD_SOURCES, CaseFile, LawsKeys, LoadsKeys
 from macroslip.catalogue import Record
-from macroslip.catalogue.input_section import json_schema, read_fields
+from macroslip.catalogue.input_section import read_fields
 from macroslip.catalogue.problems import shown, together
+from macroslip.catalogue.section_forms import json_schema
 from macroslip.catalogue.source import Place, Source, parse, read_text
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, HubLoads
@@ -53,6 +54,8 @@ def read_case(path: str | PathLike[str]) -> Case:
     remedy = "Write a case file that runs with: macroslip init"
     text = read_text(path, "the case file cannot be read", where=str(path), remedy=remedy)
     data, source = parse(text, str(path), remedy)
+    if "case" in data:
+        raise InputError("this is a study file, not a case file", where=str(path), remedy="Run it by macroslip study.")
     return CaseBuilder(data, source, path.parent).case()
 
 

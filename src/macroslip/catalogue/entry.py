@@ -159,8 +159,8 @@ def _check_keys(key: str, entry: Any, dimension: Dimension, source: Source) -> N
 
 def _read_range(key: str, limits: Any, value: float, source: Source) -> tuple[float, float]:
     """Check the range of a value: two numbers in its unit, with the value between them."""
-    pair = isinstance(limits, Sequence) and not isinstance(limits, str) and len(limits) == 2
-    if not pair or not all(is_finite_number(limit) for limit in limits) or not limits[0] <= value <= limits[1]:
+    pair: Any = limits if isinstance(limits, Sequence) and not isinstance(limits, str) and len(limits) == 2 else ()
+    if not pair or not all(is_finite_number(limit) for limit in pair) or not pair[0] <= value <= pair[1]:
         raise InputError(
             f"{key} has the range {shown(limits)} (with the value {shown(value)})",
             where=source.where(key, "range"),

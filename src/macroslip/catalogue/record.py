@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import unicodedata
 from collections.abc import Iterator, Mapping
 from importlib import resources
@@ -206,17 +207,14 @@ class Record(BaseModel):
         """
         name, names = fspath(source), cls.catalogue()
         if name in names:
-            file = f"{name}.yaml"
-            text = (cls._shipped() / file).read_text(encoding="utf-8")
-        else:
-            file = name
-            text = read_text(
-                Path(name),
-                f"no {cls.noun} can be read from {shown(name)}",
-                allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
-                remedy=f"Relative paths start at {Path.cwd()}.",
-            )
-        return cls._from_entries(*parse(text, file))
+            return _shipped_record(cls, name)
+        text = read_text(
+            Path(name),
+            f"no {cls.noun} can be read from {shown(name)}",
+            allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
+            remedy=f"Relative paths start at {Path.cwd()}.",
+        )
+        return cls._from_entries(*parse(text, name))
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
@@ -358,6 +356,13 @@ class Record(BaseModel):
     def json_schema(cls) -> dict[str, Any]:
         """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
         return schema(cls, f"{cls.noun} of macroslip", TAGS, cls.derivable)
+
+
+@functools.cache
+def _shipped_record(kind: type[Record], name: str) -> Any:
+    """Read a shipped record. No record ever changes, so all who ask for one share it."""
+    file = f"{name}.yaml"
+    return kind._from_entries(*parse((kind._shipped() / file).read_text(encoding="utf-8"), file))
 
 
 def _number(value: Any, whole: bool) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -46,6 +46,7 @@ def estimate(
     bpfi: Annotated[float | None, _option("Overrolling frequency of the inner ring, per turn of the shaft.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 1,
     force: Force = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
     """Estimate the inside of a bearing from its maker's page, and write a bearing file.
 
@@ -76,6 +77,11 @@ def estimate(
     size = " x ".join(f"{1e3 * one:g}" for one in (page.bore, page.outside, page.width))
     found = estimate_bearing(page, output.stem, f"Estimated from its maker's page, {size} mm", seed=seed)
     _write(output, found.bearing, force)
+    if as_json:
+        from macroslip.cli.printing import print_json
+
+        print_json(_numbers(found) | {"written": str(output)})
+        return
     _report(found, output)
 
 
@@ -137,32 +143,55 @@ def _write(path: Path, bearing: Bearing, force: bool) -> None:
         temporary.write_text(bearing.as_yaml(), encoding="utf-8")
 
 
-def _report(found: Estimate, output: Path) -> None:
+def _numbers(found: Estimate) -> dict[str, Any]:
+    """Every estimated value with its range, and what the dynamic load rating says of them."""
+    bearing = found.bearing
+    return {
+        "name": bearing.name,
+        "bearings that fit the page": int(found.samples["contact_angle"].size),
+        "values": {
+            key: {"median": origin.value, "unit": origin.unit, "10 to 90 %": list(origin.range)}
+            for key, origin in bearing.provenance.items()
+            if origin.range is not None
+        },
+        "C by ISO 281 / published [1]": _rating_ratio(bearing),
+    }
+
+
+def _rating_ratio(bearing: Bearing) -> float | None:
+    """Dynamic load rating by ISO 281 from the estimated dimensions over the published one, where there is one."""
     from macroslip.bearing.load_ratings import dynamic_load_rating
+
+    published = bearing.dynamic_load_rating
+    if published is None or bearing.provenance["dynamic_load_rating"].tag != "V":
+        return None
+    rating = dynamic_load_rating(
+        2, bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length, bearing.contact_angle,
+        2 * bearing.pitch_radius,
+    )  # fmt: skip
+    return rating / published
+
+
+def _report(found: Estimate, output: Path) -> None:
     from macroslip.cli.printing import table
 
-    bearing = found.bearing
+    numbers = _numbers(found)
     rows = []
-    for key, origin in bearing.provenance.items():
-        if origin.range is not None:
-            unit = "" if origin.unit == "1" else f" {origin.unit}"
-            low, high = origin.range
-            rows.append([key, f"{origin.value:g}{unit}", f"{low:g} to {high:g}{unit}"])
+    for key, one in numbers["values"].items():
+        unit = "" if one["unit"] == "1" else f" {one['unit']}"
+        low, high = one["10 to 90 %"]
+        rows.append([key, f"{one['median']:g}{unit}", f"{low:g} to {high:g}{unit}"])
     table(
-        f"{bearing.name}: median and range of four out of five of {found.samples['contact_angle'].size} bearings that fit "
-        "the page",
+        f"{found.bearing.name}: median and range of four out of five of {numbers['bearings that fit the page']} bearings "
+        "that fit the page",
         [("key", False), ("median", True), ("10 to 90 %", False)],
         rows,
     )
     typer.echo()
-    published = bearing.dynamic_load_rating
-    if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
-        rating = dynamic_load_rating(
-            2, bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length, bearing.contact_angle,
-            2 * bearing.pitch_radius,
-        )  # fmt: skip
+    ratio = numbers["C by ISO 281 / published [1]"]
+    if ratio is not None:
         typer.echo(
-            f"C by ISO 281 from these dimensions is {rating / published:.3f} of the published one; "
+            f"C by ISO 281 from these dimensions is {ratio:.3f} of the published one; "
             "within one family of bearings that scatters by 1 to 2 %."
         )
     typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")

@@ -86,7 +86,7 @@ def _packages() -> Iterator[dict[str, str | None]]:
             continue
         name, bound = parts.groups()
         extra = re.search(r"extra == ['\"](\w+)['\"]", marker)
-        if name == "macroslip" or (extra and extra[1] not in ("figures", "cluster", "cycles", "notebook")):
+        if name == "macroslip" or (extra and extra[1] not in ("figures", "cluster", "notebook")):
             continue
         try:
             installed = importlib.metadata.version(name)

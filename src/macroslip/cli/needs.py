@@ -21,7 +21,6 @@ class Need(NamedTuple):
 FIGURES = Need("a page or a picture", ("matplotlib", "jinja2"), "figures")
 PICTURE = Need("a picture", ("matplotlib",), "figures")
 WORKERS = Need("--workers and --scheduler", ("dask", "distributed", "cryptography"), "cluster")
-CYCLES = Need("cycles: true", ("fatpack",), "cycles")
 
 #: What the commands need beyond the package's own dependencies.
 COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
@@ -31,7 +30,6 @@ COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
         "macroslip loads inspect -o": (PICTURE,),
         "macroslip bearing draw": (PICTURE,),
         "macroslip study --workers": (WORKERS,),
-        "macroslip study, with cycles: true": (CYCLES,),
     }
 )
 

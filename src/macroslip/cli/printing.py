@@ -26,7 +26,8 @@ def table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Itera
     """Print a table; the headings say whether a column holds numbers."""
     from rich.table import Table
 
-    shown = Table(box=None, padding=(0, 2, 0, 0))
+    headings = list(headings)
+    shown = Table(box=None, padding=(0, 2, 0, 0), show_header=any(heading for heading, _ in headings))
     for heading, numbers in headings:
         shown.add_column(heading, justify="right" if numbers else "left")
     for row in rows:

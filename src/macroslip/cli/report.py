@@ -13,6 +13,7 @@ from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
 PAGE = "report.html"
+_TITLE = "Slip of the rollers"
 
 
 def report(
@@ -24,7 +25,9 @@ def report(
         Path | None,
         typer.Option("--output", "-o", help="The page to write; report.html beside the results if not given."),
     ] = None,
-    title: Annotated[str, typer.Option("--title", help="Heading of the page.")] = "Slip of the rollers",
+    title: Annotated[
+        str | None, typer.Option("--title", help="Heading of the page; the title of a study if not given.")
+    ] = None,
     weibull: Annotated[
         tuple[float, float] | None,
         typer.Option(help="Of a study: scale [m/s] and shape of the distribution of the wind speed."),
@@ -51,7 +54,7 @@ def report(
         raise typer.Exit(ROLLERS_FAILED)
 
 
-def _of_results(results: Path, title: str, weibull: tuple[float, float] | None) -> tuple[str, str]:
+def _of_results(results: Path, title: str | None, weibull: tuple[float, float] | None) -> tuple[str, str]:
     """The page on results, and what failed."""
     from macroslip.report.read import read_results
     from macroslip.report.results_page import results_page
@@ -59,13 +62,13 @@ def _of_results(results: Path, title: str, weibull: tuple[float, float] | None) 
     if weibull:
         raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
     found = read_results(results)
-    page = results_page(found, title=title)
+    page = results_page(found, title=title or _TITLE)
     failed = sum(int((one.status != 0).sum()) for one in found.values())
     rollers = sum(int(one.status.size) for one in found.values())
     return page, f"{failed} of {rollers} rollers" if failed else ""
 
 
-def _of_study(results: Path, title: str, weibull: tuple[float, float] | None) -> tuple[str, str]:
+def _of_study(results: Path, title: str | None, weibull: tuple[float, float] | None) -> tuple[str, str]:
     """The page on a study, and what failed."""
     from macroslip.report.study_page import study_page
     from macroslip.study.outcome import Outcome
@@ -74,5 +77,7 @@ def _of_study(results: Path, title: str, weibull: tuple[float, float] | None) ->
 
     study = open_study(results)
     failed = int((study.outcome != str(Outcome.COMPLETED)).sum())
-    page = study_page(study, title=title, weights=Weibull(*weibull) if weibull else None)
+    page = study_page(
+        study, title=title or study.attrs["title"] or _TITLE, weights=Weibull(*weibull) if weibull else None
+    )
     return page, f"{failed} of {study.sizes['case']} runs failed or are missing" if failed else ""

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.failure import CASES_FAILED, tell
-from macroslip.cli.needs import CYCLES, WORKERS, require
+from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, tell
+from macroslip.cli.needs import WORKERS, require
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def study(
     checked = read_study(study)
     for remark in checked.loads.remarks:
         tell(f"note: {remark}")
-    require(*([WORKERS] if workers or scheduler else []), *([CYCLES] if checked.cycles else []))
+    require(*([WORKERS] if workers or scheduler else []))
     if dry_run:
         _dry_run(checked, workers, threads, as_json)
         return
@@ -59,17 +59,21 @@ def study(
         )
     from macroslip.study.run import run_study
 
-    with _shown(quiet=quiet) as report:
-        ended = run_study(
-            checked,
-            output,
-            workers=workers,
-            scheduler=scheduler,
-            threads=threads,
-            resume=resume,
-            strict=strict,
-            progress=report,
-        )
+    try:
+        with _shown(quiet=quiet) as report:
+            ended = run_study(
+                checked,
+                output,
+                workers=workers,
+                scheduler=scheduler,
+                threads=threads,
+                resume=resume,
+                strict=strict,
+                progress=report,
+            )
+    except KeyboardInterrupt:
+        tell(f"interrupted; what is computed is kept in {output}. Go on with the same command and --resume.")
+        raise typer.Exit(INTERRUPTED) from None
     if as_json:
         _summary_as_json(ended, output)
     elif not quiet:

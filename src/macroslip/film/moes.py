@@ -69,8 +69,8 @@ def moes(load, material):
 
 
 @jit_inline
-def _larger(first, second, order):
-    """ln(e^(order a) + e^(order b))/order of two logarithms a and b, and the share of the first in the sum."""
+def joined(first, second, order):
+    """ln(e^(n a) + e^(n b))/n of two logarithms a and b for either sign of n, and the share of the first in the sum."""
     difference = order * (first - second)
     if difference >= 0.0:
         ratio = math.exp(-difference)
@@ -95,14 +95,14 @@ def log_moes(log_load, log_material):
     fading = math.exp(-2.0 * ratio)
     order = 1.4 + 1.6 * fading
     order_by_load = -2.56 * fading * ratio if fading > 0.0 else 0.0
-    isoviscous, rigid_share = _larger(log_rigid, log_elastic, 7.0 / 3.0)
-    negative, stiff_share = _larger(
+    isoviscous, rigid_share = joined(log_rigid, log_elastic, 7.0 / 3.0)
+    negative, stiff_share = joined(
         -_LOG_RIGID_PIEZOVISCOUS - (2.0 / 3.0) * log_material,
         -_LOG_ELASTIC_PIEZOVISCOUS + 0.125 * log_load - 0.75 * log_material,
         3.5,
     )
     piezoviscous = -negative
-    log_film, share = _larger(isoviscous, piezoviscous, order)
+    log_film, share = joined(isoviscous, piezoviscous, order)
     by_order = (share * isoviscous + (1.0 - share) * piezoviscous - log_film) / order
     by_load = (
         share * (-0.2 - 0.8 * rigid_share) - (1.0 - share) * 0.125 * (1.0 - stiff_share) + by_order * order_by_load

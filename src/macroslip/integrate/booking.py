@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_part
-from macroslip.integrate.detail import book_stage, book_step
+from macroslip.integrate.detail import Passage, book_stage, book_step
 from macroslip.integrate.held_contact import slips_everywhere
 from macroslip.integrate.peak import follow_peak, follow_step
 from macroslip.integrate.radau_step import WEIGHTS
@@ -140,7 +140,7 @@ def _book_details(record, path, step, stages, found, orbit):
     book_stage(record, model, step.at2, stages.f2, stages.v2, h * WEIGHTS[1])
     book_stage(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])
     energies = (_stage_energies(h, found.inner), _stage_energies(h, found.outer))
-    book_step(record, model, at3, stages.f3, stages.v3, h, orbit, energies, _way(path, step))
+    book_step(record, model, at3, stages.f3, stages.v3, h, Passage(orbit, energies, _way(path, step)))
 
 
 @jit_part

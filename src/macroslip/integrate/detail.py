@@ -6,6 +6,7 @@ For plain contacts every function here compiles to nothing.
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 
 from numba import types
 from numba.extending import overload
@@ -18,13 +19,32 @@ from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.integrate.tuning import LOOK_EVERY
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
+from macroslip.roller.films import cage_film
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
 
-#: Meaning of `Record.mechanism_energy` by position.
+#: Meaning of `RollerRecord.mechanism_energy` by position.
 MECHANISMS = ("sliding", "curvature", "contact angle")
-#: Meaning of `Record.extreme` by position.
+#: Meaning of `RollerRecord.extreme` by position.
 EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
+
+
+class Passage(NamedTuple):
+    """What a step leaves on the raceways.
+
+    Attributes
+    ----------
+    orbit : int
+        Orbit the step belongs to, or −1.
+    energies : tuple of tuple of float
+        Energy of the step's three stages at the inner and at the outer raceway [J].
+    way : Way
+        What the roller passes in the step.
+    """
+
+    orbit: int
+    energies: Any
+    way: Any
 
 
 @jit_part
@@ -97,12 +117,12 @@ def _spread(record, interface, energies, way):
 
 
 @jit_part
-def book_raceway(record, orbit, interface, contact, load, at, slip, energies, way):
+def book_raceway(record, passage, interface, contact, load, at, slip):
     """Spread the step's energies as the power at its end lies along the roller, and raise the extremes.
 
     A step that ends without load spreads them as the last one with load; before that they are kept for the first one.
     """
-    ring_speed = at.ring_speed
+    ring_speed, energies, way = at.ring_speed, passage.energies[interface], passage.way
     powers = record.station_work[interface]
     if load <= 0.0:
         _spread(record, interface, energies, way)
@@ -142,7 +162,7 @@ def book_raceway(record, orbit, interface, contact, load, at, slip, energies, wa
         fastest = max(fastest, speed)
     powers[STATIONS + 1] = 1.0 if film >= contact.roughness else 0.0
     _spread(record, interface, energies, way)
-    _raise(record, orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
+    _raise(record, passage.orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 
 @jit_part
@@ -179,11 +199,15 @@ def look(record, interface, contact, load, ring_speed, slip, span):
 
 
 @jit_part
-def _book_step(record, model, at, forces, slip, span, orbit, energies, way):
-    book_raceway(record, orbit, 0, model.inner, at.inner_load, at, slip, energies[0], way)
-    book_raceway(record, orbit, 1, model.outer, at.outer_load, at, slip, energies[1], way)
-    surface = at.ring_speed - slip
-    book_cage(record, orbit, model.cage, abs(forces.cage_load), surface, forces.cage * surface)
+def _book_step(record, model, at, forces, slip, span, passage):
+    book_raceway(record, passage, 0, model.inner, at.inner_load, at, slip)
+    book_raceway(record, passage, 1, model.outer, at.outer_load, at, slip)
+    load = abs(forces.cage_load)
+    if load > 0.0:
+        surface = at.ring_speed - slip
+        # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
+        pull = forces.cage - cage_film(model.films, load, surface).sliding
+        book_cage(record, passage.orbit, model.cage, load, surface, pull * surface)
     if record.count[0] % LOOK_EVERY == 0:
         look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, span)
         look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, span)
@@ -199,18 +223,8 @@ def book_stage(record, model, at, forces, slip, span):
     """Book energies by mechanism for a state that counts for `span` [s]."""
 
 
-def book_step(record, model, at, forces, slip, span, orbit, energies, way):
-    """Book stations, places, extremes and now and then the quadrature's error, for a step that ends in this state.
-
-    Parameters
-    ----------
-    orbit : int
-        Orbit the step belongs to, or −1.
-    energies : tuple of tuple of float
-        Energy of the step's three stages at the inner and at the outer raceway [J].
-    way : Way
-        What the roller passes in the step.
-    """
+def book_step(record, model, at, forces, slip, span, passage):
+    """Book stations, places, extremes and now and then the quadrature's error, for a step that ends in this state."""
 
 
 def _is_curved(model) -> bool:
@@ -226,9 +240,9 @@ def _book_stage_of(record, model, at, forces, slip, span):
 
 
 @overload(book_step)
-def _book_step_of(record, model, at, forces, slip, span, orbit, energies, way):
+def _book_step_of(record, model, at, forces, slip, span, passage):
     if _is_curved(model):
-        return lambda record, model, at, forces, slip, span, orbit, energies, way: _book_step(
-            record, model, at, forces, slip, span, orbit, energies, way
+        return lambda record, model, at, forces, slip, span, passage: _book_step(
+            record, model, at, forces, slip, span, passage
         )
-    return lambda record, model, at, forces, slip, span, orbit, energies, way: None
+    return lambda record, model, at, forces, slip, span, passage: None

@@ -6,7 +6,7 @@ import math
 
 from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
-from macroslip.integrate.detail import book_stage, book_step, in_stages
+from macroslip.integrate.detail import Passage, book_stage, book_step, in_stages
 from macroslip.integrate.explicit_euler import explicit_euler_step
 from macroslip.integrate.record import add_energy, add_rolling, note_state, orbit_at, powers, raise_peak, write_traces
 from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, INTERRUPTED, NO_ROOT, NOT_FINITE
@@ -27,7 +27,7 @@ def integrate_fixed_step(path, slip, end, record):
         Slip at the first sample [m/s].
     end : float
         End of the integration [s]; the last step is shortened to meet it.
-    record : Record
+    record : RollerRecord
         Filled. Energies are rectangles with the power of the state a step is evaluated at, traces are the first
         state at or after each trace time.
 
@@ -96,7 +96,7 @@ def integrate_fixed_step(path, slip, end, record):
                 book_stage(record, model, at, before, slip_before, span)
             parts = (in_stages(span * inner), in_stages(span * outer))
             way = Way(path.start_angle, model.orbit_ratio, turned, instant(motion, interval, after).shaft_angle)
-            book_step(record, model, reached, forces, slip, span, orbit, parts, way)
+            book_step(record, model, reached, forces, slip, span, Passage(orbit, parts, way))
         time, at = after, reached
         record.count[0] += 1
     record.end[0], record.end[1] = time, slip

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_part
+from macroslip.compiled import borrowed, jit, jit_part
 from macroslip.integrate.booking import Peaks, book, step_powers
 from macroslip.integrate.first_guess import first_guess
 from macroslip.integrate.held_contact import held_exponent, slips_everywhere
@@ -67,7 +67,7 @@ def integrate_radau(path, slip, stops, classes, record):
         Times at which a step must end [s], rising, the last being the end of the integration.
     classes : ndarray of int8, shape (n − 1,)
         Work space for the classes of sample intervals.
-    record : Record
+    record : RollerRecord
         Filled.
 
     Returns
@@ -75,6 +75,7 @@ def integrate_radau(path, slip, stops, classes, record):
     int
         A `Status`, or `INTERRUPTED`.
     """
+    path, stops, classes, record = borrowed(path), borrowed(stops), borrowed(classes), borrowed(record)
     classify(path.model, path.motion, path.start_angle, path.limits.firm, classes)
     state = state_at(path, path.motion.time[0], 0, slip)
     record.count[2] += 1

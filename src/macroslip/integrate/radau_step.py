@@ -40,7 +40,8 @@ def _embedded_difference() -> tuple[float, float, float, float]:
     first = 1.0 / EIGENVALUE
     powers = np.vander(NODES, 3, increasing=True).T
     rest = np.linalg.solve(powers, np.array([1.0 - first, 0.5, 1.0 / 3.0]))
-    return (first, *(float(x) for x in rest - np.array(WEIGHTS)))
+    one, two, three = (float(x) for x in rest - np.array(WEIGHTS))
+    return first, one, two, three
 
 
 EMBEDDED = _embedded_difference()

@@ -16,9 +16,9 @@ from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATI
 from macroslip.integrate.tuning import SPIN_RATIO_SPEED
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
 
-#: Meaning of `Record.count` by position.
+#: Meaning of `RollerRecord.count` by position.
 COUNTS = ("steps", "rejections", "force_evaluations")
-#: Channels of `Record.trace` by position.
+#: Channels of `RollerRecord.trace` by position.
 TRACES = (
     *("slip", "ring_speed", "roller_load", "force_inner", "force_outer", "force_cage", "cage_load"),
     *("power_inner", "power_outer", "power_cage", "film_inner", "film_outer", "film_cage", "skew_inner", "skew_outer"),
@@ -26,7 +26,7 @@ TRACES = (
 )
 
 
-class Record(NamedTuple):
+class RollerRecord(NamedTuple):
     """Results of one roller, written in place. Interfaces are in the order inner, outer, cage.
 
     Attributes
@@ -99,12 +99,12 @@ class Record(NamedTuple):
     station_work: np.ndarray
 
 
-def new_record(edges: np.ndarray, trace_time: np.ndarray, highest_speed: float) -> Record:
+def new_record(edges: np.ndarray, trace_time: np.ndarray, highest_speed: float) -> RollerRecord:
     """An empty record for the given orbit edges [s], trace times [s] and largest raceway speed [m/s]."""
     orbits = edges.size - 1
     extreme = np.zeros((orbits, 3, len(EXTREMES)))
     extreme[..., EXTREMES.index("film_ratio")] = np.inf
-    return Record(
+    return RollerRecord(
         edges=edges,
         energy=np.zeros(3),
         orbit_energy=np.zeros((orbits, 3)),

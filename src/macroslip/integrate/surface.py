@@ -15,7 +15,7 @@ from macroslip.compiled import jit_part
 SECTORS = 72
 #: Stations along the roller's length.
 STATIONS = 24
-#: Meaning of `Record.surface_energy` by its last two positions.
+#: Meaning of `RollerRecord.surface_energy` by its last two positions.
 SLIP_SIGNS = ("negative", "positive")
 FILM_REGIMES = ("below 1", "1 and above")
 

@@ -95,7 +95,7 @@ class Group:
     @property
     def time(self) -> NDArray[np.float64]:
         """Times of the samples [s]."""
-        return self.first + self.step * np.arange(self.samples)
+        return self.first + self.step * np.arange(self.samples, dtype=float)
 
 
 def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:

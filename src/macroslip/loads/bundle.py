@@ -50,7 +50,7 @@ def anti_alias_filter() -> NDArray[np.float64]:
     from scipy.signal import firwin, kaiserord
 
     taps, beta = kaiserord(80.0, (STOP_BAND - PASS_BAND) / SOURCE_RATE)
-    return firwin(taps | 1, 0.5 * (PASS_BAND + STOP_BAND), window=("kaiser", beta), fs=2 * SOURCE_RATE)
+    return np.asarray(firwin(taps | 1, 0.5 * (PASS_BAND + STOP_BAND), window=("kaiser", beta), fs=2 * SOURCE_RATE))
 
 
 def decimate(values: NDArray) -> NDArray[np.float64]:

@@ -243,11 +243,16 @@ def _text(path: Path, scans: int, channels: int) -> NDArray:
 def _read_gtsdf(path: Path) -> Output:
     import h5py
 
+    from macroslip.hdf5_file import check_hdf5
+
+    check_hdf5([path], _AGAIN)
     try:
         with h5py.File(path, "r") as file:
             if str(_plain(file.attrs.get("type", ""))).lower() != "general time series data format":
                 raise ValueError("its type is not 'General time series data format'")
-            names, units, texts = ([str(_plain(one)) for one in file[f"attribute_{kind}"]] for kind in _ATTRIBUTES)
+            names, units, texts = (
+                [str(_plain(one)) for one in np.asarray(file[f"attribute_{kind}"])] for kind in _ATTRIBUTES
+            )
             blocks = [file[f"block{i:04d}"] for i in range(int(file.attrs["no_blocks"]))]
             values = np.concatenate([_block_values(block) for block in blocks])
             time = np.concatenate([_block_time(block) for block in blocks])

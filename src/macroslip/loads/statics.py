@@ -160,7 +160,8 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     rear [  0.  210.4 164.4] kN
     """
     four_point = drivetrain.mount == "four-point"
-    span = drivetrain.front_to_rear if four_point else drivetrain.bearing_to_gearbox
+    # Every four-point mount has its span, which Drivetrain checks.
+    span: Any = drivetrain.front_to_rear if four_point else drivetrain.bearing_to_gearbox
     arm = drivetrain.hub_to_bearing + span
     weight = drivetrain.shaft_mass * GRAVITY
     fx, fy, fz = hub_loads.force.T

@@ -176,7 +176,7 @@ def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:
     # First stamp, rate and step are round numbers as a rule: prefer those, where the stamps allow it.
     first = float(str(np.float32(time[0])))  # the shortest decimal that rounds to the stored number
     rate = max(1, round(1.0 / step))
-    index = np.arange(time.size)
+    index = np.arange(time.size, dtype=float)
     tolerance = float(np.spacing(np.float32(np.abs(time).max())))
     for axis in (first + index / rate, first + index * float(f"{step:.6g}"), time[0] + index * step):
         if np.abs(axis - time).max() <= tolerance:

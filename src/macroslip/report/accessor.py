@@ -6,6 +6,7 @@ Pictures need matplotlib, which is imported when the first one is drawn.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -129,8 +130,28 @@ class Plot:
         drawn.legend(frameon=False, fontsize=9, loc="upper left", bbox_to_anchor=(1.05, 1.0))
         return drawn
 
+    def maps(self, quantity: str = "energy", *, axes: Sequence[Axes] | None = None) -> list[Axes]:
+        """Where the raceways suffer: energy, or with "power" the largest power, per area on each of the four.
 
-def _new_axes(projection: str | None = None) -> Any:
+        Needs a result of a model with microslip. Axes of your own are four: outer and inner raceway of each row.
+        """
+        from macroslip.errors import InputError
+        from macroslip.report.surface_section import plot_map, raceways
+        from macroslip.result.surface_maps import energy_density
+
+        if quantity not in ("energy", "power"):
+            raise InputError(f"the quantity of the maps is {quantity!r}", allowed="'energy' or 'power'")
+        density = energy_density(self._result)
+        units = "J/mm²"
+        if quantity == "power":
+            density, units = self._result.surface_power_density, "W/mm²"
+        shown = raceways(density)
+        if axes is None:
+            axes = _new_axes(rows=len(shown) // 2, columns=2, figsize=(9.0, 6.0)).ravel()
+        return [plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)]
+
+
+def _new_axes(projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any) -> Any:
     """Axes in a new figure, which a notebook shows by itself."""
     from macroslip.errors import MacroslipError
 
@@ -138,7 +159,7 @@ def _new_axes(projection: str | None = None) -> Any:
         from matplotlib import pyplot
     except ModuleNotFoundError:
         raise MacroslipError("a picture needs matplotlib: pip install 'macroslip[figures]'") from None
-    _, axes = pyplot.subplots(layout="constrained", subplot_kw={"projection": projection})
+    _, axes = pyplot.subplots(rows, columns, layout="constrained", subplot_kw={"projection": projection}, **options)
     return axes
 
 

@@ -72,7 +72,8 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks([0, 90, 180, 270, 360])
     per_micrometre = 1e-6 * float((orbit.film_parameter / orbit.film_thickness).median())
-    right = axes.secondary_yaxis("right", functions=(lambda h: h * per_micrometre, lambda x: x / per_micrometre))
+    there_and_back = (lambda h: np.multiply(h, per_micrometre), lambda x: np.divide(x, per_micrometre))
+    right = axes.secondary_yaxis("right", functions=there_and_back)
     right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     right.yaxis.set_major_formatter("{x:g}")
     right.yaxis.set_minor_formatter(NullFormatter())
@@ -178,6 +179,7 @@ def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") 
         axes.set_yscale("log")
         axes.margins(y=0.12)
     axes.set_xticks(places, energy.interface.values.tolist())
+    axes.set_xlim(-0.6, places.size - 0.4)
     return finish(axes, "interface", "energy of a roller [J]", title)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,6 +35,7 @@ def view_section(profiles: Mapping[str, Mapping[str, xr.Dataset]]) -> Section:
             ),
             View(scenes),
         ),
+        "every roller with its load, slip and power; needs JavaScript",
     )
 
 
@@ -49,20 +50,44 @@ def _travel(profiles: Mapping[str, Mapping[str, xr.Dataset]]) -> str:
     )
 
 
-def orbit_blocks(profile: Mapping[str, xr.Dataset], of: str = "") -> tuple[Block, ...]:
-    """Energy over the orbit, load zone, films: pictures with what they show in numbers.
+def roller_sections(
+    result: xr.Dataset,
+    profile: Mapping[str, xr.Dataset] | None = None,
+    *,
+    suffix: str = "",
+    group: str = "",
+    first: Sequence[Block] = (),
+) -> list[Section]:
+    """Sections on all rollers of a result: energy, power, load zone, films.
 
     Parameters
     ----------
-    profile : mapping
-        From `orbit_profile`.
-    of : str
-        Added to the captions where a page shows several.
+    result : xarray.Dataset
+        From `macroslip.simulate`.
+    profile : mapping, optional
+        From `orbit_profile`; without it what needs traces is left out.
+    suffix : str
+        Added to the names of the sections where a page shows several results.
+    group : str
+        What the sections belong to.
+    first : sequence of Block
+        Head the first section.
     """
-    orbit, load = profile["orbit"], profile["load_zone"].roller_load
-    rows = orbit.row.values.tolist()
+    energy = (*first, *(_orbit_energy(profile) if profile else ()), *_energy(result), *further_blocks(result))
+    found = [("energy", "Energy", energy, "where on the orbit and at which contact it is dissipated, roller by roller")]
+    peaks = _peaks(result)
+    if peaks:
+        found.append(("power", "Peak power", peaks, "how often the largest power of an orbit exceeds a value"))
+    if profile:
+        found.append(("load-zone", "Load zone", _load_zone(profile), "load of the rollers over angle and time"))
+    films = (*(_films(profile) if profile else ()), *_film_range(result))
+    found.append(("films", "Films", films, "thickness over the orbit, and where the formula leaves its range"))
+    return [Section(f"{name}{suffix}", title, blocks, gist, group) for name, title, blocks, gist in found]
+
+
+def _orbit_energy(profile: Mapping[str, xr.Dataset]) -> tuple[Block, ...]:
+    orbit = profile["orbit"]
     energy = orbit.energy_over_orbit
-    attributes = energy.attrs
     polar = tuple(
         picture(
             lambda axes, row=row: draw.plot_energy_over_orbit(axes, energy, row),
@@ -72,8 +97,18 @@ def orbit_blocks(profile: Mapping[str, xr.Dataset], of: str = "") -> tuple[Block
             polar=True,
             legend="below",
         )
-        for row in rows
+        for row in orbit.row.values.tolist()
     )
+    caption = (
+        "Where on the orbit energy is dissipated, looking downwind: mean over the rollers of the row and "
+        f"{energy.attrs['orbits']:.0f} orbits, in sectors of {360 / orbit.sizes['angle']:g}°. From samples of the "
+        f"traces, whose energy is {energy.attrs['energy_ratio']:.4f} times that of the integrator."
+    )
+    return (Pictures(polar, caption),)
+
+
+def _load_zone(profile: Mapping[str, xr.Dataset]) -> tuple[Block, ...]:
+    load = profile["load_zone"].roller_load
     zones = tuple(
         picture(
             lambda axes, row=row: draw.plot_load_zone(axes, load, row),
@@ -81,97 +116,80 @@ def orbit_blocks(profile: Mapping[str, xr.Dataset], of: str = "") -> tuple[Block
             width=4.4,
             height=2.9,
         )
-        for row in rows
+        for row in load.row.values.tolist()
     )
+    return (Pictures(zones, f"Load of the rollers over angle and time. Each row has its own scale: {_largest(load)}."),)
+
+
+def _films(profile: Mapping[str, xr.Dataset]) -> tuple[Block, ...]:
+    orbit = profile["orbit"]
     films = tuple(
         picture(
             lambda axes, row=row: draw.plot_film_over_orbit(axes, orbit, row),
             f"Film thickness and film parameter of the {row} row over the orbit, by interface",
             legend="above",
         )
-        for row in rows
+        for row in orbit.row.values.tolist()
     )
-    return (
-        Pictures(
-            polar,
-            f"Where on the orbit energy is dissipated{of}, looking downwind: mean over the rollers of the row and "
-            f"{attributes['orbits']:.0f} orbits, in sectors of {360 / orbit.sizes['angle']:g}°. From samples of the "
-            f"traces, whose energy is {attributes['energy_ratio']:.4f} times that of the integrator.",
-        ),
-        Pictures(
-            zones,
-            f"Load of the rollers over angle and time{of}. Each row has its own scale: {_largest(load)}.",
-        ),
-        Pictures(
-            films,
-            f"Film thickness and Λ over the orbit{of}: median over rollers and time, shaded from 5 to 95 %. "
-            f"{_least(orbit)} Outside its range (below) the formula is used all the same.",
-        ),
+    caption = (
+        "Film thickness and Λ over the orbit: median over rollers and time, shaded from 5 to 95 %. "
+        f"{_least(orbit)} Outside its range (below) the formula is used all the same."
     )
+    return (Pictures(films, caption),)
 
 
-def result_blocks(result: xr.Dataset, of: str = "") -> tuple[Block, ...]:
-    """What a result shows without traces: energy by interface, spread between rollers, peaks, film range.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `macroslip.simulate`.
-    of : str
-        Added to the captions where a page shows several.
-    """
-    rows = result.row.values.tolist()
+def _energy(result: xr.Dataset) -> tuple[Block, ...]:
+    """Energy by interface, and its spread between rollers."""
     total = result.energy.sum("interface", skipna=False)
-    spread = [(row, total.sel(row=row).dropna("roller")) for row in rows]
+    spread = [(row, total.sel(row=row).dropna("roller")) for row in result.row.values.tolist()]
     known = [
         f"{row} {float(one.min()):.4g} to {float(one.max()):.4g} J "
         f"({100 * float(one.max() / one.min() - 1):.2g} % apart)"
         for row, one in spread
         if one.size and float(one.min()) > 0.0
     ]
-    blocks: list[Block] = [
-        Pictures(
-            (
-                picture(
-                    lambda axes: draw.plot_energy_by_interface(axes, result.energy),
-                    "Bars of a mean roller's energy by interface and row",
-                    legend="above",
-                ),
-                *(
-                    picture(
-                        lambda axes, row=row: draw.plot_roller_spread(axes, result.energy, row),
-                        f"Energy of each roller of the {row} row over the mean of the row",
-                    )
-                    for row, one in spread
-                    if one.size and float(one.mean()) > 0.0
-                ),
-            ),
-            f"Energy{of} by interface, and of each roller over the mean of its row; from the least to the most: "
-            f"{'; '.join(known) or 'none'}.",
-        )
-    ]
-    pictures = [
+    by_interface = picture(
+        lambda axes: draw.plot_energy_by_interface(axes, result.energy),
+        "Bars of a mean roller's energy by interface and row",
+        legend="above",
+    )
+    by_roller = tuple(
         picture(
-            lambda axes: draw.plot_outside_film_range(axes, result.outside_film_range),
-            "Bars of the share of loaded time outside the film formula's range",
-            legend="above",
+            lambda axes, row=row: draw.plot_roller_spread(axes, result.energy, row),
+            f"Energy of each roller of the {row} row over the mean of the row",
         )
-    ]
-    caption = f"Share of the loaded time{of} in which load or speed is outside the range of the film formula"
-    peak = result.peak_power.values
-    if peak.size and np.nanmax(peak, initial=0.0) > 0.0:
-        pictures.append(
-            picture(
-                lambda axes: draw.plot_peak_exceedance(axes, result),
-                "Share of orbits whose largest power exceeds a value",
-                legend="above",
-            )
-        )
-        caption += "; and how many orbits of a roller have a largest power above a value"
-    return (*blocks, Pictures(tuple(pictures), f"{caption}."))
+        for row, one in spread
+        if one.size and float(one.mean()) > 0.0
+    )
+    caption = (
+        "Energy by interface, and of each roller over the mean of its row; from the least to the most: "
+        f"{'; '.join(known) or 'none'}."
+    )
+    return (Pictures((by_interface, *by_roller), caption),)
 
 
-def further_blocks(dataset: xr.Dataset, of: str = "") -> tuple[Block, ...]:
+def _peaks(result: xr.Dataset) -> tuple[Block, ...]:
+    if np.nanmax(result.peak_power.values, initial=0.0) <= 0.0:
+        return ()
+    exceedance = picture(
+        lambda axes: draw.plot_peak_exceedance(axes, result),
+        "Share of orbits whose largest power exceeds a value",
+        legend="above",
+    )
+    return (Pictures((exceedance,), "How many orbits of a roller have a largest power above a value."),)
+
+
+def _film_range(result: xr.Dataset) -> tuple[Block, ...]:
+    bars = picture(
+        lambda axes: draw.plot_outside_film_range(axes, result.outside_film_range),
+        "Bars of the share of loaded time outside the film formula's range",
+        legend="above",
+    )
+    words = "Share of the loaded time in which load or speed is outside the range of the film formula."
+    return (Pictures((bars,), words),)
+
+
+def further_blocks(dataset: xr.Dataset) -> tuple[Block, ...]:
     """Energies by mechanism and by station along the roller, where the dataset has such dimensions."""
     pictures = []
     for name, values in dataset.data_vars.items():
@@ -195,7 +213,7 @@ def further_blocks(dataset: xr.Dataset, of: str = "") -> tuple[Block, ...]:
             )
     if not pictures:
         return ()
-    return (Pictures(tuple(pictures), f"Energy{of} by mechanism, and along the roller."),)
+    return (Pictures(tuple(pictures), "Energy by mechanism, and along the roller."),)
 
 
 def _largest(load: xr.DataArray) -> str:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: Size of a picture [inches]: what a telephone held upright shows without making letters smaller than the text's.
 WIDTH, HEIGHT = 4.2, 3.1
+#: Size of a picture of a page's opening [inches]: four of them and five sentences fit on one screen.
+OPENING_WIDTH, OPENING_HEIGHT = 3.5, 2.55
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

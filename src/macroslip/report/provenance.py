@@ -41,7 +41,12 @@ def provenance_section(
         blocks.append(Paragraph(f"Outside the film formula's range whatever the load: {'; '.join(notes)}."))
     cited = dict.fromkeys(line for one in datasets.values() for line in one.attrs.get("citations", "").splitlines())
     blocks.append(Verbatim(bibtex(cited), "Works this rests on, as BibTeX"))
-    return Section("provenance", "Where the numbers come from", tuple(blocks))
+    return Section(
+        "provenance",
+        "Where the numbers come from",
+        tuple(blocks),
+        "program, machine, every input with its source, how the integrations ended, works cited",
+    )
 
 
 def _program(datasets: Mapping[str, xr.Dataset], seconds: Mapping[str, float] | None, reused: tuple[str, ...]) -> Table:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 from macroslip.errors import InputError
 from macroslip.integrate.status import Status
 from macroslip.report.bearing_figures import plot_case_energies
-from macroslip.report.bearing_section import further_blocks, orbit_blocks, result_blocks, view_section
+from macroslip.report.bearing_section import further_blocks, roller_sections, view_section
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Table, render
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
 from macroslip.report.rating_section import rating_blocks
+from macroslip.report.result_opening import result_opening, results_opening
 from macroslip.report.surface_section import surface_blocks
 from macroslip.report.whole_section import whole_blocks
 from macroslip.result.orbit_profile import orbit_profile
@@ -57,32 +58,65 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
             )
     studies = {name: one for name, one in results.items() if "case" in one.dims}
     single = {name: one for name, one in results.items() if name not in studies}
-    sections = [_overview(single, studies)]
     shown = dict(list(single.items())[:DETAILED])
     profiles, notes = _profiles(shown)
+    sections = [_overview(single, studies)]
     moving = dict(list(profiles.items())[:MOVING])
     if moving:
         sections.append(view_section(moving))
     for number, (name, result) in enumerate(shown.items()):
-        blocks: list[Block] = [Paragraph(str(result.attrs.get("title", "")))]
-        if name in profiles:
-            blocks += orbit_blocks(profiles[name])
-        else:
-            blocks.append(Paragraph(f"Energy over the orbit, films and the moving bearing need traces: {notes[name]}"))
-        result = result.drop_dims("time") if "time" in result.dims else result
-        sections.append(Section(f"result-{number}", name, (*blocks, *result_blocks(result), *further_blocks(result))))
-        for part, heading, found in (
-            ("surface", "where the surface suffers", surface_blocks(result)),
-            ("whole", "orbit and spin together", whole_blocks(result, results)),
-            ("rating", "numbers beside slip", rating_blocks(result)),
-        ):
-            if found:
-                sections.append(Section(f"{part}-{number}", f"{name}: {heading}", found))
+        first = [Paragraph(str(result.attrs.get("title", "")))]
+        if name in notes:
+            first.append(Paragraph(f"Energy over the orbit, films and the moving bearing need traces: {notes[name]}"))
+        group = name if len(results) > 1 else ""
+        sections += _of_result(result, profiles.get(name), number, group, first)
+        if whole := whole_blocks(result, results):
+            gist = "cage, pockets and books where the rollers move in their pockets"
+            suffix = f"-{number}" if number else ""
+            sections.append(Section(f"whole{suffix}", "Orbit and spin together", whole, gist, group))
     for number, (name, study) in enumerate(studies.items()):
         sections.append(Section(f"study-{number}", name, _study_blocks(study)))
     sections.append(provenance_section(results))
+    if len(results) == 1 and single:
+        (result,) = single.values()
+        return render(title, _subtitle(result), result_opening(result, next(iter(profiles.values()), None)), sections)
     count = f"{len(results)} dataset{'' if len(results) == 1 else 's'}"
-    return render(title, f"{count}: {', '.join(list(results)[:8])}{' …' if len(results) > 8 else ''}.", sections)
+    subtitle = f"{count}: {', '.join(list(results)[:8])}{' …' if len(results) > 8 else ''}."
+    return render(title, subtitle, results_opening(single | _cases(studies)), sections)
+
+
+def _subtitle(result: xr.Dataset) -> str:
+    """What was computed: bearing, loads, model."""
+    parts = [str(result.attrs.get("title", "")).rstrip(".")]
+    parts += [f"model {result.attrs['model']}"] if "model" in result.attrs else []
+    if "window_end" in result.attrs:
+        parts.append(f"{float(result.attrs['window_start']):.4g} s to {float(result.attrs['window_end']):.4g} s")
+    return f"{', '.join(filter(None, parts))}."
+
+
+def _of_result(
+    result: xr.Dataset, profile: Mapping[str, xr.Dataset] | None, number: int, group: str, first: list[Paragraph]
+) -> list[Section]:
+    """Sections on one result; the first of several has no number in their names."""
+    suffix = f"-{number}" if number else ""
+    result = result.drop_dims("time") if "time" in result.dims else result
+    further = (
+        ("surface", "Where the surface suffers", surface_blocks(result), "energy and power per area on the raceways"),
+        ("rating", "Numbers beside slip", rating_blocks(result), "rating lives, static safety, pressure, load spectra"),
+    )
+    sections = roller_sections(result, profile, suffix=suffix, group=group, first=first)
+    return sections + [
+        Section(f"{name}{suffix}", title, blocks, gist, group) for name, title, blocks, gist in further if blocks
+    ]
+
+
+def _cases(studies: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+    """The cases of studies, as results."""
+    return {
+        f"{name}, {case}" if len(studies) > 1 else str(case): study.sel(case=case)
+        for name, study in studies.items()
+        for case in study.case.values.tolist()
+    }
 
 
 def _profiles(results: Mapping[str, xr.Dataset]) -> tuple[dict[str, dict[str, xr.Dataset]], dict[str, str]]:
@@ -101,13 +135,6 @@ def _overview(single: Mapping[str, xr.Dataset], studies: Mapping[str, xr.Dataset
     for name, study in studies.items():
         for case in study.case.values.tolist():
             rows += _rows(f"{name}, {case}", study.sel(case=case))
-    total = sum(int(one.status.size) for one in (*single.values(), *studies.values()))
-    failed = sum(int((one.status != 0).sum()) for one in (*single.values(), *studies.values()))
-    told = (
-        f"{failed} of {total} rollers FAILED; every mean they enter is missing."
-        if failed
-        else (f"All {total} rollers completed.")
-    )
     headings = (
         "",
         "row",
@@ -118,13 +145,13 @@ def _overview(single: Mapping[str, xr.Dataset], studies: Mapping[str, xr.Dataset
         "lowest spin / pure rolling",
         "failed rollers",
     )
-    blocks: list[Block] = [Paragraph(told, strong=True), Table(headings, tuple(rows))]
+    blocks: list[Block] = [Table(headings, tuple(rows))]
     lines = [line for name, one in single.items() for line in _failures(name, one)]
     if lines:
         blocks.append(Points(tuple(lines)))
     if len(single) > len(list(single)[:DETAILED]):
         blocks.append(Paragraph(f"The first {DETAILED} results are shown roller by roller."))
-    return Section("answer", "The answer", tuple(blocks))
+    return Section("numbers", "The numbers", tuple(blocks), "energy, power, spin and failures, row by row")
 
 
 def _rows(name: str, result: xr.Dataset) -> list[tuple[str, ...]]:

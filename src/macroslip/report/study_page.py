@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,8 @@ from macroslip.report.page import Block, Paragraph, Pictures, Section, Table, Ve
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
 from macroslip.report.rating_section import rating_summary
-from macroslip.report.style import ROW, finish
+from macroslip.report.study_figures import EXCEEDED, groups, plot_exceedance, plot_lifetime
+from macroslip.report.study_opening import study_opening
 from macroslip.report.surface_section import lifetime_blocks
 from macroslip.study.exceedance import exceedance
 from macroslip.study.export import table
@@ -24,17 +26,15 @@ from macroslip.study.weights import Weibull, Weights
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from matplotlib.axes import Axes
 
 #: Wind speeds of IEC 61400-1, class I: Rayleigh with a mean of 10 m/s, so that the scale is 10 m/s / Γ(3/2).
 CLASS_ONE = Weibull(11.284, 2.0)
 #: Variables of the summary whose largest values are shown, and how many of them.
 _WORST, _WORST_COUNT = ("energy_mean", "orbit_energy_max", "peak_power_max"), 5
-#: Lines of a table, and groups of a picture.
-_MOST_LINES, _MOST_GROUPS = 40, 4
+#: Lines of a table.
+_MOST_LINES = 40
 #: Labels of a run that a reader does not need.
 _LEFT_OUT = ("case", "run", "outcome", "reason", "key")
-_NO_WEIGHTS = "wind speeds cannot be weighted:"
 
 
 def is_study(path: Path) -> bool:
@@ -61,38 +61,71 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weights | None = None,
     str
         HTML in one piece, every name and text in it escaped.
     """
+    life, no_life = _or_reason(lambda: lifetime_energy(study, weights or CLASS_ONE, years=years))
+    curves, no_curves = _or_reason(lambda: exceedance(study, weights or CLASS_ONE))
+    lifetime = (
+        _lifetime(life, weights, years) if life is not None else [Paragraph(f"There is no lifetime energy; {no_life}")]
+    )
+    exceeded = (
+        _exceedance(curves, weights)
+        if curves is not None
+        else [Paragraph(f"There are no exceedance curves: {no_curves}")]
+    )
     sections = [
-        Section("answer", "The answer", tuple(_overview(study))),
-        Section("lifetime", "Lifetime energy", tuple(_lifetime(study, weights, years))),
-        Section("exceedance", "Exceedance", tuple(_exceedance(study, weights))),
+        Section("runs", "All runs", tuple(_overview(study)), "mean and extreme energies, powers and spins, row by row"),
+        Section(
+            "lifetime", "Lifetime energy", tuple(lifetime), f"energy of a roller in {years:g} years, by wind speed"
+        ),
+        Section("exceedance", "Exceedance", tuple(exceeded), "how many orbits a year exceed an energy and a power"),
         *_further(study, weights, years),
-        Section("worst", "Worst cases", tuple(_worst(study))),
-        Section("failures", "Failures", tuple(_failures(study))),
+        Section("worst", "Worst cases", tuple(_worst(study)), f"the {_WORST_COUNT} runs with the largest values"),
+        Section("failures", "Failures", tuple(_failures(study)), "runs without a result, with the reason"),
     ]
     if "status" in study:
         sections.append(provenance_section({study.attrs["title"] or "study": study}))
-    sections.append(
-        Section("study", "The study file", (Verbatim(study.attrs["study"], "The study as it was read, as JSON"),))
-    )
-    return render(title, str(study.attrs["title"]), sections)
+    file = Verbatim(study.attrs["study"], "The study as it was read, as JSON")
+    sections.append(Section("study", "The study file", (file,), "what was asked for"))
+    return render(title, _subtitle(study, title), study_opening(study, life, curves), sections)
+
+
+def _subtitle(study: xr.Dataset, title: str) -> str:
+    """Title of the study, if the page has another, and how many runs of what it has."""
+    parts = []
+    for name, several in (
+        ("loads", "load histories"),
+        ("bearing", "bearings"),
+        ("lubricant", "lubricants"),
+        ("model", "models"),
+    ):
+        values = np.unique(study[name].values)
+        parts.append(f"{values.size} {several}" if values.size > 1 else f"{name} {values[0]}")
+    own = f"{study.attrs['title']}: " if study.attrs["title"] not in ("", title) else ""
+    return f"{own}{study.sizes['case']} runs, {', '.join(parts)}."
+
+
+def _or_reason(make: Callable[[], xr.Dataset]) -> tuple[xr.Dataset | None, str]:
+    """What can be made of a study, or why it cannot."""
+    try:
+        return make(), ""
+    except InputError as problem:
+        return None, str(problem)
 
 
 def _further(study: xr.Dataset, weights: Weights | None, years: float) -> list[Section]:
     """Maps of the raceways and the rating, where the runs have them."""
     parts = (
-        ("surface", "Where the surface suffers", lifetime_blocks(study, weights or CLASS_ONE, years)),
-        ("rating", "Numbers beside slip", rating_summary(study)),
+        (
+            "surface",
+            "Where the surface suffers",
+            lifetime_blocks(study, weights or CLASS_ONE, years),
+            "energy and power per area on the raceways over the lifetime",
+        ),
+        ("rating", "Numbers beside slip", rating_summary(study), "rating lives, static safety, pressure"),
     )
-    return [Section(name, title, blocks) for name, title, blocks in parts if blocks]
+    return [Section(name, title, blocks, gist) for name, title, blocks, gist in parts if blocks]
 
 
 def _overview(study: xr.Dataset) -> list[Block]:
-    counts = {one: int((study.outcome.values == str(one)).sum()) for one in Outcome}
-    failed = counts[Outcome.FAILED] + counts[Outcome.ROLLERS_FAILED]
-    runs = study.sizes["case"]
-    text = f"All {runs} runs completed." if counts[Outcome.COMPLETED] == runs else (
-        f"{counts[Outcome.COMPLETED]} of {runs} runs completed, {failed} FAILED, {counts[Outcome.MISSING]} are missing."
-    )  # fmt: skip
     rows = []
     for row in study.row.values.tolist():
         one = study.sel(row=row)
@@ -105,59 +138,35 @@ def _overview(study: xr.Dataset) -> list[Block]:
         "highest peak power [W]",
         "lowest spin / pure rolling",
     )
-    return [Paragraph(text, strong=True), Table(headings, tuple(rows), "Over all runs with a result")]
+    return [Table(headings, tuple(rows), "Over all runs with a result")]
 
 
-def _lifetime(study: xr.Dataset, weights: Weights | None, years: float) -> list[Block]:
-    try:
-        life = lifetime_energy(study, weights or CLASS_ONE, years=years)
-    except InputError as problem:
-        return [Paragraph(f"There is no lifetime energy; {_NO_WEIGHTS} {problem}")]
+def _lifetime(life: xr.Dataset, weights: Weights | None, years: float) -> list[Block]:
     shown = table(life, ["lifetime_energy"])
     words = (
         f"Energy dissipated by a roller in {years:g} years, mean over the rollers of the row. {_weighted(weights)} The "
         f"wind speeds of the study are {100.0 * float(life.covered):.0f} % of all time; the rest counts as no energy."
     )
 
-    def draw(axes: Axes, group: int) -> Axes:
-        for row in life.row.values.tolist():
-            one = life.bin_energy.isel(group=group).sel(row=row)
-            axes.plot(one.bin.values, one.values, label=row, **{key: ROW[row][key] for key in ("color", "marker")})
-        axes.set_ylim(bottom=0.0)
-        return finish(axes, "wind speed [m/s]", "energy in the lifetime [J]", _group_title(life, group))
-
     pictures = tuple(
-        picture(lambda axes, group=group: draw(axes, group), "Lifetime energy by wind speed", legend="above")
-        for group in _groups(life.bin_energy)
+        picture(
+            lambda axes, group=group: plot_lifetime(axes, life, group), "Lifetime energy by wind speed", legend="above"
+        )
+        for group in groups(life.bin_energy)
     )
     blocks: list[Block] = [Paragraph(words), _frame(shown, "Lifetime energy")]
     return [*blocks, Pictures(pictures, "What each wind speed adds to it.")] if pictures else blocks
 
 
-def _exceedance(study: xr.Dataset, weights: Weights | None) -> list[Block]:
-    try:
-        curves = exceedance(study, weights or CLASS_ONE)
-    except InputError as problem:
-        return [Paragraph(f"There are no exceedance curves: {problem}")]
-
-    def draw(axes: Axes, name: str, group: int, label: str) -> Axes:
-        for row in curves.row.values.tolist():
-            one = curves[name].isel(group=group).sel(row=row)
-            some = one.values > 0.0
-            axes.plot(one.threshold.values[some], one.values[some], label=row, color=ROW[row]["color"])
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        return finish(axes, label, "orbits a year above it", _group_title(curves, group))
-
-    quantities = (("energy_orbits", "energy of an orbit [J]"), ("power_orbits", "peak power of an orbit [W]"))
+def _exceedance(curves: xr.Dataset, weights: Weights | None) -> list[Block]:
     pictures = tuple(
         picture(
-            lambda axes, name=name, group=group, label=label: draw(axes, name, group, label),
+            lambda axes, name=name, group=group: plot_exceedance(axes, curves, name, group),
             f"Orbits a year of a roller over the {label}",
             legend="above",
         )
-        for group in _groups(curves.power_orbits)
-        for name, label in quantities
+        for group in groups(curves.power_orbits)
+        for name, label in EXCEEDED.items()
     )
     caption = "How many orbits a year of one roller exceed an energy, all interfaces, and a power, at any interface."
     if not pictures:
@@ -181,7 +190,10 @@ def _failures(study: xr.Dataset) -> list[Block]:
     labels = [name for name, one in failed.coords.items() if one.dims == ("case",)]
     frame = failed[labels].reset_coords().to_dataframe().reset_index()
     columns = [name for name in frame if name not in ("case", "run", "key", "outcome", "reason")]
-    return [_frame(frame[[*columns, "outcome", "reason"]], "Runs without a result, or with rollers that failed")]
+    failures = frame[[*columns, "outcome", "reason"]]
+    blocks: list[Block] = []
+    blocks.append(_frame(failures, "Runs without a result, or with rollers that failed"))
+    return blocks
 
 
 def _weighted(weights: Weights | None) -> str:
@@ -193,20 +205,6 @@ def _weighted(weights: Weights | None) -> str:
     if isinstance(weights, Weibull):
         return f"Wind speeds have a Weibull distribution with scale {weights.scale:g} m/s and shape {weights.shape:g}."
     return "Wind speeds have the probabilities given."
-
-
-def _groups(values: xr.DataArray) -> list[int]:
-    """The first groups that have something to draw."""
-    positive = (values > 0.0).any([name for name in values.dims if name != "group"])
-    return np.flatnonzero(positive.values)[:_MOST_GROUPS].tolist()
-
-
-def _group_title(dataset: xr.Dataset, group: int) -> str:
-    """What tells a group from the others; empty if there is one."""
-    if dataset.sizes["group"] < 2:
-        return ""
-    labels = [one for one in dataset.coords.values() if one.dims == ("group",) and np.unique(one.values).size > 1]
-    return ", ".join(str(one.values[group]) for one in labels)
 
 
 def _frame(frame: pd.DataFrame, caption: str) -> Table:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -41,12 +42,12 @@ INTERFACE: Mapping[str, Mapping[str, object]] = MappingProxyType(
 CLASS_OFFSET: Mapping[str, float] = MappingProxyType({"A": -0.35, "B": 0.0, "C": 0.35})
 
 
-def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: object) -> tuple[Figure, list]:
+def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list]:
     """A figure of the given size [inches] with a grid of axes, row by row, without any global plotting state."""
     from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-    figure = Figure(figsize=(width, height), layout="constrained")
-    figure.get_layout_engine().set(wspace=0.06)
+    figure = Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(wspace=0.06))
     grid = figure.subplots(rows, columns, squeeze=False, **options)
     return figure, list(grid.ravel())
 
@@ -81,8 +82,8 @@ def log_ticks(axes: Axes, which: str = "y") -> Axes:
     return axes
 
 
-def save(figure: Figure, folder: object, name: str) -> list[str]:
-    """Write the figure as PNG (200 dpi) and SVG into `folder` (a Path); returns the file names."""
+def save(figure: Figure, folder: Path, name: str) -> list[str]:
+    """Write the figure as PNG (200 dpi) and SVG into a folder; returns the file names."""
     files = [f"{name}.png", f"{name}.svg"]
     figure.savefig(folder / files[0], dpi=200)
     figure.savefig(folder / files[1], metadata={"Date": None})

@@ -87,7 +87,6 @@ def map_blocks(energy: xr.DataArray, density: xr.DataArray, of: str) -> tuple[Bl
         (energy, "J/mm²", f"Frictional energy per area e = ∫|τ v| dt {of}"),
         (density, "W/mm²", f"Largest frictional power per area p = |τ v|, mean over the contact's width, {of}"),
     ):
-        shown = _PER_SQUARE_MILLIMETRE * values
         pictures = tuple(
             picture(
                 lambda axes, one=one, title=title, units=units: plot_map(axes, one, units, title),
@@ -95,14 +94,20 @@ def map_blocks(energy: xr.DataArray, density: xr.DataArray, of: str) -> tuple[Bl
                 width=4.4,
                 height=3.0,
             )
-            for one, title in (
-                (shown.sel(row=row, raceway=raceway), f"{row} row, {raceway} raceway")
-                for row in _rows(shown)
-                for raceway in ("outer", "inner")
-            )
+            for title, one in raceways(values).items()
         )
-        found.append(Pictures(pictures, f"{words}. Each map has its own scale: {_largest(shown)} {units}."))
+        largest = _largest(_PER_SQUARE_MILLIMETRE * values)
+        found.append(Pictures(pictures, f"{words}. Each map has its own scale: {largest} {units}."))
     return tuple(found)
+
+
+def raceways(values: xr.DataArray) -> dict[str, xr.DataArray]:
+    """The maps of every raceway by what it is called; from values per m² to values per mm²."""
+    return {
+        f"{row} row, {raceway} raceway": _PER_SQUARE_MILLIMETRE * values.sel(row=row, raceway=raceway)
+        for row in _rows(values)
+        for raceway in ("outer", "inner")
+    }
 
 
 def plot_map(axes: Axes, values: xr.DataArray, units: str, title: str) -> Axes:

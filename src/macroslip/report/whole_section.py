@@ -70,7 +70,7 @@ def _slip_text(result: xr.Dataset) -> str:
 
 def _books_text(result: xr.Dataset) -> str:
     impulses = max(
-        float(abs(result[name]).max()) for name in result if str(name).endswith("_impulse") and "book" in name
+        float(abs(result[name]).max()) for name in result if str(name).endswith("_impulse") and "book" in str(name)
     )
     spent = sum(
         float(result[name].isel(book_time=-1)) for name in ("book_raceway_loss", "book_friction_loss", "pocket_loss")

@@ -140,26 +140,26 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
         "rows": (
             "thrust takes the load off the upwind row: its rollers carry load during "
             f"{float(loaded.min()):.2g} to {float(loaded.max()):.2g} % of the time and spend "
-            f"{float(cage.sel(row='upwind').min()):.0f} to {float(cage.sel(row='upwind').max()):.0f} % of their energy "
-            f"at the cage, on average {ends(1e3 * per_orbit.sel(row='upwind'))} mJ an orbit {span}; a ratio of 10 would "
-            "need the upwind row under load much more often"
+            f"{ends(per_orbit.sel(row='upwind'))} J an orbit {span}, of it {float(cage.sel(row='upwind').min()):.0f} to "
+            f"{float(cage.sel(row='upwind').max()):.0f} % at the cage; what an unloaded roller spends is decided by the oil "
+            "between which it lies, and by how much of it there is"
         ),
         "peaks": (
             "downwind the largest power of an orbit is microslip's at the inner raceway under the largest load, not a "
-            f"snap's, {ends(peak.sel(row='downwind'))} W {span}; upwind it is that of the moments under load, "
-            f"{ends(1e3 * peak.sel(row='upwind'))} mW"
+            f"snap's, {ends(peak.sel(row='downwind'))} W {span}; upwind it is {ends(peak.sel(row='upwind'))} W"
         ),
         "peak ratio": (
             "the downwind row's power hardly changes, and the upwind row's rises from "
-            f"{ends(1e3 * peak.sel(row='upwind'))} mW {span} because thrust lets go of it more often (under load {ends(loaded)} % of the time)"
+            f"{ends(peak.sel(row='upwind'))} W {span} because thrust lets go of it more often (under load {ends(loaded)} % of "
+            "the time)"
         ),
         "static": (
             "power at the raceways follows the load of the moment, and the energy of an orbit its mean: what the "
             "static load lacks is thrust, not time"
         ),
         "cage": (
-            f"microslip at the raceways takes {100.0 - float(cage.sel(row='downwind').max()):.1f} % or more of the "
-            "downwind row's energy; the cage is left the unloaded row's"
+            f"the raceways take {100.0 - float(cage.sel(row='downwind').max()):.1f} % or more of the "
+            f"downwind row's energy, and {100.0 - float(cage.sel(row='upwind').max()):.0f} % or more of the upwind row's"
         ),
     }
 

@@ -56,7 +56,7 @@ MODEL_STAGES = {
     "uncertainty": (0.0, 70.0),
 }
 
-Progress = Callable[[str, int, int], None]
+StageReport = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,7 +93,7 @@ def stage_label(stage: str, model: str) -> str:
 
 
 def compute_model(
-    name: str, directory: Path, threads: int | None, report: Progress, reused: list[str] | None = None
+    name: str, directory: Path, threads: int | None, report: StageReport, reused: list[str] | None = None
 ) -> ModelRun:
     """Compute one model; studies go on from what is there of them.
 

@@ -29,37 +29,40 @@ if TYPE_CHECKING:
 
 def sections(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> list[Section]:
     """The figures of the paper under every model, and the numerical experiment."""
-    blocks: list[Block] = []
+    found: list[Section] = []
     for name, run in runs.items():
         of = f" (model {name})" if len(runs) > 1 else ""
-        if run.turns:
-            blocks += _turns(run, of)
-        blocks += _over_wind_speed(run, of)
-    stability = experiments["A1"]
-    blocks.append(
-        Beside(
-            "Figure A1: explicit and backward Euler",
-            ("Explicit Euler is unstable in the load zone; backward Euler is not.",),
-            (
-                picture(
-                    lambda axes: _near_limit(solver_figures.plot_stability(axes, stability), stability),
-                    "Spin over pure rolling entering the load zone, by both Euler methods and converged",
-                    legend="above",
-                ),
-                picture(
-                    lambda axes: _near_limit(solver_figures.plot_deviation(axes, stability), stability),
-                    "Distance of both Euler methods from the converged spin",
-                    legend="above",
-                ),
-            ),
-            f"At a step of {1e3 * stability.attrs['step_s']:g} ms. At the dash-dotted line the step exceeds twice the "
-            f"relaxation time of slip, the limit of explicit Euler, at {stability.attrs['limit_load_N'] / 1e3:.2g} kN.",
+        suffix = "" if name == next(iter(runs)) else f"-{name}"
+        parts = (
+            ("turns", "One roller over a turn", _turns(run, of) if run.turns else (), "figure 3: spin and energy"),
+            ("winds", "Over wind speed", _over_wind_speed(run, of), "figures 4 and 5: energy and peak power"),
         )
+        group = f"The paper's figures{of}"
+        found += [
+            Section(f"{one}{suffix}", title, tuple(blocks), gist, group) for one, title, blocks, gist in parts if blocks
+        ]
+    return [*found, _numerical(experiments)]
+
+
+def _stability(stability: xr.Dataset) -> Beside:
+    return Beside(
+        "Figure A1: explicit and backward Euler",
+        ("Explicit Euler is unstable in the load zone; backward Euler is not.",),
+        (
+            picture(
+                lambda axes: _near_limit(solver_figures.plot_stability(axes, stability), stability),
+                "Spin over pure rolling entering the load zone, by both Euler methods and converged",
+                legend="above",
+            ),
+            picture(
+                lambda axes: _near_limit(solver_figures.plot_deviation(axes, stability), stability),
+                "Distance of both Euler methods from the converged spin",
+                legend="above",
+            ),
+        ),
+        f"At a step of {1e3 * stability.attrs['step_s']:g} ms. At the dash-dotted line the step exceeds twice the "
+        f"relaxation time of slip, the limit of explicit Euler, at {stability.attrs['limit_load_N'] / 1e3:.2g} kN.",
     )
-    return [
-        Section("figures", "The paper's figures beside converged results", tuple(blocks)),
-        _numerical(experiments["nonlinear_tolerance"], experiments["step_size"]),
-    ]
 
 
 def _turns(run: ModelRun, of: str) -> list[Block]:
@@ -197,7 +200,8 @@ def _over_wind_speed(run: ModelRun, of: str) -> list[Block]:
     ]
 
 
-def _numerical(tolerances: xr.Dataset, steps: xr.Dataset) -> Section:
+def _numerical(experiments: Mapping[str, xr.Dataset]) -> Section:
+    tolerances, steps = experiments["nonlinear_tolerance"], experiments["step_size"]
     loosest = tolerances.sel(row="downwind").isel(
         stopping_tolerance=int(np.argmax(tolerances.stopping_tolerance.values))
     )
@@ -207,6 +211,7 @@ def _numerical(tolerances: xr.Dataset, steps: xr.Dataset) -> Section:
         "numerics",
         "What the numerical method does",
         (
+            _stability(experiments["A1"]),
             Paragraph(
                 "Two properties of backward Euler on the spin, measured with this program's own implementation. An "
                 "iteration that stops on a relative change of spin leaves force unbalanced in a gripped contact, where "
@@ -241,6 +246,7 @@ def _numerical(tolerances: xr.Dataset, steps: xr.Dataset) -> Section:
                 "they did is not known."
             ),
         ),
+        "figure A1, and what an early stop of the iteration and a fixed step do to energy and power",
     )
 
 

@@ -17,7 +17,14 @@ from macroslip.reproduction.dissipation import dissipation, knows_mechanisms
 from macroslip.reproduction.model_run import TORQUE_WINDOW, bearing_torques
 from macroslip.reproduction.torque_figures import plot_torque
 from macroslip.reproduction.uncertain_values import VALUES
-from macroslip.reproduction.uncertainty_summary import drivers, sample_size, uncertainty_summary
+from macroslip.reproduction.uncertainty_summary import (
+    DRIVER_LEVEL,
+    drivers,
+    robust,
+    sample_size,
+    strongest,
+    uncertainty_summary,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,7 +41,8 @@ def physical_sections(runs: Mapping[str, ModelRun]) -> list[Section]:
     samples = {name: run.uncertainty for name, run in runs.items() if run.uncertainty is not None}
     if samples:
         blocks = [block for name, sample in samples.items() for block in _uncertainty(name, sample)]
-        found.append(Section("uncertainty", "What the estimated values leave open", tuple(blocks)))
+        gist = "all estimated values drawn together from their ranges: what follows, and what drives it"
+        found.append(Section("uncertainty", "What the estimated values leave open", tuple(blocks), gist))
     return [*found, _torque(runs)]
 
 
@@ -82,7 +90,8 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
             Pictures(tuple(shown), f"Energy per orbit of a mean roller under {name}, by what makes surfaces slide."),
             _part_table(parts, name),
         ]
-    return Section("mechanisms", "What dissipates inside the contacts", tuple(blocks))
+    gist = "figures 4 and 5 under both models; energy by interface, mechanism and place along the roller"
+    return Section("mechanisms", "What dissipates inside the contacts", tuple(blocks), gist)
 
 
 def _part_table(parts: xr.Dataset, name: str) -> Table:
@@ -108,22 +117,23 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
         one = summary.isel(quantity=k)
         unit = "" if str(one.units.values) == "1" else f" [{one.units.values}]"
         named = ", ".join(f"{parameter} ({value:+.2f})" for parameter, value in drivers(summary, quantity))
+        indices = ", ".join(
+            f"{parameter} {first:.2f} ({total:.2f})" for parameter, first, total in strongest(summary, quantity)
+        )
         cells = (told(float(value)) for value in (one.base, *one.range.sel(quantile=[0.5, 0.05, 0.95]).values))
-        rows.append((f"{quantity}{unit}", *cells, named or "none"))
+        known = f"{float(one.explained):.2f}" if np.isfinite(one.explained) else "–"
+        rows.append((f"{quantity}{unit}", *cells, named or "none", indices or "none", known))
     trends = tuple(
-        f"{trend[0].upper()}{trend[1:]}: {100.0 * float(share):.0f} % of the samples; "
+        f"{trend[0].upper()}{trend[1:]}: {word}, {100.0 * float(share):.0f} % of the samples; "
         f"base values: {'yes' if base else 'no'}."
-        for trend, share, base in zip(
-            summary.trend.values.tolist(), summary.trend_share.values, summary.trend_base.values, strict=True
+        for (trend, word), share, base in zip(
+            robust(summary), summary.trend_share.values, summary.trend_base.values, strict=True
         )
     )
-    ranges = tuple(
-        (one.name, f"{one.low:g} to {one.high:g}" + ("" if one.unit == "1" else f" {one.unit}"), one.tag, one.reason)
-        for one in VALUES
-    )
+    ranges = tuple((one.name, one.range_text, one.tag, one.reason) for one in VALUES)
     return [
         Paragraph(
-            f"Model {name}: all values below drawn together from their ranges, evenly, by a scrambled Sobol sequence "
+            f"Model {name}: all values below, and the law of shear, drawn together from their ranges by a scrambled Sobol sequence "
             f"with a fixed seed; cases {', '.join(sample.case.values.tolist())}. {sample_size(summary)}."
         ),
         Pictures(
@@ -137,17 +147,39 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
                 picture(
                     lambda axes: uncertainty_figures.plot_correlations(axes, summary),
                     "Rank correlation of each result with each value",
-                    width=4.6,
+                    width=6.4,
+                    height=5.6,
+                ),
+                picture(
+                    lambda axes: uncertainty_figures.plot_indices(axes, summary),
+                    "Sobol' indices of each result",
+                    width=6.4,
                     height=5.6,
                 ),
             ),
             "Lines: 5 to 95 % of the samples; bar across: median. Squares, in the order of the lines: rank "
-            "correlations, filled where they are no chance (p < 0.01).",
+            f"correlations, filled where they are no chance (p < {DRIVER_LEVEL:g}), and Sobol' indices of the logarithm: "
+            "the square is the total index, the filled part that of first order, and the number on the right the part of "
+            "the variance that the polynomial behind the indices foretells of samples it has not seen.",
         ),
         Table(
-            ("result", "base", "median", "5 %", "95 %", "driven by (rank correlation)"),
+            (
+                "result",
+                "base",
+                "median",
+                "5 %",
+                "95 %",
+                "driven by (rank correlation)",
+                "Sobol' index of first order (total)",
+                "foretold",
+            ),
             tuple(rows),
             "Results over the sample",
+        ),
+        Paragraph(
+            "A statement is robust if every sample shows it, and robustly not so if none does. Indices are those of a "
+            "sparse polynomial of second degree fitted to the sample; of the variance it does not foretell nothing is "
+            "known."
         ),
         Points(trends),
         Table(("value", "range", "tag", "why"), ranges, "What was varied"),
@@ -164,9 +196,9 @@ def _torque(runs: Mapping[str, ModelRun]) -> Section:
     blocks: tuple[Block, ...] = (
         Paragraph(
             "Friction torque of the whole bearing in case 14B: dissipated power and drag of all 56 rollers over shaft "
-            "speed, beside handbook estimates. The models have no rolling resistance of the oil at the contacts' "
-            "inlets, which is most of SKF's torque, and no churning beyond drag; SKF's sliding part is what to compare "
-            "microslip with."
+            "speed, beside handbook estimates. The paper's model has no rolling resistance of the oil, which is most of "
+            "SKF's torque; the physical one has, and how much depends on how full the inlets are. Neither has churning "
+            "beyond drag. SKF's sliding part is what to compare microslip with."
         ),
         Pictures(
             (
@@ -183,4 +215,4 @@ def _torque(runs: Mapping[str, ModelRun]) -> Section:
         ),
         Table(("friction torque", "mean [N m]", "least [N m]", "most [N m]"), rows, "Over all 600 s"),
     )
-    return Section("torque", "Friction torque of the bearing", blocks)
+    return Section("torque", "Friction torque of the bearing", blocks, "computed, beside handbook estimates")

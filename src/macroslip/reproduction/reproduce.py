@@ -20,7 +20,7 @@ from macroslip.reproduction.model_run import (
     STATIC_LOADS,
     TORQUE_WINDOW,
     ModelRun,
-    Progress,
+    StageReport,
     bearing_torques,
     compute_model,
     failures,
@@ -60,7 +60,7 @@ def stages() -> dict[str, float]:
     return shares | {"experiments": 7.0, "figures": 8.0, "report": 7.0}
 
 
-def reproduce(directory: Path, *, threads: int | None = None, progress: Progress | None = None) -> dict[str, Any]:
+def reproduce(directory: Path, *, threads: int | None = None, progress: StageReport | None = None) -> dict[str, Any]:
     """Reproduce the paper's study and figures with converged solutions, and judge its statements.
 
     Its studies are computed as any study is: a run that was stopped goes on where it ended, and what an earlier run into
@@ -143,7 +143,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Progress
     return summary
 
 
-def _experiments(run: ModelRun, threads: int | None, report: Progress) -> dict[str, xr.Dataset]:
+def _experiments(run: ModelRun, threads: int | None, report: StageReport) -> dict[str, xr.Dataset]:
     """What the numerical method does, under the paper's model."""
     varying, result = varying_load(), run.profile["result"]
     _, orbit = largest_peak(result, "upwind")
@@ -206,7 +206,7 @@ def _figures(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]
     return found
 
 
-def _save(figures: Mapping[str, Callable[[], Figure]], folder: Path, report: Progress) -> None:
+def _save(figures: Mapping[str, Callable[[], Figure]], folder: Path, report: StageReport) -> None:
     from macroslip.report.style import save
 
     for done, (name, draw) in enumerate(figures.items(), start=1):
@@ -220,7 +220,7 @@ def _write_report(
     experiments: Mapping[str, xr.Dataset],
     judged: Mapping[str, Mapping[str, Statement]],
     summary: Mapping[str, Any],
-    report: Progress,
+    report: StageReport,
 ) -> None:
     from macroslip.reproduction.reproduction_page import reproduction_page
 

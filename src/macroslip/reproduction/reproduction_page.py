@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from macroslip.report.bearing_section import further_blocks, orbit_blocks, result_blocks, view_section
+from macroslip.report.bearing_section import roller_sections, view_section
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Statements, Table, render
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
 from macroslip.reproduction import paper_comparison
-from macroslip.reproduction.headline import failure_line
+from macroslip.reproduction.opening import reproduction_opening
 from macroslip.reproduction.physical_section import physical_sections
 from macroslip.reproduction.sensitivity_figures import plot_tornado
-from macroslip.reproduction.statement import AGREES, DIFFERS, PARTLY, Statement
+from macroslip.reproduction.statement import Statement
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.reproduction.model_run import ModelRun
 
-TITLE = "Slip in a wind turbine's main bearing: what the paper found, and what a converged solution finds"
+TITLE = "Slip in a main bearing: what the paper found, and what a converged solution finds"
 _PAPER = "Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing"
 
 
@@ -49,13 +50,18 @@ def reproduction_page(
         HTML in one piece.
     """
     sections = [
-        _answer(judged, summary),
+        _statements(judged),
         *paper_comparison.sections(runs, experiments),
         *physical_sections(runs),
         view_section({_titled("case 14B", name, runs): run.profile for name, run in runs.items()}),
-        *(_beyond(name, run, runs) for name, run in runs.items()),
+        *(section for name, run in runs.items() for section in _beyond(name, run, runs)),
         _sensitivity(runs),
-        Section("conventions", "How the numbers were taken", (Points(tuple(summary["conventions"])),)),
+        Section(
+            "conventions",
+            "How the numbers were taken",
+            (Points(tuple(summary["conventions"])),),
+            "windows, means, normalisation, when a number counts as met",
+        ),
         provenance_section(
             {name: run.study for name, run in runs.items()}, seconds=summary["seconds"], reused=tuple(summary["reused"])
         ),
@@ -64,27 +70,14 @@ def reproduction_page(
         f"{_PAPER}, beside the same equations solved to convergence: 21 load cases of ten minutes, 28 rollers in each "
         f"of two rows. {'' if len(runs) > 1 else 'Model: ' + next(iter(runs)) + '.'}"
     )
-    return render(TITLE, subtitle, sections)
+    return render(TITLE, subtitle, reproduction_opening(runs, experiments, judged, summary), sections)
 
 
 def _titled(title: str, model: str, runs: Mapping[str, ModelRun]) -> str:
     return f"{title}, model {model}" if len(runs) > 1 else title
 
 
-def _answer(judged: Mapping[str, Mapping[str, Statement]], summary: Mapping[str, Any]) -> Section:
-    words = []
-    for name, of_model in judged.items():
-        statements = list(of_model.values())
-        counts = {verdict: sum(one.verdict == verdict for one in statements) for verdict in (AGREES, PARTLY, DIFFERS)}
-        sentence = (
-            f"of the paper's {len(statements)} statements {counts[AGREES]} agree with a converged solution, "
-            f"{counts[PARTLY]} agree in part, {counts[DIFFERS]} differ"
-        )
-        others = len(statements) - sum(counts.values())
-        sentence += f", {others} not computed or not to be judged" if others else ""
-        words.append(
-            f"Under the model {name}, {sentence}." if len(judged) > 1 else f"{sentence[0].upper()}{sentence[1:]}."
-        )
+def _statements(judged: Mapping[str, Mapping[str, Statement]]) -> Section:
     rows = tuple(
         (
             first.paper,
@@ -92,33 +85,19 @@ def _answer(judged: Mapping[str, Mapping[str, Statement]], summary: Mapping[str,
         )
         for subject, first in next(iter(judged.values())).items()
     )
-    failed = summary["failed_rollers"]
-    places = {place: count for place, count in failed.items() if place not in ("study_by_case", "study_total")}
-    return Section(
-        "answer",
-        "The answer",
-        (
-            Paragraph(" ".join(words), strong=True),
-            Statements(tuple(judged), rows),
-            Paragraph(
-                f"{failure_line(places, failed['study_total'])} That the paper's turbine used this bearing is not "
-                "known, nor how its equations were solved."
-            ),
-        ),
-    )
+    gist = "each with verdict, number and, where it differs, what explains it"
+    return Section("statements", "The paper's statements, one by one", (Statements(tuple(judged), rows),), gist)
 
 
-def _beyond(name: str, run: ModelRun, runs: Mapping[str, ModelRun]) -> Section:
-    of = f" under {name}" if len(runs) > 1 else ""
-    blocks: tuple[Block, ...] = (
-        Paragraph("Case 14B: all 28 rollers of each row, ten minutes at a mean wind speed of 14 m/s."),
-        *orbit_blocks(run.profile, of),
-        *result_blocks(run.profile["result"], of),
-        *further_blocks(run.profile["result"], of),
-        _film_range_table(run.study),
+def _beyond(name: str, run: ModelRun, runs: Mapping[str, ModelRun]) -> list[Section]:
+    suffix = "" if name == next(iter(runs)) else f"-{name}"
+    group = _titled("All rollers in case 14B", name, runs)
+    words = "Case 14B: all 28 rollers of each row, ten minutes at a mean wind speed of 14 m/s."
+    sections = roller_sections(
+        run.profile["result"], run.profile, suffix=suffix, group=group, first=(Paragraph(words),)
     )
-    anchor = "rollers" if name == next(iter(runs)) else f"rollers-{name}"
-    return Section(anchor, _titled("Beyond the one roller", name, runs), blocks)
+    films = sections[-1]
+    return [*sections[:-1], dataclasses.replace(films, blocks=(*films.blocks, _film_range_table(run.study)))]
 
 
 def _film_range_table(study: xr.Dataset) -> Table:
@@ -159,7 +138,8 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
         texts = zip(names, table.refused.values.tolist(), strict=True)
         refused = [f"{one}: {text} The next one towards the base case was taken" for one, text in texts if text]
         blocks.append(Points(tuple(f"{note[0].upper()}{note[1:]}." for note in (*notes, *refused))))
-    return Section("sensitivity", "What the result depends on", tuple(blocks))
+    gist = "one value changed at a time: oil temperature, clearance, osculation, lever arm, film thickness"
+    return Section("sensitivity", "What the result depends on", tuple(blocks), gist)
 
 
 def _sensitivity_table(table: xr.Dataset) -> Table:

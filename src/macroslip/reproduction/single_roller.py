@@ -8,7 +8,8 @@ import numpy as np
 
 from macroslip.bearing import geometry
 from macroslip.bearing.frames import initial_angles
-from macroslip.case.case import Case, Traces, Window
+from macroslip.case.case import Case
+from macroslip.case.parts import Traces, Window
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads
 from macroslip.mechanisms import Laws

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.case.case import BackwardEuler, Case, Radau
+from macroslip.case.case import Case
+from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.loads import BearingLoads
 from macroslip.machine import usable_processors
 from macroslip.reproduction.single_roller import static_load

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS
-from macroslip.case.case import BackwardEuler, Case, ExplicitEuler, Radau, Traces
+from macroslip.case.case import Case
+from macroslip.case.parts import BackwardEuler, ExplicitEuler, Radau, Traces
 from macroslip.integrate.load_zone import relaxation_rate
 from macroslip.result.simulate import simulate
 from macroslip.roller.model import RollerModel, roller_model
@@ -44,17 +46,18 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
     """
     import xarray as xr
 
-    roller = Case(loads=static).bearing.rollers_per_row // 2
+    bearing = Case(loads=static).bearing
+    case = Case(loads=static, rollers=[bearing.rollers_per_row // 2], traces=Traces(step=step))
     methods = {
         "explicit": ExplicitEuler(step=step),
         "backward": BackwardEuler(step=step),
         "converged": Radau(tolerance=_CONVERGED),
     }
-    runs, case = {}, None
-    for name, method in methods.items():
-        case = Case(loads=static, rollers=[roller], traces=Traces(step=step), integrator=method)
-        runs[name] = simulate(case).sel(row="downwind").isel(roller=0)
-    bearing, converged = case.bearing, runs["converged"]
+    runs = {
+        name: simulate(replace(case, integrator=method)).sel(row="downwind").isel(roller=0)
+        for name, method in methods.items()
+    }
+    converged = runs["converged"]
     model = roller_model(bearing, case.lubricant, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
     turned = np.degrees(model.orbit_ratio * converged.time.values * float(static.shaft_speed[0]))
     kept = turned <= 180.0

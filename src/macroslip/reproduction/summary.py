@@ -36,9 +36,11 @@ CONVENTIONS = (
     "Model physical: rollers 0, 4, ... 24 of each row in the study and the sensitivity. Against all 28 in 12B, 18B and "
     "24A that moves a row's energy by at most 0.1 % downwind and 4 % upwind, its mean P_max by 0.2 % and 4 %.",
     "Model physical: the sensitivity's window ends at 200 s.",
-    "Uncertainty: 64 scrambled Sobol samples over 13 estimated values, cases 12B, 18B and 24B, roller 0 of each row, "
-    "window to 200 s. Ranges are quantiles 5 to 95 %; a driver has a rank correlation at p < 0.01.",
-    "Friction torque: dissipated power and drag over shaft speed, all rollers in case 14B.",
+    "Uncertainty: 128 scrambled Sobol samples over 23 estimated values, the law of shear among them, cases 12B and 24B, "
+    "roller 0 of each row, window to 100 s. Ranges are quantiles 5 to 95 %; a driver has a rank correlation at p < 0.001. "
+    "Sobol' indices are those of a sparse polynomial of second degree fitted to the logarithm of a result; a statement is "
+    "robust if every sample shows it.",
+    "Friction torque: dissipated power, rolling resistance and drag over shaft speed, all rollers in case 14B.",
     "Verdicts: 'about' allows a factor of 2; a trend is a rank correlation with wind speed at p < 0.05.",
     "Verdicts: high variance is a median standard deviation of at least half the mean.",
     "Verdicts: at the top is within 15 degrees of it; a snap is a return to 99 % of pure rolling in 2 % of an orbit.",

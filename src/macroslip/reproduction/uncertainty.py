@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.reproduction.uncertain_values import VALUES
+from macroslip.reproduction.uncertain_values import UNITS, VALUES, UncertainValue
 from macroslip.study.outcome import Outcome
 from macroslip.study.reader import open_study
 
@@ -32,9 +32,9 @@ def uncertainty(directory: Path) -> xr.Dataset:
     xarray.Dataset
         Over (sample, case, row, interface): orbit_energy [J] per orbit, mean over rollers and orbits; over (sample,
         case, row): peak_power [W], mean over rollers and orbits of the largest power at any interface per orbit; over
-        (sample, case): window_energy [J], both rows, and torque [N m], friction torque of both rows' contacts, mean
-        over the turns of the shaft. Over (sample, parameter): value, in the unit of the coordinate `unit`; NaN for the
-        base values. outcome over (sample): position in `OUTCOMES`; what did not complete is NaN, and `reason` says why.
+        (sample, case): window_energy [J], both rows; torque [N m], sliding torque of both rows' contacts, mean over the
+        turns of the shaft; and friction_power [W] of the whole bearing with rolling and drag. Over (sample, parameter):
+        value, in the unit of the coordinate `unit`, of a choice its number; NaN for the base values. outcome over (sample): position in `OUTCOMES`; what did not complete is NaN, and `reason` says why.
         Sample 0 are the base values, which are no part of the statistics.
     """
     import xarray as xr
@@ -56,7 +56,7 @@ def uncertainty(directory: Path) -> xr.Dataset:
         return {"units": units, "long_name": long_name}
 
     of_row = ("sample", "case", "row")
-    values = np.stack([_in_unit(parts[0][one.key].values, one.unit) for one in VALUES], axis=1)
+    values = np.stack([_of_sample(parts[0][one.key].values, one) for one in VALUES], axis=1)
     flags = {
         "flag_values": np.arange(len(OUTCOMES), dtype=np.int8),
         "flag_meanings": " ".join(one.replace(" ", "_") for one in OUTCOMES),
@@ -81,7 +81,12 @@ def uncertainty(directory: Path) -> xr.Dataset:
             "torque": (
                 of_row[:2],
                 gathered("contact_torque")[..., 0],
-                about("N m", "friction torque of all contacts, mean over the turns of the shaft"),
+                about("N m", "sliding torque of all contacts, mean over the turns of the shaft"),
+            ),
+            "friction_power": (
+                of_row[:2],
+                gathered("friction_power")[..., 0],
+                about("W", "sliding, rolling, cage and drag of the whole bearing, mean over the window"),
             ),
             "value": (("sample", "parameter"), values, about("1", "value set, in the unit of its parameter")),
             "outcome": ("sample", outcomes, about("1", "what became of the sample") | flags),
@@ -100,9 +105,11 @@ def uncertainty(directory: Path) -> xr.Dataset:
     )
 
 
-def _in_unit(values: np.ndarray, unit: str) -> np.ndarray:
-    """Values of the study file, which are in SI units, in the unit of their range."""
-    return values - 273.15 if unit == "°C" else values / {"mm": 1e-3, "µm": 1e-6, "GPa": 1e9}.get(unit, 1.0)
+def _of_sample(values: np.ndarray, one: UncertainValue) -> np.ndarray:
+    """Values of the study file, which are in SI units, in the unit of their range; choices by number."""
+    if one.choices:
+        return np.array([one.choices.index(word) if word in one.choices else np.nan for word in values])
+    return values - 273.15 if one.unit == "°C" else values / UNITS[one.unit][1]
 
 
 def _reason(names: list[str], runs: list[xr.Dataset]) -> tuple[int, str]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from macroslip.report.style import BLACK, BLUE, ORANGE, finish, log_ticks, new_figure
 from macroslip.report.wording import told
-from macroslip.reproduction.uncertainty_summary import DRIVER_LEVEL
+from macroslip.reproduction.uncertainty_summary import DRIVER_LEVEL, TOLD_INDEX
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -78,10 +78,41 @@ def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
     return finish(axes, "varied value", "", "rank correlation")
 
 
+def plot_indices(axes: Axes, summary: xr.Dataset) -> Axes:
+    """Sobol' indices of every quantity's logarithm: the area of a square is the total index, filled up to the first order.
+
+    Takes what `macroslip.reproduction.uncertainty_summary.uncertainty_summary` gives. On the right stands the part of the
+    variance that the polynomial behind the indices foretells.
+    """
+    first, total, known = summary.first_order.values, summary.total_order.values, summary.explained.values
+    for q in range(total.shape[0]):
+        place = total.shape[0] - 1 - q
+        for p in range(total.shape[1]):
+            if total[q, p] >= TOLD_INDEX:
+                axes.scatter(
+                    p, place, s=330.0 * total[q, p], marker="s", facecolor="none", edgecolor=BLUE, linewidth=0.8
+                )
+                axes.scatter(p, place, s=330.0 * max(first[q, p], 0.0), marker="s", facecolor=BLUE, linewidth=0.0)
+        if np.isfinite(known[q]):
+            axes.annotate(f"{known[q]:.2f}", (total.shape[1] - 0.2, place), va="center", fontsize=8)
+    axes.set_xticks(
+        np.arange(total.shape[1]),
+        [str(name) for name in summary.parameter.values],
+        rotation=60,
+        ha="right",
+        rotation_mode="anchor",
+    )
+    axes.set_yticks([])
+    axes.set_xlim(-0.6, total.shape[1] + 1.6)
+    axes.set_ylim(-0.6, total.shape[0] - 0.4)
+    return finish(axes, "varied value", "", "Sobol' index, and part foretold")
+
+
 def uncertainty_figure(summary: xr.Dataset) -> Figure:
-    """Ranges of the results on the left, what drives them on the right."""
-    figure, axes = new_figure(9.6, 6.2, 1, 2)
+    """Ranges of the results on the left, then what drives them: rank correlations and Sobol' indices."""
+    figure, axes = new_figure(16.0, 7.2, 1, 3)
     plot_ranges(axes[0], summary)
     plot_correlations(axes[1], summary)
+    plot_indices(axes[2], summary)
     axes[0].set_ylim(axes[1].get_ylim())
     return figure

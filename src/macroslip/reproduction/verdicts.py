@@ -82,10 +82,11 @@ def energy_between_rows(numbers: xr.Dataset, thrust_energy: float = math.nan) ->
         f"{float(per_orbit.min()):.2f} to {float(per_orbit.max()):.2f} times that, and no load adds to it"
     )
     found = {"lowest": float(ratio.min(skipna=False)), "highest": float(ratio.max(skipna=False))}
-    good = all(about(value, 10.0) for value in found.values())
+    parts = [about(value, 10.0) for value in found.values()]
+    good = all(parts)
     return Statement(
         paper="the downwind row spends about 10 times the energy of the upwind row",
-        verdict=verdict([good], found),
+        verdict=verdict(parts, found),
         found=f"{told(found['lowest'])} to {told(found['highest'])} times",
         because=because if explained and not good else "",
         numbers=found,

@@ -14,11 +14,12 @@ import numpy as np
 
 import macroslip
 from macroslip.bearing.frames import ROWS, initial_angles
-from macroslip.case.case import Radau
+from macroslip.case.parts import Radau
 from macroslip.integrate.detail import MECHANISMS
-from macroslip.integrate.record import COUNTS, TRACES, Record
+from macroslip.integrate.record import COUNTS, TRACES, RollerRecord
 from macroslip.integrate.status import Status
 from macroslip.integrate.surface import STATIONS
+from macroslip.loads.source_file import without_folders
 from macroslip.result import surface_maps
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.contacts import references
@@ -119,7 +120,7 @@ def to_dataset(
     model: RollerModel,
     edges: np.ndarray,
     end: float,
-    results: dict[tuple[str, int], tuple[int, Record]],
+    results: dict[tuple[str, int], tuple[int, RollerRecord]],
     notes: dict[str, Any],
     drag_power: float,
 ) -> xr.Dataset:
@@ -173,7 +174,7 @@ def to_dataset(
         coordinates["time"] = ("time", records[0][0].trace_time, {"units": "s", "long_name": "time"})
     citations = [*CITATIONS, *references(case.laws)]
     attributes = {
-        "title": f"Roller slip of {case.bearing.name} under {case.loads.source}",
+        "title": f"Roller slip of {case.bearing.name} under {without_folders(case.loads.source)}",
         "source": f"macroslip {macroslip.__version__}",
         "model": case.laws.name,
         "window_start": float(edges[0]),
@@ -187,14 +188,14 @@ def to_dataset(
     return xr.Dataset(data, coordinates, attributes)
 
 
-def _gathered(records: list[list[Record]], failed: np.ndarray, name: str) -> np.ndarray:
+def _gathered(records: list[list[RollerRecord]], failed: np.ndarray, name: str) -> np.ndarray:
     """One array of every record over (row, roller, ...); NaN for rollers that failed."""
     values = np.array([[getattr(record, name) for record in line] for line in records], dtype=float)
     values[failed] = np.nan
     return values
 
 
-def _window_values(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def _window_values(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Energies, powers and shares of time in the window."""
     ratio = _gathered(records, failed, "spin_ratio")[..., 0]
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -209,7 +210,7 @@ def _window_values(records: list[list[Record]], failed: np.ndarray) -> dict[str,
     }
 
 
-def _of_integrator(records: list[list[Record]]) -> dict[str, np.ndarray]:
+def _of_integrator(records: list[list[RollerRecord]]) -> dict[str, np.ndarray]:
     """What the integrator did, also of rollers that failed."""
     counts = np.array([[record.count for record in line] for line in records])
     ended = np.array([[record.end for record in line] for line in records])
@@ -221,7 +222,7 @@ def _of_integrator(records: list[list[Record]]) -> dict[str, np.ndarray]:
     }
 
 
-def _contact_details(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def _contact_details(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """What only contacts with microslip or asperities know."""
     extreme = _gathered(records, failed, "extreme")
     with np.errstate(invalid="ignore"):

@@ -9,18 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
-from macroslip.case.case import BALANCE, WHOLE_BEARING, BackwardEuler, Case, Radau
+from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
+from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.load_zone import empty_classes, firm_interference
 from macroslip.integrate.path import FixedStep, Limits, Path, longest_step
 from macroslip.integrate.radau import integrate_radau
-from macroslip.integrate.record import Record, new_record
+from macroslip.integrate.record import RollerRecord, new_record
 from macroslip.integrate.root import rising_at
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
+from macroslip.result.own_laws import check_own_laws
 from macroslip.result.thermal_balance import balanced
 from macroslip.result.whole_dataset import simulate_whole_bearing
 from macroslip.ring.motion import ring_motion
@@ -35,11 +37,19 @@ from macroslip.roller.model import (
     truncated_share,
     truncation_load,
 )
+from macroslip.roller.table_box import table_box
+from macroslip.roller.tables import needs_tables, tabulated
 from macroslip.whole_bearing.run import Times
 
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Length of a history [s] from which on tables are made. It asks nothing of the rollers chosen, so that a roller's result
+#: does not depend on the others.
+SHORTEST_TABULATED = 60.0
+#: Tolerance of the integrator from which on tables are precise enough: their jumps between cells, and between splines and
+#: laws, are below the force that may stay unbalanced.
+LEAST_TABULATED_TOLERANCE = 2e-5
 #: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
 _MOST_SAMPLES = 10_000_000
 
@@ -82,6 +92,7 @@ def simulate(
     model = models["downwind"]
     ring = ring_geometry(case.bearing, model)
     motion, largest = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, oil, case.laws))
+    check_own_laws(case.laws, case.bearing, oil, highest_speed(motion, model))
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
@@ -91,8 +102,9 @@ def simulate(
         return simulate_whole_bearing(case, models, motion, times, _notes(case, largest), drag)
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
+    models, evaluation = evaluated_models(case, models, motion, largest)
 
-    def run(row: str, angle: float) -> tuple[int, Record]:
+    def run(row: str, angle: float) -> tuple[int, RollerRecord]:
         record = new_record(edges, trace_time, highest_speed(motion, model))
         path = Path(models[row], motion, angle, limits)
         if isinstance(limits, Limits):
@@ -120,7 +132,54 @@ def simulate(
     finally:
         pool.shutdown(cancel_futures=True)
     drag = _drag_power(case, model, motion, edges[0], end)
-    return to_dataset(case, model, edges, end, results, _notes(case, largest), drag)
+    return to_dataset(case, model, edges, end, results, {**_notes(case, largest), **evaluation}, drag)
+
+
+def evaluated_models(
+    case: Case, models: dict[str, RollerModel], motion: Motion, largest: float
+) -> tuple[dict[str, RollerModel], dict[str, Any]]:
+    """The rollers of both rows as they are integrated, by their laws or by tables, and what a result tells of it.
+
+    Parameters
+    ----------
+    case : Case
+    models : dict of RollerModel
+        By row.
+    motion : Motion
+    largest : float
+        Largest elastic load of a roller [N].
+
+    Returns
+    -------
+    dict of RollerModel, dict
+        Rollers by row, and the attributes `contact_evaluation` and, of tables, `table_error_typical`,
+        `table_error_worst`, `table_share`, `table_size` and `table_build_time`.
+    """
+    model, laws = models["downwind"], "contact_evaluation"
+    if not needs_tables(model):
+        return models, {laws: "laws: they need no table"}
+    integrator = case.integrator
+    if not isinstance(integrator, Radau) or not integrator.tables:
+        return models, {laws: "laws, as asked for"}
+    if integrator.tolerance < LEAST_TABULATED_TOLERANCE:
+        return models, {laws: f"laws: the tolerance is below {LEAST_TABULATED_TOLERANCE:g}"}
+    if motion.time[-1] - motion.time[0] < SHORTEST_TABULATED:
+        return models, {laws: f"laws: the history is shorter than {SHORTEST_TABULATED:g} s"}
+    speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
+    turning = float(np.max(np.abs(motion.shaft_speed))) * model.orbit_ratio
+    body = abs(model.weight_in_plane) + abs(model.weight_along_axis) + model.centrifugal * turning**2
+    box = table_box(speeds, largest, body)
+    if box is None:
+        return models, {laws: "laws: the shaft stands still"}
+    found, report = tabulated(models, box)
+    return found, {
+        laws: "tables",
+        "table_error_typical": report.typical_error,
+        "table_error_worst": report.worst_error,
+        "table_share": report.known,
+        "table_size": report.size,
+        "table_build_time": report.build_time,
+    }
 
 
 def _drag_power(case: Case, model: RollerModel, motion: Motion, start: float, end: float) -> float:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.bearing import Bearing
-    from macroslip.integrate.record import Record
+    from macroslip.integrate.record import RollerRecord
 
 _PLACES = ("row", "raceway", "angle", "station")
 #: As `macroslip.result.dataset.VARIABLES`.
@@ -41,7 +41,7 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
 }
 
 
-def values(records: list[list[Record]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def values(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Maps of the rows; NaN for a row with a roller that failed, whose part is missing."""
     energy = np.array([sum(record.surface_energy for record in line) for line in records])
     density = np.array([np.max([record.surface_density for record in line], axis=0) for line in records])

@@ -1,8 +1,8 @@
-"""The temperature at which a case's own friction warms its bearing: found by simulating it, before its results count."""
+"""The temperature to which its own friction warms a bearing: found by simulating it, before its results count."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -13,10 +13,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.case.case import Case
+    from macroslip.case.parts import Heat
 
 #: Change of temperature [K] between two guesses at which the balance counts as found, first rise over the surroundings
 #: [K], and most guesses.
-_CLOSE, _FIRST_RISE, _MOST = 0.2, 30.0, 8
+_CLOSE, _FIRST_RISE, _MOST = 0.2, 30.0, 10
 
 
 def friction_power(result: xr.Dataset) -> float:
@@ -48,6 +49,50 @@ def friction_power(result: xr.Dataset) -> float:
     return share * energy / span + result.attrs["drag_power"]
 
 
+def next_temperature(known: Mapping[float, float], heat: Heat) -> tuple[float, bool]:
+    """Temperature at which friction, as far as it is known, is what the bearing loses; and whether that is settled.
+
+    Parameters
+    ----------
+    known : mapping of float to float
+        Friction power [W] by temperature [K], as far as it was computed.
+    heat : Heat
+
+    Returns
+    -------
+    (float, bool)
+        The temperature to compute next [K]; first that of the surroundings, then 30 K above, then the balance of what is
+        known. Settled: within 0.2 K of one that was computed.
+
+    Raises
+    ------
+    InputError
+        If there is no balance, or ten temperatures have not settled it.
+
+    Examples
+    --------
+    >>> from macroslip import Heat
+    >>> next_temperature({290.0: 1200.0, 320.0: 600.0}, Heat(conductance=40.0, ambient=290.0))
+    (310.0, False)
+    """
+    for first in (heat.ambient, heat.ambient + _FIRST_RISE):
+        if first not in known:
+            return first, False
+    places = sorted(known)
+    found = balance_temperature(
+        tabulated_power(places, [known[place] for place in places]), heat.conductance, heat.ambient
+    )
+    if min(abs(found - place) for place in places) <= _CLOSE:
+        return found, True
+    if len(known) >= _MOST:
+        raise InputError(
+            f"the balance of temperature was not found in {_MOST} simulations",
+            where="temperature: balance",
+            remedy="Give a temperature.",
+        )
+    return found, False
+
+
 def balanced(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     """The case at the temperature at which friction power = conductance (T − ambient).
 
@@ -75,22 +120,10 @@ def balanced(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     temperature of a bearing, so the balance is that of their mean power if it lasted.
     """
     heat = case.heat
+    assert heat is not None, "the case asks for no balance"
     known: dict[float, float] = {}
-
-    def compute(temperature: float) -> None:
+    while True:
+        temperature, settled = next_temperature(known, heat)
+        if settled:
+            return replace(case, temperature=temperature)
         known[temperature] = friction_power(simulate(replace(case, temperature=temperature, traces=None)))
-
-    compute(heat.ambient)
-    compute(heat.ambient + _FIRST_RISE)
-    for _ in range(_MOST):
-        places = sorted(known)
-        power = tabulated_power(places, [known[place] for place in places])
-        found = balance_temperature(power, heat.conductance, heat.ambient)
-        if min(abs(found - place) for place in places) <= _CLOSE:
-            return replace(case, temperature=found)
-        compute(found)
-    raise InputError(
-        f"the balance of temperature was not found in {_MOST + 2} simulations",
-        where="temperature: balance",
-        remedy="Give a temperature.",
-    )

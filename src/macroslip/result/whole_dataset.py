@@ -16,13 +16,14 @@ import numpy as np
 import macroslip
 from macroslip.bearing.frames import ROWS, initial_angles
 from macroslip.integrate.status import Status
+from macroslip.loads.source_file import without_folders
 from macroslip.result.dataset import CITATIONS, INTERFACES, VARIABLES, contact_coordinates
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.contacts import references
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS
 from macroslip.whole_bearing.model import whole_bearing
-from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, Record
+from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, BearingRecord
 from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ def whole_dataset(
     bearing: WholeBearing,
     motion: Motion,
     status: int,
-    record: Record,
+    record: BearingRecord,
     notes: dict[str, Any],
     *,
     curved: bool,
@@ -159,7 +160,7 @@ def whole_dataset(
     if case.traces is not None:
         coordinates["time"] = ("time", record.out_time, {"units": "s", "long_name": "time"})
     attributes = {
-        "title": f"Roller slip of {case.bearing.name} under {case.loads.source}, whole bearing",
+        "title": f"Roller slip of {case.bearing.name} under {without_folders(case.loads.source)}, whole bearing",
         "source": f"macroslip {macroslip.__version__}",
         "model": case.laws.name,
         "dynamics": case.dynamics,
@@ -174,7 +175,7 @@ def whole_dataset(
     return xr.Dataset(out.data, coordinates, attributes)
 
 
-def _put_common(out: _Collector, record: Record, status: int, shape: tuple[int, int]) -> None:
+def _put_common(out: _Collector, record: BearingRecord, status: int, shape: tuple[int, int]) -> None:
     """What a result on imposed orbits has too."""
     rollers = ("row", "roller")
     out.put(
@@ -214,7 +215,7 @@ def _put_common(out: _Collector, record: Record, status: int, shape: tuple[int, 
     out.put("end_slip", rollers, slip, "m/s", "mean slip at inner and outer raceway at which the integration ended")
 
 
-def _put_details(out: _Collector, record: Record) -> None:
+def _put_details(out: _Collector, record: BearingRecord) -> None:
     """What only contacts with microslip or asperities know, as in a result on imposed orbits."""
     details = record.details
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -243,7 +244,7 @@ def _put_details(out: _Collector, record: Record) -> None:
         out.put(name, dims, np.full_like(value, np.nan) if out.failed else value, units, about)
 
 
-def _put_cage(out: _Collector, record: Record) -> None:
+def _put_cage(out: _Collector, record: BearingRecord) -> None:
     """Pockets and cages."""
     rollers = ("row", "roller")
     sided = (*rollers, "side")
@@ -269,7 +270,7 @@ def _put_cage(out: _Collector, record: Record) -> None:
     out.put("cage_slip_deviation", ("cage",), deviation, "1", "standard deviation of the cage's slip in the window")
 
 
-def _put_books(out: _Collector, record: Record) -> None:
+def _put_books(out: _Collector, record: BearingRecord) -> None:
     """Books of angular momentum and energy."""
     dims = ("book_time",)
     for k, name in enumerate(STOCKS):
@@ -285,7 +286,7 @@ def _put_books(out: _Collector, record: Record) -> None:
     out.put("pocket_loss", dims, pocket_loss(record), "J", "energy dissipated by impacts and squeeze films")
 
 
-def _put_traces(out: _Collector, record: Record, bearing: WholeBearing, motion: Motion, *, curved: bool) -> None:
+def _put_traces(out: _Collector, record: BearingRecord, bearing: WholeBearing, motion: Motion, *, curved: bool) -> None:
     """Series of rollers and cages."""
     trace = dict(zip(TRACES, np.moveaxis(record.trace, -1, 0), strict=True))
     dims = ("row", "roller", "time")

@@ -2,11 +2,13 @@
 
 Two kinds of contact exist. A `PlainContact` slides alike all over, as in the paper's model; the kernels made of it know
 nothing of the rest. A `CurvedContact` has a slip field over the stations along the roller's axis, and asperities that
-share the load. Which kind a roller has follows from the types in its model when the kernel is compiled.
+share the load. Which kind a roller has follows from the types in its model when the kernel is compiled. A curved contact
+may have a table of what its laws give, which is asked first.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from numba import types
@@ -16,6 +18,8 @@ from macroslip.compiled import jit, jit_inline
 from macroslip.contact.shape import ContactShape
 from macroslip.film.asperity_load import AsperityLoad, asperity_share
 from macroslip.film.film_law import film_thickness
+from macroslip.roller.plane_table import plane_values
+from macroslip.roller.raceway_table import table_force
 from macroslip.traction.asperity_friction import AsperityFriction, asperity_friction
 from macroslip.traction.slip_field import SlipField
 from macroslip.traction.traction_law import patch_traction, patch_traction_microslip
@@ -50,6 +54,8 @@ class CurvedContact(NamedTuple):
         Thermal effusivity of roller and counterpart [J/(m² K √s)]; NaN where unknown.
     roughness : float
         Composite RMS roughness [m].
+    table : RacewayTable or PlaneTable
+        Of a raceway's contact or of the cage's, from `macroslip.roller.tables`; knows nothing unless one was made.
     """
 
     film: Any
@@ -62,6 +68,7 @@ class CurvedContact(NamedTuple):
     effusivity_1: float
     effusivity_2: float
     roughness: float
+    table: Any
 
 
 class Detail(NamedTuple):
@@ -150,10 +157,24 @@ def slip_field(shape, slip, ring_speed):
     return SlipField(slip, ring_speed * shape.curvature_ratio - slip * slowing, ring_speed * shape.spin_ratio, -slowing)
 
 
-@jit
+@jit_inline
 def _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
     if load <= 0.0:
         return ContactForce(0.0, 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0))
+    found = table_force(contact.table, load, ring_speed, slip)
+    if found.known:
+        return ContactForce(
+            found.pull - found.lag,
+            found.pull,
+            found.pull_slope - found.lag_slope,
+            found.pull_slope,
+            Detail(found.lag, found.skew, found.asperity_power),
+        )
+    return _raceway_by_laws(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope)
+
+
+@jit
+def _raceway_by_laws(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
     if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
         entrainment_speed = LOWEST_ENTRAINMENT_SPEED
         entrainment_slope = 0.0
@@ -172,10 +193,26 @@ def _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainm
     return ContactForce(pull - lag, pull, pull_slope - lag_slope, pull_slope, detail)
 
 
-@jit
+@jit_inline
 def _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope):
     if load <= 0.0:
         return 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0)
+    table = contact.table
+    found = plane_values(table, math.log(load), math.log(abs(slip)))
+    if found.known:
+        conductance = math.exp(found.value[0])
+        force = conductance * slip
+        return (
+            force,
+            conductance * (1.0 + found.by_speed[0] * table.speed.per_spacing),
+            force * found.by_load[0] * table.load.per_spacing / load,
+            Detail(0.0, 0.0, found.value[1] * force * slip),
+        )
+    return _cage_by_laws(contact, load, slip, entrainment_speed, entrainment_slope)
+
+
+@jit
+def _cage_by_laws(contact, load, slip, entrainment_speed, entrainment_slope):
     if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
         entrainment_speed = LOWEST_ENTRAINMENT_SPEED
         entrainment_slope = 0.0
@@ -208,7 +245,8 @@ def raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainmen
     ring_speed : float
         Speed u2 of the ring past the roller's centre [m/s].
     entrainment_speed : float
-        u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`; that of the middle serves the whole contact.
+        u_e [m/s], floored at `LOWEST_ENTRAINMENT_SPEED`; that of the middle serves the whole contact. A table was made
+        for |u2 − Δu/2|.
     entrainment_slope : float
         du_e/dΔu [-].
 

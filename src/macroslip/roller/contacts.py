@@ -16,6 +16,8 @@ from macroslip.film.correction import INLET_HEATING_REFERENCE, prepare_film
 from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
 from macroslip.roller.contact_force import CurvedContact, PlainContact
 from macroslip.roller.films import Films, NoFilms
+from macroslip.roller.plane_table import no_plane_table
+from macroslip.roller.raceway_table import no_raceway_table
 from macroslip.rolling import law as rolling_law
 from macroslip.rolling.gap import GapShape
 from macroslip.traction import traction_law as traction_law
@@ -183,6 +185,7 @@ def prepare_contact(
         effusivity_1=steel,
         effusivity_2=steel,
         roughness=interface.roughness,
+        table=no_plane_table() if interface.name == "cage" else no_raceway_table(),
     )
 
 
@@ -230,7 +233,15 @@ def prepare_films(
                 heating=laws.inlet_heating,
             )
         )
-    return Films(*prepared, stiffness=series_stiffness(found[0].hertz, found[1].hertz), pocket_gap=_POCKET_GAP)
+    return Films(
+        *prepared,
+        stiffness=series_stiffness(found[0].hertz, found[1].hertz),
+        pocket_gap=_POCKET_GAP,
+        inner_table=no_plane_table(),
+        outer_table=no_plane_table(),
+        faded_load=math.inf,
+        faded_speed=0.0,
+    )
 
 
 def references(laws: Laws) -> list[str]:

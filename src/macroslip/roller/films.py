@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.roller.plane_table import PlaneTable, plane_values
 from macroslip.rolling.film import light_film
 from macroslip.rolling.law import LOWEST_SPEED
 from macroslip.rolling.light_contact import light_contact, pocket_contact
@@ -47,6 +48,10 @@ class Films(NamedTuple):
         K of both raceway contacts in series [N/m^1.5].
     pocket_gap : float
         Largest gap between roller and spar [m].
+    inner_table, outer_table : PlaneTable
+        Of the oil of the raceway contacts, from `macroslip.roller.tables`; know nothing unless they were made.
+    faded_load, faded_speed : float
+        Elastic load [N] from which on films carry nothing beside it, at ring speeds up to this one [m/s].
     """
 
     inner: Any
@@ -54,6 +59,10 @@ class Films(NamedTuple):
     cage: Any
     stiffness: float
     pocket_gap: float
+    inner_table: PlaneTable
+    outer_table: PlaneTable
+    faded_load: float
+    faded_speed: float
 
 
 class RacewayFilm(NamedTuple):
@@ -105,13 +114,23 @@ class CageFilm(NamedTuple):
 
 
 @jit_inline
+def log_film(law, table, log_load, log_speed):
+    """Ln of the film h of the volume flow [ln m] and its derivative by ln Q, from a contact's table or its law."""
+    known = plane_values(table, log_load, log_speed)
+    if known.known:
+        return known.value[2], known.by_load[2] * table.load.per_spacing
+    height, slope, _ = light_film(law, log_load, log_speed)
+    return height, slope
+
+
+@jit_inline
 def _excess(films, log_load, body, play, log_speed):
     """Ln of the films' height over that of the space they have, at q = exp(`log_load`), and its derivative by ln q."""
     load = math.exp(log_load)
     inner_load = load - body if body < 0.0 else load
     outer_load = load + body if body > 0.0 else load
-    inner, inner_slope, _ = light_film(films.inner, math.log(inner_load), log_speed)
-    outer, outer_slope, _ = light_film(films.outer, math.log(outer_load), log_speed)
+    inner, inner_slope = log_film(films.inner, films.inner_table, math.log(inner_load), log_speed)
+    outer, outer_slope = log_film(films.outer, films.outer_table, math.log(outer_load), log_speed)
     inner, outer = math.exp(inner), math.exp(outer)
     height = inner + outer
     slope = (inner * inner_slope * load / inner_load + outer * outer_slope * load / outer_load) / height
@@ -158,6 +177,8 @@ def carried(films, play, body, ring_speed):
 def _film_load(films, load, approach, body, ring_speed):
     if load <= 0.0:
         return carried(films, -approach, body, ring_speed)
+    if load >= films.faded_load and abs(ring_speed) <= films.faded_speed:
+        return 0.0
     log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     excess, _ = _excess(films, math.log(_FADED * load), body, 0.0, log_speed)
     if excess <= 0.0:
@@ -167,15 +188,46 @@ def _film_load(films, load, approach, body, ring_speed):
 
 
 @jit
-def _raceway_film(law, load, slip, ring_speed):
+def faded(films, load, body, ring_speed):
+    """Whether films carry nothing beside the elastic load [N] of a roller with a body force [N] at u2 [m/s]."""
+    return (
+        _excess(films, math.log(_FADED * load), body, 0.0, math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED)))[0] <= 0.0
+    )
+
+
+@jit_inline
+def _raceway_film(law, table, load, slip, ring_speed):
     if load <= 0.0:
         return RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    # The push is −2 R/r times the shear.
+    part = 1.0 - 2.0 * law.share_1
+    mean = ring_speed - 0.5 * slip
+    known = plane_values(table, math.log(load), math.log(abs(mean)))
+    if known.known:
+        conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
+        per_speed = table.speed.per_spacing / mean
+        sliding = conductance * slip
+        shear = -math.copysign(resistance, mean)
+        sliding_slope = conductance - 0.5 * sliding * known.by_speed[0] * per_speed
+        shear_slope = 0.5 * resistance * known.by_speed[1] * abs(per_speed)
+        return RacewayFilm(
+            sliding,
+            shear,
+            sliding + part * shear,
+            2.0 * resistance * abs(mean),
+            sliding_slope,
+            shear_slope,
+            sliding_slope + part * shear_slope,
+        )
+    return _raceway_film_by_laws(law, part, load, slip, ring_speed)
+
+
+@jit
+def _raceway_film_by_laws(law, part, load, slip, ring_speed):
     found = light_contact(law, load, ring_speed - slip, ring_speed)
     rolling = found.rolling
     sliding_slope = found.sliding_slope - 0.5 * found.sliding_by_speed
     shear_slope = -0.5 * rolling.by_speed
-    # The push is −2 R/r times the shear.
-    part = 1.0 - 2.0 * law.share_1
     return RacewayFilm(
         found.sliding,
         rolling.shear,
@@ -231,7 +283,8 @@ def raceway_film(films, raceway, load, slip, ring_speed):
     """
     if not isinstance(films, Films):
         return _NO_RACEWAY
-    return _raceway_film(films.outer if raceway else films.inner, load, slip, ring_speed)
+    law, table = (films.outer, films.outer_table) if raceway else (films.inner, films.inner_table)
+    return _raceway_film(law, table, load, slip, ring_speed)
 
 
 def cage_film(films, load, surface_speed):
@@ -253,7 +306,11 @@ def _film_load_of(films, load, approach, body, ring_speed):
 def _raceway_film_of(films, raceway, load, slip, ring_speed):
     if films.instance_class is Films:
         return lambda films, raceway, load, slip, ring_speed: _raceway_film(
-            films.outer if raceway else films.inner, load, slip, ring_speed
+            films.outer if raceway else films.inner,
+            films.outer_table if raceway else films.inner_table,
+            load,
+            slip,
+            ring_speed,
         )
     return lambda films, raceway, load, slip, ring_speed: RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 

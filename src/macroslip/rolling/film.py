@@ -5,21 +5,11 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit_inline
+from macroslip.film.moes import joined
 from macroslip.rolling.gap import film_at_load
 from macroslip.rolling.martin import FLOW
 
 _LOG_FLOW = math.log(FLOW)
-
-
-@jit_inline
-def joined(first, second, order):
-    """ln(e^(n a) + e^(n b))/n of two logarithms a and b for either sign of n, and the share of the first in the sum."""
-    difference = order * (first - second)
-    if difference >= 0.0:
-        ratio = math.exp(-difference)
-        return first + math.log1p(ratio) / order, 1.0 / (1.0 + ratio)
-    ratio = math.exp(difference)
-    return second + math.log1p(ratio) / order, ratio / (1.0 + ratio)
 
 
 @jit_inline

@@ -32,10 +32,11 @@ from numba.extending import overload
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
 from macroslip.errors import InputError
+from macroslip.film.moes import joined
 from macroslip.rolling import biboulet_houpert, goksem_hargreaves
 from macroslip.rolling.biboulet_houpert import starvation_factor
 from macroslip.rolling.elastic_line import RIGID, Inlet, WholeFilm, log_elastic
-from macroslip.rolling.film import joined, light_film
+from macroslip.rolling.film import light_film
 from macroslip.rolling.gap import Gap, GapShape, film_at_load, prepare_gap
 from macroslip.rolling.goksem_hargreaves import inlet_heating_of_rolling
 from macroslip.rolling.martin import FLOW, ROLLING_AT_GAP, starved_martin

@@ -11,7 +11,8 @@ import math
 from typing import NamedTuple
 
 from macroslip.compiled import jit
-from macroslip.rolling.film import joined, light_film
+from macroslip.film.moes import joined
+from macroslip.rolling.film import light_film
 from macroslip.rolling.gap import film_at_gap, film_at_load
 from macroslip.rolling.law import LOWEST_SPEED, RollingForces, rolling_resistance
 from macroslip.rolling.martin import FLOW

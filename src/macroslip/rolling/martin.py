@@ -131,9 +131,12 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
         return squared(end) - squared(start) - (1.0 + end * end) * (cubed(end) - cubed(start))
 
     def exit_of(start: float) -> float:
-        return brentq(lambda end: flow(start, end), 1e-9 * -start, min(-start, 1.0), xtol=1e-15)
+        return float(brentq(lambda end: flow(start, end), 1e-9 * -start, min(-start, 1.0), xtol=1e-15))
 
-    start = -brentq(lambda t: 1.0 + t * t - inlet * (1.0 + exit_of(-t) ** 2), 1e-3, 2.0 * math.sqrt(inlet), xtol=1e-13)
+    def inlet_rest(t: float) -> float:
+        return 1.0 + t * t - inlet * (1.0 + exit_of(-t) ** 2)
+
+    start = -float(brentq(inlet_rest, 1e-3, 2.0 * math.sqrt(inlet), xtol=1e-13))
     end = exit_of(start)
     # −∫ t dp and ∫ (1 + t²) dp, dp = 1/(1 + t²)² − (1 + t_e²)/(1 + t²)³.
     ends = [-0.5 / (1.0 + t * t) + 0.25 * (1.0 + end * end) / (1.0 + t * t) ** 2 for t in (start, end)]

@@ -8,12 +8,10 @@ ring seats feel.
 
 from __future__ import annotations
 
-import importlib.util
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.errors import MacroslipError
 from macroslip.rating.spectrum import rainflow_ranges
 
 if TYPE_CHECKING:
@@ -38,11 +36,6 @@ def counted(loads: BearingLoads) -> xr.Dataset:
     xarray.Dataset
         `load_cycles` over (component, load_range): cycles in the whole history, which is taken as repeating, so that
         every cycle closes. `load_range` is the geometric middle of a class [N].
-
-    Raises
-    ------
-    MacroslipError
-        If fatpack is not installed.
 
     Notes
     -----
@@ -82,13 +75,6 @@ def counted(loads: BearingLoads) -> xr.Dataset:
             ),
         },
     )
-
-
-def check_installed() -> None:
-    """Tell how to install what counts cycles, before anything is computed that needs it."""
-    if importlib.util.find_spec("fatpack") is None:
-        remedy = "pip install 'macroslip[cycles]', or leave `cycles` out of the study."
-        raise MacroslipError(f"counting cycles needs fatpack, which is not installed: {remedy}")
 
 
 def _histogram(series: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from macroslip.case.case import Traces, Window
+from macroslip.case.parts import Traces, Window
 from macroslip.errors import InputError
 from macroslip.study.build import read_loads, template
 from macroslip.study.cycles import COMPONENTS, RANGE_EDGES

@@ -44,9 +44,10 @@ def table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     """
     part = dataset[list(names)]
     frame = part.reset_coords().to_dataframe().reset_index()
-    frame = frame[[name for name in (*part.coords, *names) if name in frame]]
+    frame = frame.loc[:, [name for name in (*part.coords, *names) if name in frame]]
     units = {name: one.attrs.get("units", "1") for name, one in part.variables.items()}
-    return frame.rename(columns={name: f"{name} [{units[name]}]" for name in frame if units.get(name, "1") != "1"})
+    frame.columns = [name if units.get(name, "1") == "1" else f"{name} [{units[name]}]" for name in frame]
+    return frame
 
 
 def tables(

@@ -45,7 +45,7 @@ def records(path: Path) -> Iterator[tuple[int, dict[str, Any] | None]]:
             position += len(line)
 
 
-def record_at(path: Path, positions: Iterable[int]) -> Iterator[dict[str, Any]]:
+def record_at(path: Path, positions: Iterable[int]) -> Iterator[dict[str, Any] | None]:
     """Yield the records at positions that `records` gave, without holding the others."""
     with path.open("rb") as file:
         for position in positions:

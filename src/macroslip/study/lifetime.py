@@ -196,7 +196,7 @@ def worst(
 
 def _bin_means(bins: Binning, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean of values (runs, k) in each cell over runs that have all k, their number, and that of the others."""
-    whole = np.isfinite(values).all(axis=1)
+    whole = np.asarray(np.isfinite(values).all(axis=1))
     used = bins.as_array(bins.by_cell(whole).sum(), 0.0)
     left_out = bins.as_array(bins.by_cell(~whole).sum(), 0.0)
     means = bins.as_array(bins.by_cell(np.where(whole[:, None], values, np.nan)).mean())

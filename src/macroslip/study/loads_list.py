@@ -86,7 +86,7 @@ def load_list(given: StudyLoads, folder: Path) -> LoadList:
     elif given.table:
         loads = _from_table(folder / given.table)
     else:
-        loads, remarks = _from_patterns([Pattern(text) for text in given.files], folder)
+        loads, remarks = _from_patterns([Pattern(text) for text in given.files or ()], folder)
     names = list(dict.fromkeys(name for load in loads for name in load.fields))
     for name in names:
         if name in RESERVED or not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):

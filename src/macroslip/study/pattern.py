@@ -63,7 +63,7 @@ class Pattern:
         for piece in _PIECES.findall(self.text):
             match = _FIELD.fullmatch(piece)
             if match is None:
-                expression += _WILDCARDS.get(piece, re.escape(piece))
+                expression += _WILDCARDS[piece] if piece in _WILDCARDS else re.escape(piece)
             elif match[1] in kinds:
                 expression += f"(?P={match[1]})"
             else:

@@ -183,7 +183,7 @@ def _details(
         if name == "orbit" or one.dtype.kind not in "iufb":
             continue
         lazy = indexing.LazilyIndexedArray(_Stacked(shared, str(name), one.dims))
-        dims = ("case", *(_RAGGED.get(dim, dim) for dim in one.dims))
+        dims = ("case", *(_RAGGED.get(str(dim), str(dim)) for dim in one.dims))
         (coordinates if is_coordinate else variables)[name] = xr.Variable(dims, lazy, one.attrs)
     example = examples[0]
     coordinates["roller"] = ("roller", np.array(rollers), example.roller.attrs)

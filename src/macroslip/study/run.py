@@ -12,14 +12,14 @@ from macroslip.bearing.frames import ROWS
 from macroslip.errors import InputError, MacroslipError
 from macroslip.files import make_folder
 from macroslip.machine import usable_processors
+from macroslip.study.balance import balanced
 from macroslip.study.build import template
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
-from macroslip.study.cycles import check_installed as check_fatpack
 from macroslip.study.lock import locked
 from macroslip.study.progress import Progress
 from macroslip.study.session import Ended, Session
 from macroslip.study.settings import RECORDS
-from macroslip.study.store import check_folder
+from macroslip.study.store import BALANCE_RUNS, check_folder
 from macroslip.study.study import Study
 from macroslip.study.study_file import read_study
 from macroslip.study.tables import write_summary
@@ -84,13 +84,19 @@ def run_study(
         check_installed()
     if not isinstance(study, Study):
         study = read_study(study)
-    if study.cycles:
-        check_fatpack()
     directory = Path(directory).absolute()
     check_folder(directory, resume=resume)
     if scheduler is not None:
         look_for(scheduler)
     make_folder(directory)
+    if study.heat is not None:
+
+        def compute(trial: Study, folder: Path) -> None:
+            run_study(
+                trial, folder, workers=workers, scheduler=scheduler, threads=threads, resume=True, progress=progress
+            )
+
+        study = balanced(study, directory / BALANCE_RUNS, compute)
     with locked(directory):
         check_folder(directory, resume=resume)  # again, now that nobody else can begin here
         try:

@@ -53,10 +53,11 @@ class Ended:
 class Session:
     """A study under way."""
 
+    _log: Log
+
     def __init__(self, study: Study, directory: Path, progress: Callable[[Progress], None] | None):
         self.study, self.directory, self._report = study, directory, progress
         self.ended = Ended(Progress(len(study)))
-        self._log: Log | None = None
         self._id = uuid.uuid4().hex
 
     @contextmanager
@@ -233,7 +234,6 @@ def _manifest(study: Study) -> dict[str, Any]:
         "labels": {name: list(about) for name, about in study.labels.items()},
         "setup": {
             "case": study.case,
-            "folder": str(study.folder),
             "source": study.loads.source,
             "bearings": {name: record.as_dict() for name, record in study.bearings.items()},
             "lubricants": {name: record.as_dict() for name, record in study.lubricants.items()},

@@ -24,8 +24,10 @@ MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES = (
 )  # fmt: skip
 #: Attribute with the description of variables that have no values.
 _EMPTY = "variables_without_values"
+#: Folder of the runs by which the temperature of a study is found; a study of its own.
+BALANCE_RUNS = "balance"
 #: Everything a study's folder may hold; in a folder with other things no study begins.
-OURS = {MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES, "lock"}
+OURS = {MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES, BALANCE_RUNS, "lock"}
 
 
 def case_path(directory: Path, key: str) -> Path:

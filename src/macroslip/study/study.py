@@ -7,14 +7,20 @@ import itertools
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from macroslip.catalogue import Record
 from macroslip.study.loads_list import Load, LoadList
 from macroslip.study.settings import Setting
 
+if TYPE_CHECKING:
+    from macroslip.case.parts import Heat
+    from macroslip.study.weights import Weighting
+
+#: Key of the temperature of the oil.
+TEMPERATURE = "temperature"
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
@@ -36,6 +42,13 @@ class Run:
     lubricant: str
     model: str
     settings: Sequence[Setting]
+
+    @property
+    def group(self) -> str:
+        """What runs under different loads have in common: a hash of everything but loads and temperature."""
+        labels = [self.bearing, self.lubricant, self.model]
+        parameters = sorted((one.key, one.text) for one in self.settings if one.key != TEMPERATURE)
+        return hashlib.sha256(json.dumps([labels, parameters]).encode()).hexdigest()[:32]
 
     @property
     def name(self) -> str:
@@ -78,6 +91,12 @@ class Study:
         Variables of a result to store; None: all.
     content : mapping
         The study file as plain data, for the record.
+    heat : Heat, optional
+        How the bearing loses its heat, if the temperature is to balance; None: it is known.
+    weights : Weighting, optional
+        What each load history counts in the mean friction power of the balance; None: all alike.
+    temperatures : mapping of str to float
+        Temperature [K] of the oil by `Run.group`, once it is balanced.
     """
 
     title: str
@@ -93,6 +112,9 @@ class Study:
     cycles: bool = False
     keep: Sequence[str] | None = None
     content: Mapping[str, Any] = field(default_factory=dict)
+    heat: Heat | None = None
+    weights: Weighting | None = None
+    temperatures: Mapping[str, float] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Number of runs."""
@@ -118,7 +140,11 @@ class Study:
     def _runs(self, loads: Sequence[Load]) -> Iterator[Run]:
         choices = (loads, self.bearings, self.lubricants, self.models, self.variations)
         for load, bearing, lubricant, model, settings in itertools.product(*choices):
-            yield Run(load, bearing, lubricant, model, [*self.models[model], *settings])
+            run = Run(load, bearing, lubricant, model, [*self.models[model], *settings])
+            if self.temperatures:
+                found = Setting(TEMPERATURE, self.temperatures[run.group], "K")
+                run = replace(run, settings=[*run.settings, found])
+            yield run
 
     @property
     def labels(self) -> dict[str, tuple[str, str]]:
@@ -129,4 +155,6 @@ class Study:
             key: (units or "1", "value of the case; NaN: that of the base case")
             for key, units in self.parameters.items()
         }
+        if self.temperatures:
+            parameters[TEMPERATURE] = ("K", "temperature of the oil at the inlets, of the balance of heat")
         return {"loads": ("1", "loads of the case"), **choices, **fields, **parameters}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from macroslip.case.case import BALANCE
+from macroslip.case.keys import CaseFile
 from macroslip.catalogue import Record
 from macroslip.catalogue.input_section import read_fields
 from macroslip.catalogue.problems import together
@@ -15,11 +17,19 @@ from macroslip.errors import InputError
 from macroslip.study.build import template
 from macroslip.study.loads_list import load_list
 from macroslip.study.settings import RECORDS, Setting
-from macroslip.study.study import Study
+from macroslip.study.study import TEMPERATURE, Study
 from macroslip.study.study_keys import StudyFile, Variations
 from macroslip.study.variation import Sample, grid
 
-_REMEDY = "docs/studies.md has a study file that runs."
+if TYPE_CHECKING:
+    from macroslip.case.case import Case
+    from macroslip.case.parts import Heat
+    from macroslip.study.loads_list import Load
+    from macroslip.study.weights import Weighting
+
+#: Keys of a case file that a study file does not have at its top.
+_OF_A_CASE = CaseFile.__annotations__.keys() - StudyFile.__annotations__.keys()
+_REMEDY = "Write a study file that runs with: macroslip init --example study"
 
 
 def read_study(path: str | PathLike[str]) -> Study:
@@ -30,7 +40,7 @@ def read_study(path: str | PathLike[str]) -> Study:
     Parameters
     ----------
     path : path
-        YAML file; docs/studies.md explains every key. Relative paths in it start at its own folder.
+        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
 
     Returns
     -------
@@ -44,6 +54,14 @@ def read_study(path: str | PathLike[str]) -> Study:
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
     data, source = parse(text, str(path), _REMEDY)
+    keys = [key for key in data if key in _OF_A_CASE]
+    # A single one is a slip of the pen, for which the closest key of a study is named.
+    if len(keys) > 1 and "case" not in data:
+        raise InputError(
+            f"the keys {', '.join(keys)} are those of a case",
+            where=str(path),
+            remedy="Run a case file by macroslip run; in a study they belong under the key case.",
+        )
     return _study(data, source, path.parent)
 
 
@@ -96,6 +114,10 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
     sample = attempt("variations", lambda: _sample(variations, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))
+    heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
+    weights = values.get("weights")
+    if weights is not None and loads is not None:
+        attempt("weights", lambda: _check_weights(weights, heat, loads.loads))
     if problems:
         raise together(problems)
     combinations = [
@@ -119,14 +141,39 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         cycles=values.get("cycles", False),
         keep=values.get("keep"),
         content=dict(data),
+        heat=heat,
+        weights=weights,
     )
+
+
+def _heat(base: Case, parameters: Mapping[str, str] | None) -> Heat | None:
+    """How the bearing loses its heat, where the temperature is to balance."""
+    if base.temperature != BALANCE:
+        return None
+    if TEMPERATURE in (parameters or {}):
+        raise InputError(
+            "the temperature is to balance, and it is varied",
+            where=TEMPERATURE,
+            remedy="Vary heat.conductance or heat.ambient, or give the base case a temperature.",
+        )
+    return base.heat
+
+
+def _check_weights(weights: Weighting, heat: Heat | None, loads: Sequence[Load]) -> None:
+    if heat is None:
+        raise InputError(
+            "weights are given, and nothing is weighted",
+            allowed="temperature: balance in the base case",
+            remedy="Remove them; macroslip aggregate weights results.",
+        )
+    weights.of(loads)
 
 
 def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sample | None:
     """The sample, with the ranges of the study's bearing and lubricant where it asks for them."""
     sample = variations.sample
     asked = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
-    if not asked:
+    if sample is None or not asked:
         return sample
     if base is None:  # what is wrong with the case comes first
         return None
@@ -162,10 +209,11 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
 def _parameters(variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
     ranges = sample.ranges if sample else {}
+    grid: dict[str, Any] = dict(variations.grid or {})  # lists of settings, which the reader has made of the axes
     places: dict[str, dict[str, str]] = {
-        "grid": {key: settings[0].unit for key, settings in (variations.grid or {}).items()},
+        "grid": {key: settings[0].unit for key, settings in grid.items()},
         "list": {one.key: one.unit for item in variations.list or [] for one in item},
-        "sample": {key: one.unit for key, one in ranges.items()},
+        "sample": {key: one.unit for key, one in ranges.items() if one is not None},
         "models": {one.key: one.unit for settings in models.values() for one in settings},
     }
     found: dict[str, str] = {}

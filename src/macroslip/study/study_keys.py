@@ -9,13 +9,15 @@ from typing import Annotated, Any
 from pydantic import ValidationError
 
 from macroslip.catalogue.forms import Choice, Flag, Form, Text, Texts
-from macroslip.catalogue.input_section import MappingOf, detail_of, details_inside, input_section
+from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import shown
+from macroslip.catalogue.section_forms import MappingOf, detail_of, details_inside
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 from macroslip.result.dataset import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Sample
+from macroslip.study.weights import Weighting
 
 LOAD_SOURCES = ("files", "table", "bundled")
 KINDS = ("hub", "main-bearing")
@@ -173,7 +175,7 @@ class StudyLoads:
 
 
 _Grid = Annotated[
-    dict[str, Axis],
+    dict[str, Axis] | None,
     MappingOf(
         "values of each parameter, of which every combination is run",
         "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",
@@ -181,7 +183,7 @@ _Grid = Annotated[
         _axis,
     ),
 ]
-_List = Annotated[list[Any], SettingsList("combinations of values, each of which is run")]
+_List = Annotated[list[Any] | None, SettingsList("combinations of values, each of which is run")]
 
 
 @input_section("variations", "parameters that vary")
@@ -199,13 +201,15 @@ class StudyFile:
 
     title: Annotated[str, Text("what the study is about", may_be_empty=True)] = ""
     case: Annotated[
-        dict[str, Any], BaseCase("base case: the keys of a case file; of loads only start, end and shaft_speed")
+        dict[str, Any] | None, BaseCase("base case: the keys of a case file; of loads only start, end and shaft_speed")
     ] = None
     loads: StudyLoads
-    bearings: Annotated[list[str], Texts("bearings: names of the catalogue, or paths of bearing files")] = None
-    lubricants: Annotated[list[str], Texts("lubricants: names of the catalogue, or paths of lubricant files")] = None
+    bearings: Annotated[list[str] | None, Texts("bearings: names of the catalogue, or paths of bearing files")] = None
+    lubricants: Annotated[
+        list[str] | None, Texts("lubricants: names of the catalogue, or paths of lubricant files")
+    ] = None
     models: Annotated[
-        dict[str, Any],
+        dict[str, Any] | None,
         MappingOf(
             "named choices of the model",
             item=Annotated[list[Any], Settings("values in place of the base case's")],
@@ -213,5 +217,6 @@ class StudyFile:
         ),
     ] = None
     variations: Variations = Variations()
+    weights: Weighting | None = None
     cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False
     keep: Annotated[list[str] | None, Variables("variables of a result to store; all if left out")] = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from macroslip.bearing.geometry import orbit_ratio
 from macroslip.integrate.status import Status
+from macroslip.result.thermal_balance import friction_power
 from macroslip.study.rating_values import VARIABLES as RATING_VARIABLES
 from macroslip.study.rating_values import rating_values
 
@@ -45,6 +47,7 @@ CASE_VARIABLES = {
     "loads_length": ("s", "length of the loads"),
     "shaft_speed_mean": ("rad/s", "mean shaft speed of the loads"),
     "contact_torque": ("N m", "friction torque of the contacts of all rollers: mean over the turns of the shaft"),
+    "friction_power": ("W", "sliding, rolling, cage and drag of the whole bearing: mean over the window"),
     **RATING_VARIABLES,
     "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
     "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
@@ -119,8 +122,14 @@ def case_values(result: xr.Dataset, case: Case) -> dict[str, float]:
         "loads_length": loads.duration,
         "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
         "contact_torque": bearing.rollers_per_row * float(_orbit_energy(result).sum()) / turned,
+        "friction_power": _friction_power(result),
         **rating_values(case),
     }
+
+
+def _friction_power(result: xr.Dataset) -> float:
+    """Mean friction power of the whole bearing [W]; NaN where a roller failed."""
+    return math.nan if bool((result.status != Status.COMPLETED).any()) else friction_power(result)
 
 
 def _orbit_energy(result: xr.Dataset) -> np.ndarray:

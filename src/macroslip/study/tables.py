@@ -12,7 +12,7 @@ from macroslip.files import flush, flush_folder, unfinished
 from macroslip.study.journal import record_at, records
 from macroslip.study.outcome import Outcome
 from macroslip.study.store import JOURNAL, RUNS, SUMMARY
-from macroslip.study.study import Study
+from macroslip.study.study import TEMPERATURE, Study
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
 
 if TYPE_CHECKING:
@@ -149,6 +149,8 @@ def _kinds(study: Study) -> dict[str, type]:
     for settings in [*study.models.values(), *study.variations]:
         for setting in settings:
             values[setting.key].add(float if type(setting.value) is int else type(setting.value))
+    if study.temperatures:
+        values[TEMPERATURE].add(float)
     return {name: _common(found) for name, found in values.items()}
 
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
 from macroslip.catalogue import Record
 from macroslip.catalogue.fields import dimensions
 from macroslip.catalogue.forms import Choice, Quantity, Text, Whole
-from macroslip.catalogue.input_section import MappingOf, OrWord, input_section
+from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import unknown_key
+from macroslip.catalogue.section_forms import MappingOf, OrWord
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 from macroslip.study.settings import RECORDS, Setting
@@ -147,7 +148,7 @@ class Sample:
                         remedy=f"List its values in variations.grid: {{{key}: {{values: [...]}}}}.",
                     )
                 unit = "" if entry.unit == "1" else entry.unit
-                found[key] = Range(*entry.range, unit)
+                found[key] = Range(low=entry.range[0], high=entry.range[1], unit=unit)
         return Sample(method=self.method, count=self.count, seed=self.seed, ranges=found)
 
     def points(self) -> list[list[Setting]]:
@@ -162,12 +163,13 @@ class Sample:
         from scipy.stats import qmc
 
         kind = {"latin-hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}[self.method]
+        intervals: dict[str, Any] = dict(self.ranges)  # `with_ranges_of` has filled in those that were left open
         positions = kind(len(self.ranges), rng=np.random.default_rng(self.seed)).random(self.count)
         return [
             [
                 # Twelve digits are more than any parameter is known to, and hold on every machine.
                 Setting(key, float(f"{interval.at(float(position)):.12g}"), interval.unit)
-                for (key, interval), position in zip(self.ranges.items(), point, strict=True)
+                for (key, interval), position in zip(intervals.items(), point, strict=True)
             ]
             for point in positions
         ]

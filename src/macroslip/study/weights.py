@@ -5,16 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
+from macroslip.catalogue.forms import Quantity, Text
+from macroslip.catalogue.input_section import input_section
+from macroslip.catalogue.units import NUMBER
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
     from pandas.api.typing import DataFrameGroupBy
+
+    from macroslip.study.loads_list import Load
 
 #: A year [s], of 365.25 days.
 YEAR = 365.25 * 86400.0
@@ -105,6 +110,57 @@ class Given:
 
 
 Weights = Weibull | Given
+
+
+@input_section("weights", "what each load history counts in the mean friction power, for temperature: balance")
+class Weighting:
+    """How much each load history counts, by how likely its wind speed is.
+
+    Parameters
+    ----------
+    field : str
+        Label of the loads.
+    width : float
+        Of a bin [unit of the field], above 0. Load histories of a bin share its probability.
+    scale, shape : float
+        Of the Weibull distribution of the field.
+    """
+
+    field: Annotated[str, Text("label of the loads to sort into bins")] = "wind_speed"
+    width: Annotated[float, Quantity("width of a bin, in the unit of the field", NUMBER, 0.0, above=True)] = 2.0
+    scale: Annotated[
+        float, Quantity("scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True)
+    ]
+    shape: Annotated[float, Quantity("shape of the Weibull distribution", NUMBER, 0.0, above=True)]
+
+    def of(self, loads: Sequence[Load]) -> list[float]:
+        """Weight of each load history [1], together 1.
+
+        Raises
+        ------
+        InputError
+            If loads have no such label, or it is no number.
+
+        Examples
+        --------
+        >>> from macroslip.study.loads_list import Load
+        >>> loads = [Load(name, {"wind_speed": speed}) for name, speed in (("a", 8.0), ("b", 8.0), ("c", 12.0))]
+        >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
+        [0.308, 0.308, 0.384]
+        """
+        known = [load.fields.get(self.field) for load in loads]
+        values = [value for value in known if isinstance(value, int | float)]
+        wrong = [load.name for load, value in zip(loads, known, strict=True) if not isinstance(value, int | float)]
+        if wrong:
+            raise InputError(
+                f"the loads {wrong[0]} have no number as '{self.field}'",
+                where="weights.field",
+                allowed=", ".join(loads[0].fields) or "a field in the names of the load files",
+            )
+        bins = [math.floor(value / self.width + 0.5) for value in values]
+        weibull = Weibull(self.scale, self.shape)
+        shares = [weibull.probability(one * self.width, self.width) / bins.count(one) for one in bins]
+        return [share / sum(shares) for share in shares]
 
 
 @dataclass(frozen=True)

@@ -17,12 +17,14 @@ class Workers(Protocol):
 
     def free_places(self) -> int:
         """How many more tasks it takes now."""
+        ...
 
     def submit(self, tasks: list[dict[str, Any]]) -> None:
         """Hand over tasks, at most as many as there are free places."""
 
     def wait(self) -> list[Done]:
         """Wait until something is done; nothing when nothing was handed over."""
+        ...
 
 
 class ThisProcess:

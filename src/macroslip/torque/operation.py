@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -65,7 +66,7 @@ def operation(
     InputError
         A number is not finite, or the bearing has no boundary dimensions.
     """
-    need(bearing, "bore_diameter", "outside_diameter", "width")
+    bore, outside, width = need(bearing, "bore_diameter", "outside_diameter", "width")
     given = {"radial_load": radial_load, "axial_load": axial_load, "shaft_speed": shaft_speed}
     for name, value in given.items():
         if not np.all(np.isfinite(np.asarray(value, dtype=float))):
@@ -74,9 +75,9 @@ def operation(
             )
     radial, axial, speed = (np.abs(np.asarray(value, dtype=float)) for value in given.values())
     return Operation(
-        bore=bearing.bore_diameter * 1e3,
-        outside=bearing.outside_diameter * 1e3,
-        width=bearing.width * 1e3,
+        bore=bore * 1e3,
+        outside=outside * 1e3,
+        width=width * 1e3,
         speed=speed * 30.0 / math.pi,
         viscosity=lubricant.viscosity / lubricant.density * 1e6,
         radial_load=radial,
@@ -84,8 +85,8 @@ def operation(
     )
 
 
-def need(bearing: Bearing, *keys: str) -> None:
-    """Raise InputError unless the bearing has these catalogue data, which a bearing file may leave out."""
+def need(bearing: Bearing, *keys: str) -> list[Any]:
+    """Give catalogue data that a bearing file may leave out; InputError if this one does."""
     missing = [key for key in keys if getattr(bearing, key) is None]
     if missing:
         raise InputError(
@@ -93,6 +94,7 @@ def need(bearing: Bearing, *keys: str) -> None:
             where="friction torque",
             remedy="Add what is missing to the bearing's file: handbook estimates rest on catalogue data.",
         )
+    return [getattr(bearing, key) for key in keys]
 
 
 def choose_series(series: str, table: dict[str, tuple]) -> tuple:

@@ -111,15 +111,15 @@ def palmgren_torque(
     137.4 + 160.4 = 297.8 N m
     """
     viscous_factor, scale, exponent = choose_series(series, SERIES)
-    need(bearing, "static_load_rating", "axial_factor_e", "axial_factor_y0")
+    rating, factor_e, factor_y0 = need(bearing, "static_load_rating", "axial_factor_e", "axial_factor_y0")
     case = operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     flow = case.viscosity * case.speed
     viscous = viscous_factor * case.mean_diameter**3 * np.where(flow < SLOW, 160e-7, 1e-7 * np.cbrt(flow) ** 2)
-    radial, thrust = case.radial_load, case.axial_load / bearing.axial_factor_e
+    radial, thrust = case.radial_load, case.axial_load / factor_e
     # Where thrust > radial this quotient is not used; without load it is 0/0.
     share = np.divide(thrust, radial, out=np.zeros(np.broadcast(thrust, radial).shape), where=radial > 0)
     driving = np.where(thrust > radial, 1.6 * thrust, radial * (1 + 0.6 * np.minimum(share, 1.0) ** 3))
-    static = radial + bearing.axial_factor_y0 * case.axial_load
-    load = scale * (static / bearing.static_load_rating) ** exponent * driving * case.mean_diameter
+    static = radial + factor_y0 * case.axial_load
+    load = scale * (static / rating) ** exponent * driving * case.mean_diameter
     viscous, load = np.broadcast_arrays(viscous * NEWTON_METRE, load * NEWTON_METRE)
     return PalmgrenTorque(viscous=viscous[()], load=load[()])

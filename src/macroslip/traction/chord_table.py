@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline, jit_part
+from macroslip.contact.spline import tensor_coefficients
 from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity
 from macroslip.traction.rheology import LIMITING_SHEAR, NEWTONIAN
 from macroslip.traction.spline_cell import along_line, in_cell, weights_and_slopes
@@ -26,8 +27,9 @@ HIGHEST_PRESSURE = 4e9
 _LOWEST_PRESSURE = 10.0
 _THINNEST, _THICKEST = 2e-8, 4e-4
 _FASTEST = 5.0
-_LOWEST_LOG_SLIP = -10.0
-_PRESSURES, _SLIP_SPACING, _FILM_SPACING = 80, 0.3, 0.3
+# A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip already.
+_LOWEST_LOG_SLIP = -12.0
+_PRESSURES, _SLIP_SPACING, _FILM_SPACING = 80, 0.35, 0.4
 
 
 class ChordTable(NamedTuple):
@@ -56,20 +58,6 @@ class ChordTable(NamedTuple):
     lowest_film: float
 
 
-def _spline_coefficients(values: np.ndarray, axis: int) -> np.ndarray:
-    """Coefficients of the cubic B-spline on unit knots through `values`, not-a-knot at both ends."""
-    count = values.shape[axis]
-    matrix = np.zeros((count + 2, count + 2))
-    for row in range(count):
-        matrix[row + 1, row : row + 3] = (1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0)
-    matrix[0, :5] = matrix[-1, -5:] = (1.0, -4.0, 6.0, -4.0, 1.0)
-    moved = np.moveaxis(values, axis, 0)
-    ends = np.zeros((1, *moved.shape[1:]))
-    right = np.concatenate([ends, moved, ends])
-    solved = np.linalg.solve(matrix, right.reshape(count + 2, -1)).reshape(right.shape)
-    return np.moveaxis(solved, 0, axis)
-
-
 @lru_cache(maxsize=16)
 def chord_table(fluid: Fluid) -> ChordTable:
     """The table of a fluid, computed in a good half second and kept.
@@ -90,12 +78,8 @@ def chord_table(fluid: Fluid) -> ChordTable:
     slips = np.arange(_LOWEST_LOG_SLIP, highest, _SLIP_SPACING)
     pressures = np.maximum(roots**4, _LOWEST_PRESSURE)
     values = _fill(fluid, pressures, slips, films)
-    viscosities = _spline_coefficients(np.array([log_viscosity(fluid, p)[0] for p in pressures]), 0)
-    for axis in range(3):
-        values = _spline_coefficients(values, axis)
-    values = np.ascontiguousarray(values)
-    values.setflags(write=False)
-    viscosities.setflags(write=False)
+    viscosities = tensor_coefficients(np.array([log_viscosity(fluid, p)[0] for p in pressures]), 1)
+    values = tensor_coefficients(values, 3)
     return ChordTable(fluid, values, viscosities, float(roots[1]), _SLIP_SPACING, _FILM_SPACING, float(films[0]))
 
 
@@ -135,13 +119,13 @@ class FilmPlace(NamedTuple):
     slopes: tuple[float, float, float, float]
 
 
-@jit
+@jit_inline
 def film_place(table, film_thickness):
     """The place of a film thickness h [m]; outside the table heating is that of its thinnest or thickest film."""
     z = (math.log(film_thickness) - table.lowest_film) / table.film_spacing
     z = min(max(z, 0.0), table.coefficients.shape[1] - 3.0)
     cell = min(int(z), table.coefficients.shape[1] - 4)
-    return FilmPlace(film_thickness, cell, *weights_and_slopes(z - cell))
+    return FilmPlace(film_thickness, cell, *weights_and_slopes(z - cell))  # pyright: ignore[reportCallIssue]
 
 
 class ChordStress(NamedTuple):
@@ -209,7 +193,7 @@ def chord_value(table, place, x, log_slip, with_film):
     """
     c = table.coefficients
     i = min(int(x), c.shape[0] - 4)
-    log_eta, log_eta_by_x = along_line(table.log_viscosities, i, x - i)
+    log_eta, log_eta_by_x = along_line(table.log_viscosities, i, x - i)  # pyright: ignore[reportCallIssue]
     steepness = 0.25 * x * log_eta_by_x
     newtonian = table.fluid.rheology == NEWTONIAN
     log_slip += 0.5 * log_eta if newtonian else log_eta

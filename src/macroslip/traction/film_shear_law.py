@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
 from macroslip.traction.chord import characteristic_stress, chord_stress, log_viscosity
 from macroslip.traction.chord_table import (
     ChordTable,
@@ -218,7 +218,7 @@ def rising_slip(law, load, film_thickness):
     return max(newtonian, 1.0 / (fluid.heating * film_thickness * largest))
 
 
-@jit
+@jit_inline
 def chord_traction(law, load, film_thickness, cosine, slip):
     """Traction per length [N/m] on the chord whose length and largest pressure are `cosine` times the middle's."""
     root_load = load ** (1.0 / 3.0)

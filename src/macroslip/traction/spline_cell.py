@@ -53,6 +53,10 @@ class _Vectors:
             total = self._builder.fadd(total, product)
         return total
 
+    def splat_lanes(self, vector: Any) -> list[Any]:
+        """For each lane a vector with its number in all lanes."""
+        return [self.splat(one) for one in self.lanes(vector)]
+
     def dot(self, one: Any, other: Any) -> Any:
         a, b, c, d = self.lanes(self._builder.fmul(one, other))
         return self._builder.fadd(self._builder.fadd(a, b), self._builder.fadd(c, d))
@@ -175,3 +179,100 @@ def in_cell(typingctx, coefficients, cells, first_place, third_place, second_wei
 
     given = types.UniTuple(types.intp, 3), types.float64, types.float64, _WEIGHTS
     return types.UniTuple(types.float64, 3)(coefficients, *given), generate
+
+
+@intrinsic
+def channels_in_cell(typingctx, coefficients, cells, places):
+    """Four splines on one grid at a place, Σ w_m(t) w_q(s) w_n(u) c[i + m, k + q, j + n], and their derivatives by u.
+
+    Parameters
+    ----------
+    coefficients : ndarray, 4 dimensions, the last one of four splines
+        c.
+    cells : tuple of 3 int
+        i, k, j, with the cell within the array.
+    places : tuple of 3 float
+        t, s and u in the cell, from 0 to 1.
+
+    Returns
+    -------
+    tuple of 4 float, tuple of 4 float
+    """
+    _check(coefficients, 4)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        write = _Vectors(builder)
+        indices = [*cgutils.unpack_tuple(builder, arguments[1]), ir.Constant(_SIZE, 0)]
+        corner, strides = _address(context, builder, coefficients, arguments[0], indices)
+        first, second, third = (write.splat(place) for place in cgutils.unpack_tuple(builder, arguments[2]))
+        along_first = write.splat_lanes(write.polynomial(_CUBIC, first))
+        along_second = write.splat_lanes(write.polynomial(_CUBIC, second))
+        lines = []
+        for _ in range(_LANES):
+            plane, sums = corner, []
+            for _ in range(_LANES):
+                line, values = plane, []
+                for _ in range(_LANES):
+                    values.append(write.load(line))
+                    line = builder.add(line, strides[1])
+                sums.append(write.weighted_sum(along_second, values))
+                plane = builder.add(plane, strides[0])
+            lines.append(write.weighted_sum(along_first, sums))
+            corner = builder.add(corner, strides[2])
+        found = [
+            context.make_tuple(
+                builder,
+                _WEIGHTS,
+                write.lanes(write.weighted_sum(write.splat_lanes(write.polynomial(terms, third)), lines)),
+            )
+            for terms in (_CUBIC, _QUADRATIC)
+        ]
+        return context.make_tuple(builder, signature.return_type, found)
+
+    given = types.UniTuple(types.intp, 3), types.UniTuple(types.float64, 3)
+    return types.UniTuple(_WEIGHTS, 2)(coefficients, *given), generate
+
+
+@intrinsic
+def channels_in_square(typingctx, coefficients, cells, places):
+    """Four splines on one grid at a place, Σ w_m(t) w_n(u) c[i + m, j + n], and their derivatives by t and u.
+
+    Parameters
+    ----------
+    coefficients : ndarray, 3 dimensions, the last one of four splines
+        c.
+    cells : tuple of 2 int
+        i, j, with the cell within the array.
+    places : tuple of 2 float
+        t and u in the cell, from 0 to 1.
+
+    Returns
+    -------
+    tuple of 4 float, three times
+    """
+    _check(coefficients, 3)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        write = _Vectors(builder)
+        indices = [*cgutils.unpack_tuple(builder, arguments[1]), ir.Constant(_SIZE, 0)]
+        corner, strides = _address(context, builder, coefficients, arguments[0], indices)
+        first, second = (write.splat(place) for place in cgutils.unpack_tuple(builder, arguments[2]))
+        (w, dw), (z, dz) = (
+            [write.splat_lanes(write.polynomial(terms, place)) for terms in (_CUBIC, _QUADRATIC)]
+            for place in (first, second)
+        )
+        lines, slopes = [], []
+        for _ in range(_LANES):
+            value, values = corner, []
+            for _ in range(_LANES):
+                values.append(write.load(value))
+                value = builder.add(value, strides[1])
+            lines.append(write.weighted_sum(z, values))
+            slopes.append(write.weighted_sum(dz, values))
+            corner = builder.add(corner, strides[0])
+        sums = write.weighted_sum(w, lines), write.weighted_sum(dw, lines), write.weighted_sum(w, slopes)
+        found = [context.make_tuple(builder, _WEIGHTS, write.lanes(one)) for one in sums]
+        return context.make_tuple(builder, signature.return_type, found)
+
+    given = types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 2)
+    return types.UniTuple(_WEIGHTS, 3)(coefficients, *given), generate

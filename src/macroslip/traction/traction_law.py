@@ -120,7 +120,7 @@ def _patch_traction_microslip(law, load, film_thickness, field, shape, fine):
 
     def either(law, load, film_thickness, field, shape, fine):
         if shape.microslip:
-            return varying(law, load, film_thickness, field, shape, fine)
+            return varying(law, load, film_thickness, field, shape, fine)  # pyright: ignore[reportOptionalCall]
         force, slope, by_film, _ = uniform(law, load, film_thickness, field.sliding)
         return Patch(force, 0.0, 0.0, slope, 0.0, by_film, 0.0)
 

@@ -14,18 +14,18 @@ from numba.extending import overload
 
 from macroslip.bearing.frames import ROWS
 from macroslip.compiled import jit
-from macroslip.integrate.detail import EXTREMES, book_cage, book_raceway, look
+from macroslip.integrate.detail import EXTREMES, Passage, book_cage, book_raceway, look
 from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS, Way
 from macroslip.integrate.tuning import LOOK_EVERY
 from macroslip.roller.contact_force import is_curved
 
 _FULL_TURN = 2.0 * math.pi
 #: The energies of a step's stages come by `collect`.
-_NO_ENERGIES = (0.0, 0.0, 0.0)
+_NO_ENERGIES = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 class Details(NamedTuple):
-    """Details of all rollers, as those of a `macroslip.integrate.record.Record`.
+    """Details of all rollers, as those of a `macroslip.integrate.record.RollerRecord`.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Details(NamedTuple):
     surface_density : ndarray, shape (2, 2, sectors, stations)
         Largest power per area there [W/m²].
     station_work : ndarray, shape (n, 2, stations + 2)
-        Work space, see `macroslip.integrate.record.Record`.
+        Work space, see `macroslip.integrate.record.RollerRecord`.
     place : ndarray, shape (n, 3)
         Where the roller was when it was booked last: its angle and the shaft's [rad], neither wound back, and the time [s].
     looks : ndarray of int, shape (n,)
@@ -109,7 +109,7 @@ def _way(details, stations, j, shaft_angle, time):
 def _book_contact(one, orbit, interface, contact, place, way, span, fine):
     """A raceway contact at its load, ring speed and slip; compiled once for all contacts of the bearing."""
     load, ring_speed, slip = place
-    book_raceway(one, orbit, interface, contact, load, _Ring(ring_speed), slip, _NO_ENERGIES, way)
+    book_raceway(one, Passage(orbit, _NO_ENERGIES, way), interface, contact, load, _Ring(ring_speed), slip)
     if fine:
         look(one, interface, contact, load, ring_speed, slip, span)
 

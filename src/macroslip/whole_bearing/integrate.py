@@ -131,7 +131,7 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
     limits : Limits
     space : Space
         With the initial state in `state`.
-    record : Record
+    record : BearingRecord
         Filled.
 
     Returns

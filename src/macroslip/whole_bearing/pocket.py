@@ -173,5 +173,5 @@ def restitution(damping: float, speed: float) -> float:
         return 1.0 - 2.0 * ratio / 3.0
     # With e D v0 = 1 − exp(−s) the equation reads s − 1 + exp(−s) = D v0 − ln(1 + D v0), whose left side rises with s.
     wanted = ratio - math.log1p(ratio)
-    found = brentq(lambda s: s + math.expm1(-s) - wanted, 0.0, wanted + 1.0, xtol=1e-14, rtol=1e-14)
+    found = float(brentq(lambda s: s + math.expm1(-s) - wanted, 0.0, wanted + 1.0, xtol=1e-14, rtol=1e-14))
     return -math.expm1(-found) / ratio

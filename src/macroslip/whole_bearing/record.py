@@ -34,7 +34,7 @@ TRACES = (
 CAGE_TRACES = ("cage_speed", "cage_lag", "cage_x", "cage_y", "cage_torque")
 
 
-class Record(NamedTuple):
+class BearingRecord(NamedTuple):
     """Results, written in place. Interfaces: inner, outer, cage. Pocket sides: front, rear.
 
     Attributes
@@ -112,10 +112,10 @@ class Record(NamedTuple):
     details: Details
 
 
-def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) -> Record:
+def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) -> BearingRecord:
     """An empty record."""
     orbits, outputs = edges.size - 1, out_time.size
-    return Record(
+    return BearingRecord(
         edges=edges,
         energy=np.zeros((count, 3)),
         rolling_energy=np.zeros((count, 3)),

@@ -12,7 +12,7 @@ from macroslip.whole_bearing.cage import Cage
 from macroslip.whole_bearing.integrate import integrate_whole
 from macroslip.whole_bearing.limits import limits_of
 from macroslip.whole_bearing.model import WholeBearing
-from macroslip.whole_bearing.record import Record, new_record
+from macroslip.whole_bearing.record import BearingRecord, new_record
 from macroslip.whole_bearing.space import new_space
 
 #: Longest step [s]: the weight's direction, loads and places in the pocket change over it.
@@ -75,7 +75,7 @@ def run_whole_bearing(
     max_steps: int = 100_000_000,
     rests: bool = True,
     interrupt: np.ndarray | None = None,
-) -> tuple[int, Record]:
+) -> tuple[int, BearingRecord]:
     """Integrate all rollers and cages.
 
     Parameters
@@ -96,7 +96,7 @@ def run_whole_bearing(
     Returns
     -------
     status : int
-    record : Record
+    record : BearingRecord
 
     Raises
     ------

@@ -3,6 +3,7 @@
 from macroslip.report.page.blocks import (
     Beside,
     Block,
+    Opening,
     Paragraph,
     Pictures,
     Points,
@@ -17,6 +18,7 @@ from macroslip.report.page.render import render
 __all__ = [
     "Beside",
     "Block",
+    "Opening",
     "Paragraph",
     "Pictures",
     "Points",

@@ -356,5 +356,4 @@
   }
 
   document.querySelectorAll("[data-view]").forEach(start);
-  document.documentElement.dataset.ready = performance.now().toFixed(0);
 })();

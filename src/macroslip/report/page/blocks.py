@@ -47,7 +47,7 @@ class Pictures:
 
 @dataclass(frozen=True, slots=True)
 class Beside:
-    """What the paper states on the left, what was computed on the right."""
+    """What the paper states, and below it what was computed."""
 
     kind: ClassVar[str] = "beside"
     title: str
@@ -93,9 +93,43 @@ Block = Paragraph | Points | Table | Pictures | Beside | Statements | View | Ver
 
 
 @dataclass(frozen=True, slots=True)
+class Opening:
+    """What a reader sees before anything else, on one screen.
+
+    Attributes
+    ----------
+    sentences : tuple of str
+        The answer, at most five; the first says most.
+    pictures : tuple of Picture
+        At most four.
+    """
+
+    sentences: tuple[str, ...]
+    pictures: tuple[Picture, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.sentences) > 5 or len(self.pictures) > 4:
+            raise ValueError("an opening has at most five sentences and four pictures")
+
+
+@dataclass(frozen=True, slots=True)
 class Section:
-    """A part of the page with a heading and a name for links to it."""
+    """A part of the page that can be folded.
+
+    Attributes
+    ----------
+    name : str
+        For links to it.
+    title : str
+    blocks : tuple of Block
+    gist : str
+        What is in it, in a line; shown beside the title of a folded section.
+    group : str
+        What several sections in a row belong to, such as one of several results.
+    """
 
     name: str
     title: str
     blocks: tuple[Block, ...]
+    gist: str = ""
+    group: str = ""

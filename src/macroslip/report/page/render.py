@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import itertools
 import json
 import re
 from collections.abc import Sequence
@@ -11,19 +12,22 @@ from importlib import resources
 from typing import Any
 
 import macroslip
-from macroslip.report.page.blocks import Section, Table
+from macroslip.report.page.blocks import Opening, Section, Table
 
 _NUMBER = re.compile(r"[−-]?[\d,]*\.?\d+(e[+-]?\d+)?$")
 _SYMBOLS = {"agrees": "✓", "agrees in part": "◐", "differs": "✗", "cannot be judged": "?", "not computed": "–"}
 
 
-def render(title: str, subtitle: str, sections: Sequence[Section]) -> str:
+def render(title: str, subtitle: str, opening: Opening, sections: Sequence[Section]) -> str:
     """One HTML page with style, script, pictures and data inside it.
 
     Parameters
     ----------
     title, subtitle : str
+    opening : Opening
+        Always shown, under the name "answer".
     sections : sequence of Section
+        Folded when the page is opened; links, a search in the page and printing open them.
 
     Returns
     -------
@@ -33,7 +37,7 @@ def render(title: str, subtitle: str, sections: Sequence[Section]) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     files = resources.files("macroslip.report.page")
-    script = (files / "bearing_view.js").read_text(encoding="utf-8")
+    script = "".join((files / name).read_text(encoding="utf-8") for name in ("bearing_view.js", "folds.js"))
     style = (files / "report.css").read_text(encoding="utf-8")
     environment = Environment(
         loader=PackageLoader("macroslip.report", "page"),
@@ -47,7 +51,8 @@ def render(title: str, subtitle: str, sections: Sequence[Section]) -> str:
     return environment.get_template("report.html").render(
         title=title,
         subtitle=subtitle,
-        sections=sections,
+        opening=opening,
+        groups=[(group, list(found)) for group, found in itertools.groupby(sections, lambda one: one.group)],
         style=style,
         script=script,
         script_hash=digest,

@@ -1,0 +1,202 @@
+"""Print the figures that the documentation quotes and no other command prints.
+
+python -m benchmarks.claims                              all of them, three minutes
+python -m benchmarks.claims exponents compliance         some of them
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+
+import numpy as np
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant, Traces, simulate
+from macroslip.roller.contact_force import friction_power, raceway_force, slip_field
+from macroslip.roller.model import interfaces, roller_model
+from macroslip.traction.slip_field import slip_at
+
+BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+SPEED = 20.463 * np.pi / 30
+#: Mean load of case 14B [N].
+STEADY = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=SPEED, duration=14.0)
+
+
+def _gripped() -> tuple:
+    """A downwind roller, its raceway contacts' geometry, and the speed of the rings past it [m/s]."""
+    model = roller_model(BEARING, OIL, axial_sign=1, tilt=0.0, laws=Laws.physical())
+    return model, interfaces(BEARING, OIL)[:2], -SPEED * model.orbit_ratio * model.outer_radius
+
+
+def exponents() -> None:
+    """Power of both raceways of a gripped roller over its load."""
+    model, _, ring = _gripped()
+
+    def power(load: float) -> float:
+        def force(contact, slip):
+            return raceway_force(contact, load, slip, ring, abs(ring - slip / 2.0), -0.5)
+
+        contacts = model.inner, model.outer
+        slip = brentq(lambda v: sum(force(one, v).spin for one in contacts), -0.1, 0.1, xtol=1e-13)
+        found = [force(one, slip) for one in contacts]
+        return sum(
+            friction_power(one, slip, ring, each.spin, each.detail) for one, each in zip(contacts, found, strict=True)
+        )
+
+    powers = {load: power(load) for load in (10e3, 50e3, 100e3)}
+    for low, high in itertools.pairwise(powers):
+        exponent = np.log(powers[high] / powers[low]) / np.log(high / low)
+        print(f"raceway power from {low / 1e3:.0f} to {high / 1e3:.0f} kN: load to the power {exponent:.1f}")
+
+
+def compliance() -> None:
+    """What elastic tangential strain of the bodies takes off the power of microslip, by Carter's law in strips.
+
+    A strip of half width b under Coulomb friction γ p transmits 1 − (1 − |v|/v_s)² of γ p below v_s = γ u b/R, and all of it
+    above (Carter, Proc. R. Soc. A 112 (1926) 151); without strain all of it at any slip. The film's own viscosity, which
+    softens it as well, is left out, so that this is the most that strain can do.
+    """
+    model, sides, ring = _gripped()
+    for load in (10e3, 20e3, 50e3, 100e3):
+        for contact, side in zip((model.inner, model.outer), sides, strict=True):
+            off = 100.0 * (1.0 - _strained_power(contact.shape, side, load, ring))
+            print(f"elastic strain, {load / 1e3:.0f} kN, {side.name}: {off:.2f} % off the power")
+
+
+def _strained_power(shape, side, load: float, ring: float) -> float:
+    """Power of a contact by Carter's law over that without strain, each at the slip at which its force vanishes."""
+    across, along = (getattr(side.hertz, f"semi_axis_{way}") * load ** (1.0 / 3.0) for way in ("across", "along"))
+    place = min(across, shape.half_length) * np.linspace(-1.0, 1.0, 40_001)
+    root = np.sqrt(np.maximum(1.0 - (place / across) ** 2, 0.0))
+    field = slip_field(shape, 0.0, ring)
+    base = np.array([slip_at(field, shape.contour_radius, one) for one in place])
+    saturating = OIL.limiting_shear * abs(ring) * along * root / side.rolling_radius
+
+    def strip(slip):
+        part = np.minimum(np.abs(slip) / np.maximum(saturating, 1e-30), 1.0)
+        return root**2 * np.sign(slip) * (1.0 - (1.0 - part) ** 2)
+
+    rigid = base + brentq(lambda v: np.sum(root**2 * np.sign(base + v)), -0.1, 0.1)
+    strained = base + brentq(lambda v: np.sum(strip(base + v)), -0.1, 0.1)
+    return float(np.sum(strip(strained) * strained) / np.sum(root**2 * np.abs(rigid)))
+
+
+def starvation() -> None:
+    """Film of an inlet that is full from S times the film on, over the flooded one, by Grubin's integral.
+
+    With the gap beyond Hertz' edge proportional to s^1.5, ∫ (h − h*)/h³ ds = 1/(12 η0 u α_p) gives
+    h*/h_flooded = [J(S)/J(∞)]^(3/4), J(S) = ∫ t^1.5/(1 + t^1.5)³ dt from 0 to (S − 1)^(2/3), whatever load, speed and oil.
+    """
+
+    def integral(end: float) -> float:
+        return quad(lambda t: t**1.5 / (1.0 + t**1.5) ** 3, 0.0, end)[0]
+
+    def film(inlet: float) -> float:
+        return (integral((inlet - 1.0) ** (2.0 / 3.0)) / integral(np.inf)) ** 0.75
+
+    for inlet in (3.0, 5.0, 10.0, 30.0, 100.0):
+        print(f"inlet full from {inlet:g} films on: film {film(inlet):.3f} of the flooded")
+    for part in (0.5, 0.7, 0.9):
+        print(f"film {part} of the flooded: S = {brentq(lambda s, part=part: film(s) - part, 1.01, 1e3):.1f}")
+
+
+def asperities() -> None:
+    """Share of the downwind row's sliding energy that asperities take."""
+    for celsius, roughness in ((35.0, 0.3e-6), (35.0, 0.5e-6), (50.0, 0.3e-6), (50.0, 0.5e-6)):
+        bearing = BEARING.replace(composite_roughness=roughness)
+        case = Case(loads=STEADY, rollers=[0], laws=Laws.physical(), bearing=bearing, temperature=celsius + 273.15)
+        down = simulate(case).sel(row="downwind")
+        raceways = down.energy.sel(interface=["inner", "outer"]).sum()
+        share = float(down.asperity_energy.sum() / raceways)
+        print(
+            f"asperities at {celsius:.0f} °C and {1e6 * roughness:.1f} µm: {100.0 * share:.1f} % of the raceways' energy"
+        )
+
+
+def drag() -> None:
+    """Drag of the oil on a roller, per orbit."""
+    result = simulate(Case(loads=STEADY, rollers=[0]))
+    orbit = float((result.orbit_end - result.orbit_start)[0])
+    print(f"drag: {result.attrs['drag_power'] * orbit / (2 * BEARING.rollers_per_row):.2f} J an orbit a roller")
+
+
+def rows() -> None:
+    """An unloaded roller of the upwind row and the energies of both rows, by how full gaps and inlets are."""
+    for name, values in (
+        ("default", {}),
+        ("S = 5", {"inlet_film": 5.0}),
+        ("S = 10", {"inlet_film": 10.0}),
+        ("flooded", {"fullness": 1.0, "inlet_film": 1e6}),
+        ("a tenth full, S large", {"fullness": 0.1, "inlet_film": 1e6}),
+        ("a tenth full", {"fullness": 0.1}),
+        ("3 % full", {"fullness": 0.03}),
+    ):
+        case = Case(
+            loads=STEADY,
+            rollers=[0],
+            laws=Laws.physical(),
+            lubricant=OIL.replace(**values) if values else OIL,
+            traces=Traces(step=0.02, start=7.0, end=13.5),
+        )
+        result = simulate(case)
+        energy = result.orbit_energy.sum("interface").isel(roller=0, orbit=0)
+        down, up = (float(energy.sel(row=row)) for row in ("downwind", "upwind"))
+        turning = (result.spin / result.spin_pure).sel(row="upwind")
+        print(
+            f"{name}: unloaded roller at {float(turning.min()):.2f} to {float(turning.max()):.2f} of pure rolling, "
+            f"{up:.1f} J an orbit; loaded {down:.1f} J, {down / up:.1f} times as much"
+        )
+
+
+def thrust() -> None:
+    """Sliding torque over thrust at 200 kN radial load, beside SKF's."""
+    from benchmarks.friction_torque import steady
+
+    low, high = (steady(radial=200e3, thrust=one) for one in (100e3, 250e3))
+    print(
+        f"sliding from 100 to 250 kN thrust at 200 kN: {low.sliding:.0f} to {high.sliding:.0f} N m, "
+        f"{high.sliding / low.sliding:.1f} times; SKF {high.skf_sliding / low.skf_sliding:.1f} times"
+    )
+
+
+def temperature() -> None:
+    """Sliding energy of the downwind row over temperature, under both laws of shear."""
+    loads = HubLoads.bundled("12B").window(0.0, 40.0)
+    for rheology in ("limiting-shear", "eyring"):
+        found = []
+        for celsius in (20.0, 35.0, 50.0):
+            laws = Laws.physical().but(rheology=rheology)
+            result = simulate(Case(loads=loads, rollers=[0, 14], laws=laws, temperature=celsius + 273.15))
+            found.append(float(result.orbit_energy.sel(row="downwind").sum("interface").mean()))
+        print(f"12B, {rheology}: " + ", ".join(f"{one:.0f}" for one in found) + " J an orbit at 20, 35 and 50 °C")
+
+
+def rheology() -> None:
+    """Energy of the loaded raceways under Eyring's law over that under limiting shear."""
+    for celsius, stress in ((35.0, 6.7e6), (50.0, 6.7e6), (35.0, 3.3e6)):
+        # The stress is that at 35 degC, and moves with temperature.
+        oil = OIL.replace(eyring_stress=stress)
+        energies = []
+        for law in ("eyring", "limiting-shear"):
+            laws = Laws.physical().but(rheology=law)
+            result = simulate(Case(loads=STEADY, rollers=[0], laws=laws, lubricant=oil, temperature=celsius + 273.15))
+            energies.append(float(result.energy.sel(row="downwind", interface=["inner", "outer"]).sum()))
+        print(f"Eyring, {stress / 1e6:g} MPa, over limiting shear at {celsius:.0f} °C: {energies[0] / energies[1]:.2f}")
+
+
+CLAIMS = {
+    one.__name__: one
+    for one in (exponents, compliance, starvation, asperities, drag, rows, thrust, temperature, rheology)
+}
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("which", nargs="*", metavar="CLAIM", help=", ".join(CLAIMS))
+    chosen = parser.parse_args().which or list(CLAIMS)
+    unknown = [name for name in chosen if name not in CLAIMS]
+    if unknown:
+        parser.error(f"{unknown[0]} is none of {', '.join(CLAIMS)}")
+    for name in chosen:
+        CLAIMS[name]()

@@ -1,0 +1,116 @@
+"""Make the tables of what depends on load and one speed: the cage's contact, and the oil of the raceway contacts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from macroslip.compiled import jit
+from macroslip.contact.spline import axis, axis_middles, axis_nodes, read_only, tensor_coefficients
+from macroslip.roller.contact_force import CurvedContact, cage_force
+from macroslip.roller.films import Films, faded, log_film, raceway_film
+from macroslip.roller.model import RollerModel
+from macroslip.roller.plane_table import CHANNELS, PlaneTable, no_plane_table
+from macroslip.roller.table_box import LARGEST_ERROR, TableBox, error_summary, values_at
+
+#: Distances between nodes of load and speed, and the least load [N].
+_LOAD_SPACING, _SPEED_SPACING, _LEAST_LOAD = 0.1, 0.05, 1e-2
+#: Least mean speed and slip of a plane as part of the highest ring speed, and the greatest.
+_LEAST_SPEED, _MOST_SPEED = 0.02, 1.1
+#: Random states at which a finished table is measured.
+_STATES = 4000
+
+
+@jit
+def cage_values(contact, loads, slips, values):
+    """Write ln(F/Δu) and the asperities' part of power at states of Q [N] and Δu [m/s], shape (states, 2)."""
+    for n in range(loads.size):
+        force, _, _, detail = cage_force(contact, loads[n], slips[n], 0.5 * slips[n], 0.5)
+        values[n, 0] = math.log(force / slips[n])
+        values[n, 1] = detail.asperity_power / (force * slips[n])  # pyright: ignore[reportOptionalMemberAccess]
+
+
+@jit
+def film_values(films, raceway, loads, speeds, values):
+    """Write ln of sliding per slip, of rolling resistance and of the film at Q [N] and mean speed [m/s], shape (states, 3)."""
+    for n in range(loads.size):
+        # Sliding is in proportion to slip at a given mean speed.
+        found = raceway_film(films, raceway, loads[n], speeds[n], 1.5 * speeds[n])
+        values[n, 0] = math.log(found.sliding / speeds[n])
+        values[n, 1] = math.log(-found.shear)
+        law, table = (films.outer, films.outer_table) if raceway else (films.inner, films.inner_table)
+        values[n, 2] = log_film(law, table, math.log(loads[n]), math.log(speeds[n]))[0]
+
+
+def _plane(tabled: Callable, quantities: int, highest_load: float, box: TableBox) -> PlaneTable:
+    """A table of as many quantities of the kernel `tabled(table)`, which asks the laws what the table does not know."""
+    kernel = tabled(no_plane_table())
+    load = axis(math.log(_LEAST_LOAD), math.log(highest_load), _LOAD_SPACING)
+    bounds = _LEAST_SPEED * box.highest_speed, _MOST_SPEED * box.highest_speed
+    speed = axis(math.log(bounds[0]), math.log(bounds[1]), _SPEED_SPACING)
+
+    def states(of_axis: Callable) -> list[np.ndarray]:
+        return np.meshgrid(np.exp(of_axis(load)), np.exp(of_axis(speed)), indexing="ij")
+
+    values = np.zeros((load.cells + 1, speed.cells + 1, CHANNELS))
+    values[..., :quantities] = values_at(kernel, states(axis_nodes), quantities)
+    everywhere = read_only(np.ones((load.cells, speed.cells), dtype=np.bool_))
+    table = PlaneTable(load, speed, tensor_coefficients(values, 2), everywhere)
+    middles = states(axis_middles)
+    off = np.abs(values_at(tabled(table), middles, quantities) - values_at(kernel, middles, quantities))
+    good = np.all(off <= LARGEST_ERROR, axis=-1)
+    return table._replace(good=read_only(good))
+
+
+def film_table(films: Films, raceway: int, box: TableBox) -> PlaneTable:
+    """The oil of a raceway contact over ln Q and ln of the mean speed: ln of sliding per slip, of resistance, of the film.
+
+    Parameters
+    ----------
+    films : Films
+    raceway : int
+        0 the inner, 1 the outer.
+    box : TableBox
+    """
+    name = "outer_table" if raceway else "inner_table"
+
+    def tabled(table: PlaneTable) -> Callable:
+        return partial(film_values, films._replace(**{name: table}), raceway)
+
+    return _plane(tabled, 3, box.highest_load, box)
+
+
+def faded_load(films: Films, model: RollerModel, highest_speed: float) -> float:
+    """Elastic load [N] from which on films carry nothing beside it, at ring speeds up to the highest one [m/s].
+
+    Films grow with speed, and carry more the less the body force presses on one of them.
+    """
+    most = abs(model.weight_in_plane) + abs(model.weight_along_axis)
+    most += model.centrifugal * (highest_speed / model.outer_radius) ** 2
+    found = 1.0
+    while not all(faded(films, found, body, highest_speed) for body in (-most, 0.0, most)):
+        found *= 1.1
+    return found
+
+
+def cage_table(contact: CurvedContact, box: TableBox) -> tuple[PlaneTable, np.ndarray]:
+    """The cage's contact over ln Q and ln |Δu|: ln(F/Δu) and the part of its power that asperities dissipate.
+
+    Returns
+    -------
+    PlaneTable, ndarray
+        With the median and the largest relative error of force at random states, and the share it knows.
+    """
+
+    def tabled(table: PlaneTable) -> Callable:
+        return partial(cage_values, contact._replace(table=table))
+
+    table = _plane(tabled, 2, box.highest_cage_load, box)
+    random = np.random.default_rng(2)
+    loads = np.exp(random.uniform(math.log(_LEAST_LOAD), math.log(box.highest_cage_load), _STATES))
+    slips = box.highest_speed * np.exp(random.uniform(math.log(_LEAST_SPEED), 0.0, _STATES))
+    off = values_at(tabled(table), (loads, slips), 2) - values_at(tabled(no_plane_table()), (loads, slips), 2)
+    return table, error_summary(np.abs(off[:, 0]))

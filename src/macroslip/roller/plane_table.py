@@ -1,0 +1,68 @@
+"""What depends on load and one speed as a table: friction of the cage's contact, and the oil of a raceway contact.
+
+Cubic splines over ln Q and the logarithm of the speed. A cell in which they miss the laws by more than they may is marked;
+there, as outside the table, the laws themselves are asked.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
+from macroslip.traction.spline_cell import channels_in_square
+
+#: Splines of a table.
+CHANNELS = 4
+
+
+class PlaneTable(NamedTuple):
+    """Four splines over load and a speed.
+
+    Attributes
+    ----------
+    load, speed : Axis
+        Of ln Q and of the logarithm of the speed.
+    coefficients : ndarray, shape (loads + 2, speeds + 2, 4)
+    good : ndarray of bool, shape of the cells
+        Whether the splines stand in for the laws in a cell.
+    """
+
+    load: Axis
+    speed: Axis
+    coefficients: np.ndarray
+    good: np.ndarray
+
+
+class PlaneValues(NamedTuple):
+    """Whether a table knows a state, its splines, and their derivatives by the places in a cell along load and speed."""
+
+    known: bool
+    value: tuple[float, float, float, float]
+    by_load: tuple[float, float, float, float]
+    by_speed: tuple[float, float, float, float]
+
+
+def no_plane_table() -> PlaneTable:
+    """A table that knows no state."""
+    return PlaneTable(
+        NOWHERE, NOWHERE, read_only(np.empty((0, 0, CHANNELS))), read_only(np.empty((0, 0), dtype=np.bool_))
+    )
+
+
+@jit_inline
+def plane_values(table, log_load, log_speed):
+    """Look a state up: ln Q [ln N] and the logarithm of a speed [ln m/s]. The derivatives are those by place in a cell.
+
+    Times `table.load.per_spacing` and `table.speed.per_spacing` they are those by the logarithms.
+    """
+    zeros = (0.0, 0.0, 0.0, 0.0)
+    if table.load.cells == 0:
+        return PlaneValues(False, zeros, zeros, zeros)
+    i, t = cell_of(table.load, log_load)
+    j, u = cell_of(table.speed, log_speed)
+    if i < 0 or j < 0 or not table.good[i, j]:
+        return PlaneValues(False, zeros, zeros, zeros)
+    return PlaneValues(True, *channels_in_square(table.coefficients, (i, j), (t, u)))  # pyright: ignore[reportCallIssue]

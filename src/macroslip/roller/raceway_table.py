@@ -1,0 +1,120 @@
+"""A raceway contact as a table: what it returns depends on load, ring speed and slip only, and is looked up.
+
+Traction with microslip is smooth, but on scales that differ: slip's falls with the exponential of pressure, and both
+sides of the lines of pure rolling matter. The coordinates are ln Q + k Q^(1/3), ln |u2| and asinh((Δu/u2 − x_v)/x_0), with
+x_v the ratio of slip to ring speed at which the two lines of pure rolling merge, and the quantities pull/Q, lag/Q^(5/3),
+skew/Q^(4/3) and power of asperities/(Q^(5/3) |u2|), cubic splines all four. Traction is odd under (u2, Δu) → (−u2, −Δu).
+
+A cell in which the splines miss the laws by more than they may is marked, and there, as outside the table, the laws
+themselves are asked. So a table changes the time a look-up takes, and nothing else beyond its measured error.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
+from macroslip.traction.spline_cell import channels_in_cell
+
+#: Ratio of slip to ring speed by which the third coordinate is scaled.
+SLIP_RATIO = 6e-4
+#: Quantities of a table.
+CHANNELS = 4
+
+
+class RacewayTable(NamedTuple):
+    """Table of a raceway contact with microslip.
+
+    Attributes
+    ----------
+    load, speed, ratio : Axis
+        Of ln Q + k Q^(1/3), ln |u2| and asinh((Δu/u2 − x_v)/x_0).
+    stretch : float
+        k [N^(−1/3)].
+    merging_ratio : float
+        x_v [-].
+    side : float
+        1 where the roller's axis is tilted as that of the table's, −1 where the other way: the sign of the skew moment.
+    coefficients : ndarray, shape (loads + 2, speeds + 2, ratios + 2, 4)
+    good : ndarray of bool, shape of the cells
+        Whether the splines stand in for the laws in a cell.
+    """
+
+    load: Axis
+    speed: Axis
+    ratio: Axis
+    stretch: float
+    merging_ratio: float
+    side: float
+    coefficients: np.ndarray
+    good: np.ndarray
+
+
+class TableForce(NamedTuple):
+    """What a table gives: whether it knows the state, and force, lag [N], skew moment [N m] and asperities' power [W].
+
+    The slopes are by slip at constant ring speed [N s/m].
+    """
+
+    known: bool
+    pull: float
+    lag: float
+    skew: float
+    asperity_power: float
+    pull_slope: float
+    lag_slope: float
+
+
+def no_raceway_table() -> RacewayTable:
+    """A table that knows no state."""
+    return RacewayTable(
+        NOWHERE,
+        NOWHERE,
+        NOWHERE,
+        0.0,
+        0.0,
+        1.0,
+        read_only(np.empty((0, 0, 0, CHANNELS))),
+        read_only(np.empty((0, 0, 0), dtype=np.bool_)),
+    )
+
+
+@jit_inline
+def table_force(table, load, ring_speed, slip):
+    """Look a state up: Q > 0 [N], u2 [m/s] and Δu [m/s].
+
+    Returns
+    -------
+    TableForce
+        Zeros where the table does not know the state.
+    """
+    nothing = TableForce(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if table.load.cells == 0 or ring_speed == 0.0:
+        return nothing
+    log_load = math.log(load)
+    root = math.exp(log_load * (1.0 / 3.0))
+    i, t = cell_of(table.load, log_load + table.stretch * root)
+    k, s = cell_of(table.speed, math.log(abs(ring_speed)))
+    z = (slip / ring_speed - table.merging_ratio) * (1.0 / SLIP_RATIO)
+    size = math.sqrt(z * z + 1.0)
+    j, u = cell_of(table.ratio, math.copysign(math.log(abs(z) + size), z))
+    if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
+        return nothing
+    value, by_ratio = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
+    sign = math.copysign(1.0, ring_speed)
+    pull_scale = sign * load
+    lag_scale = pull_scale * root * root
+    by_slip = table.ratio.per_spacing / (SLIP_RATIO * size * ring_speed)
+    return TableForce(
+        True,
+        pull_scale * value[0],
+        lag_scale * value[1],
+        sign * table.side * load * root * value[2],
+        load * root * root * abs(ring_speed) * value[3],
+        pull_scale * by_ratio[0] * by_slip,
+        lag_scale * by_ratio[1] * by_slip,
+    )

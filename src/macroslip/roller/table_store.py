@@ -1,0 +1,148 @@
+"""Tables kept on disk by content, for every later run and for all workers of a study.
+
+A table's name is a hash of everything it follows from: the laws' values, the box, and the sources that make it. So a
+table is never outdated; it is only no longer asked for, and then among the first to be removed. A file that was cut or
+changed is made again. Where nothing can be stored, in a read-only container say, tables last as long as the process.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import io
+import os
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from filelock import FileLock, Timeout
+from platformdirs import user_cache_path
+
+from macroslip.compiled import own_laws
+from macroslip.contact.spline import read_only
+from macroslip.files import UNFINISHED, write_durably
+from macroslip.fingerprint import KERNEL_PARTS, fingerprint
+
+#: Bytes that stored tables may take, on disk and in the memory of a process.
+_MOST_BYTES, _MOST_IN_MEMORY = 500_000_000, 200_000_000
+#: Time for which a process waits for another that makes the same table [s].
+_PATIENCE = 60.0
+#: End of the names of stored tables.
+_ENDING = ".table"
+
+_in_memory: OrderedDict[str, list[np.ndarray]] = OrderedDict()
+_locks: dict[str, threading.Lock] = {}
+_guard = threading.Lock()
+
+
+def table_key(*parts: Any) -> str:
+    """Name of a table by all it follows from: numbers, arrays and named tuples of them, and the sources of the laws."""
+    digest = hashlib.sha256(fingerprint(*KERNEL_PARTS).encode())
+    for text in (*own_laws(), *(_described(part) for part in parts)):
+        digest.update(text.encode() + b"\0")
+    return digest.hexdigest()
+
+
+def _described(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype}{value.shape}{hashlib.sha256(np.ascontiguousarray(value)).hexdigest()}"
+    if isinstance(value, tuple):
+        kind = type(value)
+        return f"{kind.__module__}.{kind.__qualname__}({','.join(_described(one) for one in value)})"
+    return repr(value)
+
+
+def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarray]:
+    """The arrays called `key`, made only if neither this process nor the disk has them; read-only.
+
+    Parameters
+    ----------
+    key : str
+        From `table_key`.
+    make : callable
+    """
+    with _guard:
+        lock = _locks.setdefault(key, threading.Lock())
+    with lock:
+        with _guard:
+            found = _in_memory.get(key)
+        if found is None:
+            found = _from_disk_or_made(key, make)
+            with _guard:
+                _in_memory[key] = found
+                while len(_in_memory) > 1 and sum(map(_size, _in_memory.values())) > _MOST_IN_MEMORY:
+                    _in_memory.popitem(last=False)
+        return found
+
+
+def _size(arrays: Sequence[np.ndarray]) -> int:
+    return sum(one.nbytes for one in arrays)
+
+
+def folder() -> Path:
+    """Where tables are stored: in `macroslip` in the folder of NUMBA_CACHE_DIR, or else in the user's folder for caches."""
+    home = os.environ.get("NUMBA_CACHE_DIR")
+    return (Path(home) / "macroslip" if home else user_cache_path("macroslip", appauthor=False)) / "tables"
+
+
+def _from_disk_or_made(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarray]:
+    with contextlib.ExitStack() as held:
+        path = None
+        # No home folder, a read-only or full disk, a file system without locks; and whoever waited in vain makes the
+        # table too: that costs time and nothing else.
+        with contextlib.suppress(OSError, RuntimeError, NotImplementedError, Timeout):
+            path = folder() / f"{key}{_ENDING}"
+            if (found := _read(path)) is not None:
+                return found
+            path.parent.mkdir(parents=True, exist_ok=True)
+            held.enter_context(FileLock(path.parent / f"{key[:2]}.lock", timeout=_PATIENCE))
+            if (found := _read(path)) is not None:
+                return found
+        made = [read_only(one) for one in make()]
+        if path is not None:
+            with contextlib.suppress(OSError):
+                write_durably(path, _content(made))
+                _remove_oldest(path.parent)
+        return made
+
+
+def _content(arrays: Sequence[np.ndarray]) -> bytes:
+    part = io.BytesIO()
+    for one in arrays:
+        np.save(part, one, allow_pickle=False)
+    content = part.getvalue()
+    return hashlib.sha256(content).digest() + content
+
+
+def _read(path: Path) -> list[np.ndarray] | None:
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    if len(content) <= 32 or hashlib.sha256(content[32:]).digest() != content[:32]:
+        return None
+    part, found = io.BytesIO(content[32:]), []
+    while part.tell() < len(content) - 32:
+        found.append(read_only(np.load(part, allow_pickle=False)))
+    with contextlib.suppress(OSError):
+        os.utime(path)  # the files used last are removed last
+    return found
+
+
+def _remove_oldest(place: Path) -> None:
+    files = []
+    for path in place.iterdir():
+        if path.name.endswith((_ENDING, UNFINISHED)):
+            with contextlib.suppress(OSError):
+                status = path.stat()
+                files.append((status.st_mtime, status.st_size, path))
+    total = sum(size for _, size, _ in files)
+    for _, size, path in sorted(files):
+        if total <= _MOST_BYTES:
+            break
+        with contextlib.suppress(OSError):
+            path.unlink()
+            total -= size

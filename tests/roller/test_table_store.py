@@ -1,0 +1,90 @@
+"""Stored tables: found again, made again where they are not what was written, and never in the way."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from macroslip.roller import table_store as store
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    """An empty store on the disk, and no tables in memory."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    forget(monkeypatch)
+    return store.folder()
+
+
+class Maker:
+    def __init__(self):
+        self.count = 0
+
+    def __call__(self):
+        self.count += 1
+        return [np.arange(1000.0), np.ones((2, 3), dtype=np.bool_)]
+
+
+def forget(monkeypatch):
+    monkeypatch.setattr(store, "_in_memory", store.OrderedDict())
+
+
+def test_a_table_is_found_on_the_disk(place, monkeypatch):
+    make = Maker()
+    made = store.stored("ab12", make)
+    forget(monkeypatch)
+    found = store.stored("ab12", make)
+    assert make.count == 1 and len(found) == 2
+    for one, other in zip(found, made, strict=True):
+        np.testing.assert_array_equal(one, other)
+        assert one.dtype == other.dtype and not one.flags.writeable and not other.flags.writeable
+
+
+@pytest.mark.parametrize("damage", [lambda c: c[:-1], lambda c: c[:500] + b"x" + c[501:], lambda c: b""])
+def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
+    make = Maker()
+    store.stored("ab12", make)
+    path = place / "ab12.table"
+    path.write_bytes(damage(path.read_bytes()))
+    forget(monkeypatch)
+    store.stored("ab12", make)
+    forget(monkeypatch)
+    store.stored("ab12", make)
+    assert make.count == 2
+
+
+def test_a_place_that_is_no_folder_leaves_tables_in_memory(tmp_path, monkeypatch):
+    forget(monkeypatch)
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file"))
+    make = Maker()
+    for _ in range(2):
+        assert store.stored("cd34", make)[0].size == 1000
+    assert make.count == 1
+
+
+def test_threads_make_a_table_once(place):
+    make = Maker()
+    threads = [threading.Thread(target=store.stored, args=("ef56", make)) for _ in range(8)]
+    for one in threads:
+        one.start()
+    for one in threads:
+        one.join()
+    assert make.count == 1
+
+
+def test_the_store_is_bounded(place, monkeypatch):
+    monkeypatch.setattr(store, "_MOST_BYTES", 30_000)
+    for number in range(8):
+        store.stored(f"{number:04}", Maker())
+    files = list(place.glob("*.table"))
+    assert 1 <= len(files) <= 3 and sum(path.stat().st_size for path in files) <= 30_000
+
+
+def test_keys_differ_with_any_value_and_with_the_sources(models, monkeypatch):
+    contact = models[1].inner
+    key = store.table_key(contact, 1.0)
+    assert key == store.table_key(contact, 1.0)
+    assert key != store.table_key(models[1].outer, 1.0) and key != store.table_key(contact, 1.0 + 1e-15)
+    monkeypatch.setattr(store, "own_laws", lambda: ["def thickness(): ..."])
+    assert key != store.table_key(contact, 1.0)

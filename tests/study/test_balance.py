@@ -1,0 +1,101 @@
+"""One temperature for the loads of a study: the heat of their mean power is lost at it; weights, groups and refusals."""
+
+import json
+
+import numpy as np
+import pytest
+
+from macroslip.errors import InputError
+from macroslip.study.reader import open_study
+from macroslip.study.run import run_study
+from macroslip.study.store import BALANCE_RUNS
+from macroslip.study.study_file import study_of
+
+CONDUCTANCE, AMBIENT = 60.0, 288.15
+WEIGHTS = {"field": "wind_speed", "width": 2.0, "scale": 9.5, "shape": 2.0}
+
+
+def made(**more):
+    """Two load cases of the package under the physical model, nine seconds each; orbits of 6.5 s."""
+    content = {
+        "case": {
+            "laws": {"model": "physical"},
+            "rollers": [0],
+            "rating": False,
+            "loads": {"end": "9 s"},
+            "temperature": "balance",
+            "heat": {"conductance": "60 W/K", "ambient": "15 degC"},
+        },
+        "loads": {"bundled": ["12B", "24B"]},
+    }
+    return json.loads(json.dumps(content | more))
+
+
+def lost(temperature):
+    return CONDUCTANCE * (np.asarray(temperature) - AMBIENT)
+
+
+@pytest.fixture(scope="module")
+def directory(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("balance") / "out"
+    ended = run_study(study_of(made(weights=WEIGHTS)), folder, threads=1)
+    assert not ended.failures
+    return folder
+
+
+def test_the_mean_power_of_all_loads_is_what_is_lost_at_one_temperature(directory):
+    found = open_study(directory)
+    assert np.unique(found.temperature).size == 1
+    weights = np.array([np.exp(-(((v - 1.0) / 9.5) ** 2)) - np.exp(-(((v + 1.0) / 9.5) ** 2)) for v in (12.0, 24.0)])
+    mean = float((found.friction_power * weights).sum() / weights.sum())
+    assert mean == pytest.approx(float(lost(found.temperature[0])), abs=0.3 * CONDUCTANCE)
+    # No load history is at its own balance: 12B heats more than the mean, 24B less.
+    assert found.friction_power[0] > lost(found.temperature[0]) > found.friction_power[1]
+    assert found.temperature.attrs["units"] == "K"
+
+
+def test_every_result_was_computed_at_that_temperature(directory):
+    found = open_study(directory)
+    np.testing.assert_array_equal(found.inlet_temperature, found.temperature)
+    assert (found.outcome == "completed").all()
+    # The runs on the way are a study of their own, at other temperatures.
+    assert AMBIENT in open_study(directory / BALANCE_RUNS).temperature.values or (directory / BALANCE_RUNS).is_dir()
+
+
+def test_going_on_computes_nothing_again(directory):
+    again = run_study(study_of(made(weights=WEIGHTS)), directory, threads=1, resume=True)
+    assert (again.progress.computed, again.progress.unchanged) == (0, 2)
+
+
+def test_oils_have_a_temperature_each(tmp_path):
+    """A thinner oil makes less heat; half the conductance a warmer bearing."""
+    content = made(variations={"list": [{}, {"lubricant.viscosity": "0.2 Pa s"}, {"heat.conductance": "30 W/K"}]})
+    content["case"]["laws"] = {"model": "paper"}
+    content["case"]["loads"] = {"end": "7 s"}
+    run_study(study_of(content), tmp_path / "out", threads=1)
+    found = open_study(tmp_path / "out")
+    by_point = found.temperature.values.reshape(2, 3)
+    np.testing.assert_array_equal(by_point[0], by_point[1])
+    power = found.friction_power.values.reshape(2, 3).mean(axis=0)
+    conductance = np.array([60.0, 60.0, 30.0])
+    np.testing.assert_allclose(power, conductance * (by_point[0] - AMBIENT), atol=0.3 * 60.0)
+    assert by_point[0, 2] > by_point[0, 0]
+
+
+def test_weights_and_varied_temperatures_are_refused_where_they_mean_nothing():
+    content = made(weights=WEIGHTS)
+    content["case"] |= {"temperature": "40 degC"}
+    with pytest.raises(InputError, match="nothing is weighted"):
+        study_of(content)
+    with pytest.raises(InputError, match="it is varied"):
+        study_of(made(variations={"list": [{"temperature": "40 degC"}]}))
+    with pytest.raises(InputError, match="no number as 'gust'"):
+        study_of(made(weights=WEIGHTS | {"field": "gust"}))
+
+
+def test_a_bearing_that_cannot_lose_its_heat_has_no_balance(tmp_path):
+    content = made()
+    content["case"]["heat"]["conductance"] = "0.5 W/K"
+    content["case"]["loads"] = {"end": "7 s"}
+    with pytest.raises(InputError, match="no heat balance"):
+        run_study(study_of(content), tmp_path / "out", threads=1)
