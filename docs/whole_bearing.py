@@ -1,9 +1,9 @@
 """Numbers of docs/whole-bearing.md: python docs/whole_bearing.py PART …, each part a table as the page has it.
 
-Parts: `cases-paper` and `cases-physical` (imposed orbit and whole bearing under the 21 load cases), `choices-paper` and
-`choices-physical` (gap, oil, weight, arrangement, guidance, scatter under 14B), `places` (forces by place on the orbit
-under a radial load), `dry` (dry impacts and their cost), `tolerance` (energies by tolerance), `operation` (start, stop,
-reversal, idling, emergency stop), `long` (what grows over many orbits) and `speed`.
+Parts, each with `-paper` or `-physical`: `cases` (imposed orbit and whole bearing under the 21 load cases), `choices` (gap, oil,
+weight, arrangement, guidance, scatter under 14B), `places` (forces by place on the orbit under a radial load), `operation`
+(start, stop, reversal, idling, emergency stop) and `speed`. Under the paper's laws alone: `dry` (dry impacts and their cost),
+`tolerance` and `scatter` (energies by tolerance and by initial offsets) and `long` (what grows over many orbits).
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -129,17 +130,14 @@ def radial(laws: Laws, duration: float = 30.0, cage: Cage = Cage()) -> Case:
     return Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
 
 
-def places() -> None:
+def places(laws: Laws) -> None:
     """Largest force of a spar by place on the orbit; a roller goes from the bottom (270°) by the left (0°) to the top (90°)."""
-    heading("row, laws", *(f"{30 * k}°" for k in range(12)))
-    for name, laws in (("paper", PAPER), ("physical", PHYSICAL)):
-        result = simulate(radial(laws))
-        for row in result.row.values:
-            force = result.largest_force_by_position.sel(row=row).values
-            # Sectors of 30° about 0°, 30° …
-            print(
-                cells(f"{row}, {name}", *(f"{x:.3g}" for x in np.roll(force, 3).reshape(12, 6).max(axis=1))), flush=True
-            )
+    heading("row", *(f"{30 * k}°" for k in range(12)))
+    result = simulate(radial(laws))
+    for row in result.row.values:
+        force = result.largest_force_by_position.sel(row=row).values
+        # Sectors of 30° about 0°, 30° …
+        print(cells(row, *(f"{x:.3g}" for x in np.roll(force, 3).reshape(12, 6).max(axis=1))), flush=True)
 
 
 def dry() -> None:
@@ -178,7 +176,27 @@ def tolerance() -> None:
             print(cells(name, value, *found, float(result.energy_residual[-1])), flush=True)
 
 
-def operation() -> None:
+def scatter() -> None:
+    """Energy of the downwind cage under 14B by initial offsets drawn at random, at two tolerances."""
+    heading(
+        "tolerance",
+        "downwind cage, mean of 5 draws [J]",
+        "standard deviation [J]",
+        "upwind cage, mean [J]",
+        "standard deviation [J]",
+    )
+    loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + 30.0)
+    for value in (2e-4, 2e-5):
+        found = []
+        for seed in range(1, 6):
+            cage = Cage(offsets="random", seed=seed)
+            case = Case(loads=loads, laws=PAPER, dynamics="whole-bearing", cage=cage, integrator=Radau(tolerance=value))
+            found.append(energies(simulate(case))[:, 1])
+        mean, deviation = np.mean(found, axis=0), np.std(found, axis=0, ddof=1)
+        print(cells(value, *(f"{x:.4g}" for k in (0, 1) for x in (mean[k], deviation[k]))), flush=True)
+
+
+def operation(laws: Laws) -> None:
     """Starts, stops, reversals, idling and an emergency stop, at 343 kN radial load."""
     series = {
         "start in 20 s, then rated speed for 20 s": ([0.0, 20.0, 40.0], [0.0, RATED, RATED]),
@@ -187,18 +205,16 @@ def operation() -> None:
         "idling at a tenth of the speed, 60 s": ([0.0, 60.0], [0.1 * RATED, 0.1 * RATED]),
         "emergency stop in 2 s": ([0.0, 10.0, 12.0, 20.0], [RATED, RATED, 0.0, 0.0]),
     }
-    heading("laws", "", "raceways, imposed / whole [J]", "cage, imposed / whole [J]", "largest spar force [N]")
-    for label, laws in (("paper", PAPER), ("physical", PHYSICAL)):
-        for name, (times, speeds) in series.items():
-            when = np.arange(0.0, times[-1] + 0.025, 0.05)
-            force = np.tile([0.0, -343e3, 0.0], (when.size, 1))
-            loads = BearingLoads(time=when, shaft_speed=np.interp(when, times, speeds), force=force, source=name)
-            case = Case(loads=loads, laws=laws)
-            imposed, whole = simulate(case), simulate(replace(case, dynamics="whole-bearing"))
-            before, after = energies(imposed).sum(axis=0), energies(whole).sum(axis=0)
-            largest = float(whole.largest_pocket_force.max())
-            pairs = (f"{before[k]:.3g} / {after[k]:.3g}" for k in (0, 1))
-            print(cells(label, name, *pairs, largest), flush=True)
+    heading("", "raceways, imposed / whole [J]", "cage, imposed / whole [J]", "largest spar force [N]")
+    for name, (times, speeds) in series.items():
+        when = np.arange(0.0, times[-1] + 0.025, 0.05)
+        force = np.tile([0.0, -343e3, 0.0], (when.size, 1))
+        loads = BearingLoads(time=when, shaft_speed=np.interp(when, times, speeds), force=force, source=name)
+        case = Case(loads=loads, laws=laws)
+        imposed, whole = simulate(case), simulate(replace(case, dynamics="whole-bearing"))
+        before, after = energies(imposed).sum(axis=0), energies(whole).sum(axis=0)
+        pairs = (f"{before[k]:.3g} / {after[k]:.3g}" for k in (0, 1))
+        print(cells(name, *pairs, float(whole.largest_pocket_force.max())), flush=True)
 
 
 def long() -> None:
@@ -225,34 +241,26 @@ def long() -> None:
         )
 
 
-def speed() -> None:
+def speed(laws: Laws) -> None:
     """Time of one core for load case 14B, after a first run that compiles."""
-    heading("laws, spars", "simulated [s]", "time of one core [s]", "times real time", "steps", "contact evaluations")
-    for label, laws, cage, span in (
-        ("paper, squeeze film", PAPER, Cage(), 60.0),
-        ("physical, squeeze film", PHYSICAL, Cage(), 60.0),
-        ("paper, dry", PAPER, Cage(impact="dry"), 10.0),
-    ):
-        case = Case(
-            loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + span), laws=laws, dynamics="whole-bearing", cage=cage
-        )
-        simulate(replace(case, loads=HubLoads.bundled("14B").window(BEGIN, BEGIN + 8.0)))
+    heading("spars", "simulated [s]", "time of one core [s]", "times real time", "steps", "contact evaluations")
+    for name, cage, span in (("squeeze film", Cage(), 60.0), ("dry", Cage(impact="dry"), 10.0)):
+        loads = HubLoads.bundled("14B")
+        case = Case(loads=loads.window(BEGIN, BEGIN + span), laws=laws, dynamics="whole-bearing", cage=cage)
+        simulate(replace(case, loads=loads.window(BEGIN, BEGIN + 8.0)))
         result, spent = timed(case)
         steps = int((result.steps + result.rejections).max())
-        print(cells(label, span, spent, span / spent, steps, int(result.force_evaluations.max())), flush=True)
+        print(cells(name, span, spent, span / spent, steps, int(result.force_evaluations.max())), flush=True)
 
 
+BY_LAWS = {"cases": cases, "choices": choices, "places": places, "operation": operation, "speed": speed}
 PARTS = {
-    "cases-paper": lambda: cases(PAPER),
-    "cases-physical": lambda: cases(PHYSICAL),
-    "choices-paper": lambda: choices(PAPER),
-    "choices-physical": lambda: choices(PHYSICAL),
-    "places": places,
+    **{f"{name}-paper": partial(part, PAPER) for name, part in BY_LAWS.items()},
+    **{f"{name}-physical": partial(part, PHYSICAL) for name, part in BY_LAWS.items()},
     "dry": dry,
     "tolerance": tolerance,
-    "operation": operation,
+    "scatter": scatter,
     "long": long,
-    "speed": speed,
 }
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ def told(tmp_path, monkeypatch):
     return told
 
 
-ALLOWED = "Allowed: a Python file that registers film or traction laws, as docs/laws.md shows."
+ALLOWED = "Allowed: a Python file that registers film or traction laws, as macroslip init --example laws writes."
 
 
 @pytest.mark.parametrize(

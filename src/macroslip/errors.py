@@ -2,6 +2,25 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
+
+def legible(text: str, longest: int) -> str:
+    r"""Text from anywhere for a message: without letters that a terminal would act on, its middle cut out if it is long.
+
+    Examples
+    --------
+    >>> legible("a\\x1b[31mb", 100), legible("k" * 1000 + "end", 20)
+    ('a\\\\x1b[31mb', 'kkkkkkkkkkkkk … kend')
+    """
+    if len(text) > longest:
+        tail = longest // 4
+        text = f"{text[: longest - tail - 2]} … {text[-tail + 1 :]}"
+    return "".join(
+        letter if letter.isprintable() or letter == "\n" else letter.encode("unicode_escape").decode()
+        for letter in text
+    )
+
 
 class MacroslipError(Exception):
     """Base of every error this package raises on purpose."""
@@ -28,7 +47,11 @@ class InputError(MacroslipError, ValueError):
     run.csv, t = 3.2 s: the shaft speed is NaN. Allowed: finite numbers. Fill or cut the gap.
     """
 
+    #: Letters of each part; what a file or a name holds may be of any length.
+    longest: ClassVar[int] = 1500
+
     def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = ""):
+        what, where, allowed, remedy = (legible(part, self.longest) for part in (what, where, allowed, remedy))
         self.what, self.where, self.allowed, self.remedy = what, where, allowed, remedy
         parts = [f"{where}: {what}" if where else what]
         if allowed:

@@ -18,7 +18,7 @@ KERNEL_PARTS = (
 RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "mechanisms", "rating", "result")
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
-    "__init__", "cli", "errors", "files", "fingerprint", "kernel_cache", "machine", "overview", "plugins", "progress",
+    "__init__", "cli", "errors", "files", "fingerprint", "hdf5_file", "kernel_cache", "machine", "overview", "plugins", "progress",
     "report", "reproduction", "study", "torque",
 )  # fmt: skip
 _ROOT = Path(__file__).parent

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from macroslip.errors import InputError
 
-_ALLOWED = "a Python file that registers film or traction laws, as docs/laws.md shows"
+_ALLOWED = "a Python file that registers film or traction laws, as macroslip init --example laws writes"
 
 
 class OwnLaws(NamedTuple):
@@ -55,7 +55,7 @@ def load_laws(path: str | PathLike[str]) -> OwnLaws:
     Traceback (most recent call last):
         ...
     macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). Allowed: a Python \
-file that registers film or traction laws, as docs/laws.md shows. Check its path, which starts at the current folder.
+file that registers film or traction laws, as macroslip init --example laws writes. Check its path, which starts at the current folder.
     """
     from macroslip.film import film_law as film_law
     from macroslip.traction import traction_law as traction_law

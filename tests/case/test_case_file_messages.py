@@ -93,7 +93,7 @@ def told(tmp_path):
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1.26\n",
             "case.yaml, line 3, drivetrain.hub_to_bearing: 1.26 has no unit. Allowed: a number with its unit, m "
-            "or mm or um. Write 1.26 m, for example.",
+            "or mm or um. Write 1.26 m or 1.26 mm or 1.26 um, whichever it is.",
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 4 ft\n",

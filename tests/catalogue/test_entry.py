@@ -46,7 +46,7 @@ def test_text_and_mapping_give_the_same(value):
 @pytest.mark.parametrize(
     ("entry", "dimension", "message"),
     [
-        ("75", LENGTH, "bore is .75., which does not give its unit. Allowed: .* Write .75 m., for example."),
+        ("75", LENGTH, "bore is .75., which does not give its unit. Allowed: .* Write .75 m. or .75 mm. or .75 um., whichever it is."),
         ("75 inch", LENGTH, "bore has the unit 'inch'. Allowed: a number with its unit, m or mm or um. Convert"),
         ("7,5 mm", LENGTH, "bore is '7,5 mm', which is not a quantity. Allowed: .* Use a decimal point"),
         ("wide", LENGTH, "bore is 'wide', which is not a quantity. .* Write 1 m, for example."),

@@ -204,7 +204,10 @@ def test_studies_page_gives_the_units_of_the_summary():
 def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     assert len(read_study(ROOT / "examples" / "study.yaml")) == 96
     text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    block, balance = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    (tmp_path / "balance.yaml").write_text(balance, encoding="utf-8")
+    balanced = read_study(tmp_path / "balance.yaml")
+    assert (len(balanced), balanced.heat.conductance, balanced.weights.shape) == (21, 60.0, 2.0)
     (tmp_path / "dlc12").mkdir()
     shutil.copy(SAMPLE, tmp_path / "dlc12" / "14mps_seed1.outb")
     shutil.copy(ROOT / "src/macroslip/bearing/catalogue/skf-240-600-bc.yaml", tmp_path / "other-bearing.yaml")

@@ -111,6 +111,12 @@ def test_window_outside_the_record(start, end):
         HubLoads(**_record()).window(start, end)
 
 
+@pytest.mark.parametrize("start", ["60 s", True])
+def test_window_in_other_things_than_seconds(start):
+    with pytest.raises(InputError, match="run 7: start is .* Allowed: a number of seconds, or None"):
+        HubLoads(**_record()).window(start, None)
+
+
 def test_window_between_two_samples():
     with pytest.raises(InputError, match=r"holds 0 sample\(s\)"):
         HubLoads(**_record()).window(60.01, 60.04)

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import InputError, read_study
+from macroslip.case.case_file import read_case
 from macroslip.study.loads_list import Load
 from macroslip.study.study_file import study_of
 
@@ -161,6 +162,13 @@ def test_mistakes_are_told_with_their_place(tmp_path, text, messages):
     for message in messages:
         assert caught.match(message)
     assert str(tmp_path) in str(caught.value)
+
+
+def test_a_case_file_is_told_from_a_study(tmp_path):
+    with pytest.raises(InputError, match=r"the keys bearing, laws are those of a case\. .*macroslip run; .*key case"):
+        read_study(write(tmp_path, "bearing: skf-240-600-bc\nloads: {bundled: 14B}\nlaws: {model: paper}\n"))
+    with pytest.raises(InputError, match="this is a study file, not a case file. Run it by macroslip study"):
+        read_case(write(tmp_path, "case: {rollers: [0]}\nloads: {bundled: [14B]}\n"))
 
 
 def test_all_problems_are_told_together(tmp_path):

@@ -32,7 +32,7 @@ def test_books_close(run, impact, arrangement):
     assert np.abs(energy_residual(record)).max() < 0.02 * turned_over
 
 
-ROLLING = Laws.physical()
+ROLLING = Laws.paper().but(rolling="whole-film")
 
 
 def test_books_close_with_rolling_resistance(run):

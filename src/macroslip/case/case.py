@@ -13,6 +13,7 @@ from macroslip.case.parts import BackwardEuler, ExplicitEuler, Heat, Radau, Trac
 from macroslip.catalogue.problems import shown
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
+from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.overview import html_overview
@@ -187,7 +188,7 @@ class Case:
         return {
             "loads": {
                 "kind": type(loads).__name__,
-                "source": loads.source,
+                "source": without_folders(loads.source),
                 "samples": int(loads.time.size),
                 "start": float(loads.time[0]),
                 "end": float(loads.time[-1]),

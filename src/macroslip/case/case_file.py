@@ -54,6 +54,8 @@ def read_case(path: str | PathLike[str]) -> Case:
     remedy = "Write a case file that runs with: macroslip init"
     text = read_text(path, "the case file cannot be read", where=str(path), remedy=remedy)
     data, source = parse(text, str(path), remedy)
+    if "case" in data:
+        raise InputError("this is a study file, not a case file", where=str(path), remedy="Run it by macroslip study.")
     return CaseBuilder(data, source, path.parent).case()
 
 

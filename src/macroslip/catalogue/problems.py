@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 import reprlib
 from collections.abc import Iterable, Sequence
 
 from macroslip.errors import InputError
 
-MOST_PROBLEMS = 20
-"""Problems that one message lists."""
+MOST_PROBLEMS, MOST_LETTERS = 20, 12_000
+"""Problems that one message lists, and letters after which it lists no more."""
 
 
 def shown(value: object) -> str:
@@ -76,11 +77,17 @@ class Problems(InputError):  # noqa: N818, a list of errors as one
         The problems one by one.
     """
 
+    longest = 3 * MOST_LETTERS  # each part has its own bound
+
     def __init__(self, parts: Sequence[InputError]):
         self.parts = list(parts)
-        listed = " ".join(f"({n}) {part}" for n, part in enumerate(parts[:MOST_PROBLEMS], 1))
-        rest = len(parts) - MOST_PROBLEMS
-        super().__init__(f"{len(parts)} problems: {listed}" + (f" And {rest} more." if rest > 0 else ""))
+        texts = [f"({n}) {part}" for n, part in enumerate(parts[:MOST_PROBLEMS], 1)]
+        ends = list(itertools.accumulate(len(text) + 1 for text in texts))
+        shown = max(1, sum(end <= MOST_LETTERS for end in ends))
+        rest = len(parts) - shown
+        super().__init__(
+            f"{len(parts)} problems: {' '.join(texts[:shown])}" + (f" And {rest} more." if rest > 0 else "")
+        )
 
     def __reduce__(self) -> tuple[type[Problems], tuple[list[InputError]]]:
         return Problems, (self.parts,)

@@ -54,8 +54,9 @@ def parse_quantity(text: str, dimension: Dimension, what: str = "", where: str =
         raise InputError(f"{subject} is not a quantity", where=where, allowed=allowed, remedy=remedy)
     number, unit = match["number"], match["unit"] or ("1" if pure else None)
     if unit is None:
-        example = shown(f"{number} {dimension.si_unit}")
-        remedy = f"Write {example if what else example[1:-1]}, for example."
+        # Whoever left the unit out may mean any of them: a tilt of 5 is hardly one of 5 rad.
+        examples = [f"{number} {name}" for name in dimension.units]
+        remedy = f"Write {' or '.join(map(shown, examples) if what else examples)}, whichever it is."
         raise InputError(
             f"{subject} {'does not give its' if what else 'has no'} unit", where=where, allowed=allowed, remedy=remedy
         )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from macroslip.loads import series
-from macroslip.loads.source_file import source_file
+from macroslip.loads.source_file import reading, source_file
 
 _FILE_KINDS = {".parquet": "table", ".csv": "table"}
 
@@ -116,4 +116,6 @@ class BearingLoads:
         )
         from macroslip.loads.table import read_bearing_table
 
-        return cls(**series.cut(read_bearing_table(path), start, end, str(path)), source=str(path))
+        with reading(path):
+            columns = read_bearing_table(path)
+        return cls(**series.cut(columns, start, end, str(path)), source=str(path))

@@ -243,6 +243,9 @@ def _text(path: Path, scans: int, channels: int) -> NDArray:
 def _read_gtsdf(path: Path) -> Output:
     import h5py
 
+    from macroslip.hdf5_file import check_hdf5
+
+    check_hdf5([path], _AGAIN)
     try:
         with h5py.File(path, "r") as file:
             if str(_plain(file.attrs.get("type", ""))).lower() != "general time series data format":

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from macroslip.errors import InputError
 from macroslip.loads import series
-from macroslip.loads.source_file import source_file
+from macroslip.loads.source_file import reading, source_file
 
 _FILE_KINDS = {
     ".outb": "OpenFAST binary output",
@@ -150,12 +150,13 @@ class HubLoads:
             The file is absent, empty, damaged or cut off, lacks a channel, or holds values that `HubLoads` refuses.
         """
         path, extension = source_file(path, _FILE_KINDS)
-        columns = _reader(extension)(path, speed_needed=shaft_speed is None)
-        reading = columns.pop("reading")
+        with reading(path):
+            columns = _reader(extension)(path, speed_needed=shaft_speed is None)
+        taken = columns.pop("reading")
         if shaft_speed is not None:
             columns["shaft_speed"] = np.full(columns["time"].shape, shaft_speed)
-            reading = (*reading, f"shaft speed: given, {shaft_speed:g} rad/s")
-        return cls(**series.cut(columns, start, end, str(path)), source=str(path), reading=reading)
+            taken = (*taken, f"shaft speed: given, {shaft_speed:g} rad/s")
+        return cls(**series.cut(columns, start, end, str(path)), source=str(path), reading=taken)
 
     @classmethod
     def bundled(cls, case: str) -> HubLoads:

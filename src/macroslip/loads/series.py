@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -83,6 +84,9 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
     Works on arrays that are not validated yet, so that a bad stretch of a file can be cut away on reading.
     """
     columns = {name: np.asarray(values) for name, values in columns.items()}
+    for name, value in (("start", start), ("end", end)):
+        if value is not None and (isinstance(value, bool) or not isinstance(value, Real)):
+            raise InputError(f"{name} is {value!r}", where=source, allowed="a number of seconds, or None")
     if start is None and end is None:
         return columns
     stamps = columns["time"][np.isfinite(columns["time"])]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 from macroslip.errors import InputError
@@ -39,3 +40,37 @@ def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: 
     if path.stat().st_size == 0:
         raise InputError("the file is empty", where=str(path), remedy="Write or copy the file again.")
     return path, extension
+
+
+def without_folders(source: str) -> str:
+    r"""Where loads come from, for what leaves this computer: of an absolute path the file's name only.
+
+    Examples
+    --------
+    >>> without_folders("/home/me/new turbine/run.outb"), without_folders("runs/run.outb")
+    ('run.outb', 'runs/run.outb')
+    >>> without_folders("front bearing under C:\\\\Users\\\\me\\\\run.outb")
+    'front bearing under run.outb'
+    """
+    return re.sub(r"(?:(?<=\s)|^)(?:[A-Za-z]:)?[\\/](?:.*[\\/])?", "", source)
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Say of a file that its reader cannot make sense of it, whatever the libraries below stumble over.
+
+    Raises
+    ------
+    InputError
+        In place of anything but an error of the system or of memory, which have their own words.
+    """
+    try:
+        yield
+    except (InputError, OSError, MemoryError):
+        raise
+    except Exception as error:
+        raise InputError(
+            f"the file is damaged ({type(error).__name__}: {' '.join(str(error).split())})",
+            where=str(path),
+            remedy="Write or copy it again; macroslip loads inspect shows what a file holds.",
+        ) from error

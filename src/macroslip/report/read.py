@@ -6,9 +6,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from macroslip.errors import InputError
+from macroslip.hdf5_file import check_hdf5
 
 if TYPE_CHECKING:
     import xarray as xr
+
+_REMEDY = "Name files that macroslip run wrote, whole ones; run the case again if need be."
 
 
 def read_results(path: Path) -> dict[str, xr.Dataset]:
@@ -32,6 +35,7 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
         raise InputError(
             "the folder holds no netCDF file", where=str(path), allowed="files that macroslip run wrote (*.nc)"
         )
+    check_hdf5(files, _REMEDY)
     return {file.stem: _read(file) for file in files}
 
 
@@ -45,5 +49,5 @@ def _read(file: Path) -> xr.Dataset:
         raise InputError(
             f"the file cannot be read as netCDF ({error})",
             where=str(file),
-            remedy="Name files that macroslip run wrote, whole ones; run the case again if need be.",
+            remedy=_REMEDY,
         ) from None

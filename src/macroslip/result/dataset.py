@@ -19,6 +19,7 @@ from macroslip.integrate.detail import MECHANISMS
 from macroslip.integrate.record import COUNTS, TRACES, RollerRecord
 from macroslip.integrate.status import Status
 from macroslip.integrate.surface import STATIONS
+from macroslip.loads.source_file import without_folders
 from macroslip.result import surface_maps
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.contacts import references
@@ -173,7 +174,7 @@ def to_dataset(
         coordinates["time"] = ("time", records[0][0].trace_time, {"units": "s", "long_name": "time"})
     citations = [*CITATIONS, *references(case.laws)]
     attributes = {
-        "title": f"Roller slip of {case.bearing.name} under {case.loads.source}",
+        "title": f"Roller slip of {case.bearing.name} under {without_folders(case.loads.source)}",
         "source": f"macroslip {macroslip.__version__}",
         "model": case.laws.name,
         "window_start": float(edges[0]),

@@ -22,6 +22,7 @@ from macroslip.integrate.root import rising_at
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
+from macroslip.result.own_laws import check_own_laws
 from macroslip.result.thermal_balance import balanced
 from macroslip.result.whole_dataset import simulate_whole_bearing
 from macroslip.ring.motion import ring_motion
@@ -91,6 +92,7 @@ def simulate(
     model = models["downwind"]
     ring = ring_geometry(case.bearing, model)
     motion, largest = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, oil, case.laws))
+    check_own_laws(case.laws, case.bearing, oil, highest_speed(motion, model))
     end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)

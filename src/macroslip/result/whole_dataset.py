@@ -16,6 +16,7 @@ import numpy as np
 import macroslip
 from macroslip.bearing.frames import ROWS, initial_angles
 from macroslip.integrate.status import Status
+from macroslip.loads.source_file import without_folders
 from macroslip.result.dataset import CITATIONS, INTERFACES, VARIABLES, contact_coordinates
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.contacts import references
@@ -159,7 +160,7 @@ def whole_dataset(
     if case.traces is not None:
         coordinates["time"] = ("time", record.out_time, {"units": "s", "long_name": "time"})
     attributes = {
-        "title": f"Roller slip of {case.bearing.name} under {case.loads.source}, whole bearing",
+        "title": f"Roller slip of {case.bearing.name} under {without_folders(case.loads.source)}, whole bearing",
         "source": f"macroslip {macroslip.__version__}",
         "model": case.laws.name,
         "dynamics": case.dynamics,

@@ -234,7 +234,6 @@ def _manifest(study: Study) -> dict[str, Any]:
         "labels": {name: list(about) for name, about in study.labels.items()},
         "setup": {
             "case": study.case,
-            "folder": str(study.folder),
             "source": study.loads.source,
             "bearings": {name: record.as_dict() for name, record in study.bearings.items()},
             "lubricants": {name: record.as_dict() for name, record in study.lubricants.items()},

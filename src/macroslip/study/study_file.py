@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from macroslip.case.case import BALANCE
+from macroslip.case.keys import CaseFile
 from macroslip.catalogue import Record
 from macroslip.catalogue.input_section import read_fields
 from macroslip.catalogue.problems import together
@@ -26,7 +27,9 @@ if TYPE_CHECKING:
     from macroslip.study.loads_list import Load
     from macroslip.study.weights import Weighting
 
-_REMEDY = "docs/studies.md has a study file that runs."
+#: Keys of a case file that a study file does not have at its top.
+_OF_A_CASE = CaseFile.__annotations__.keys() - StudyFile.__annotations__.keys()
+_REMEDY = "Write a study file that runs with: macroslip init --example study"
 
 
 def read_study(path: str | PathLike[str]) -> Study:
@@ -37,7 +40,7 @@ def read_study(path: str | PathLike[str]) -> Study:
     Parameters
     ----------
     path : path
-        YAML file; docs/studies.md explains every key. Relative paths in it start at its own folder.
+        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
 
     Returns
     -------
@@ -51,6 +54,14 @@ def read_study(path: str | PathLike[str]) -> Study:
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
     data, source = parse(text, str(path), _REMEDY)
+    keys = [key for key in data if key in _OF_A_CASE]
+    # A single one is a slip of the pen, for which the closest key of a study is named.
+    if len(keys) > 1 and "case" not in data:
+        raise InputError(
+            f"the keys {', '.join(keys)} are those of a case",
+            where=str(path),
+            remedy="Run a case file by macroslip run; in a study they belong under the key case.",
+        )
     return _study(data, source, path.parent)
 
 

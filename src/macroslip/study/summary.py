@@ -128,9 +128,8 @@ def case_values(result: xr.Dataset, case: Case) -> dict[str, float]:
 
 
 def _friction_power(result: xr.Dataset) -> float:
-    """Mean friction power of the whole bearing [W]; NaN where a roller failed, and where rollers and cage move freely."""
-    known = "drag_power" in result.attrs and not bool((result.status != Status.COMPLETED).any())
-    return friction_power(result) if known else math.nan
+    """Mean friction power of the whole bearing [W]; NaN where a roller failed."""
+    return math.nan if bool((result.status != Status.COMPLETED).any()) else friction_power(result)
 
 
 def _orbit_energy(result: xr.Dataset) -> np.ndarray:

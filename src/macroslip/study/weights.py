@@ -146,7 +146,7 @@ class Weighting:
         >>> from macroslip.study.loads_list import Load
         >>> loads = [Load(name, {"wind_speed": speed}) for name, speed in (("a", 8.0), ("b", 8.0), ("c", 12.0))]
         >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
-        [0.307, 0.307, 0.386]
+        [0.308, 0.308, 0.384]
         """
         known = [load.fields.get(self.field) for load in loads]
         values = [value for value in known if isinstance(value, int | float)]

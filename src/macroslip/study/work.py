@@ -13,6 +13,7 @@ from macroslip.case.case import Case
 from macroslip.errors import InputError, MacroslipError
 from macroslip.files import write_durably
 from macroslip.loads import BearingLoads, HubLoads, main_bearing_load
+from macroslip.loads.source_file import without_folders
 from macroslip.study.build import read_loads, template
 from macroslip.study.key import case_key, program
 from macroslip.study.outcome import Outcome
@@ -61,7 +62,8 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     except StoreError:
         raise
     except InputError as problem:
-        return record | {"outcome": Outcome.FAILED, "reason": str(problem)}
+        reason = str(problem).replace(task["load"], without_folders(task["load"]))
+        return record | {"outcome": Outcome.FAILED, "reason": reason}
     except MemoryError:
         reason = "not enough memory; use shorter loads, fewer rollers or no traces"
         return record | {"outcome": Outcome.FAILED, "reason": reason}
@@ -120,7 +122,7 @@ def _setup(directory: str, expected: str) -> dict[str, Any]:
 def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
     settings = [Setting(*one) for one in task["settings"]]
     records = {noun: setup["records"][noun][task[noun]] for noun in RECORDS}
-    case, cut = template(setup["case"], settings, records, folder=Path(setup["folder"]))
+    case, cut = template(setup["case"], settings, records)
     loads = _loads(task["session"], setup["source"], task["load"], tuple(sorted(cut.items())))
     try:
         return replace(case, loads=loads)

@@ -1,0 +1,222 @@
+"""Random legal cases at the default tolerance beside a tight one: whether anything is wrong without a sign.
+
+    python -m benchmarks.random_cases --cases 10000 --seed 1 -o random_cases.csv
+
+A case is drawn from its number alone, so that any line of the table can be computed again: `--first NUMBER --cases 1`.
+Energies of rollers have to agree to 1e-3 and peak powers to 2 %, or the case has to say that it failed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from macroslip import Bearing, BearingLoads, Case, HubLoads, Lubricant, simulate
+from macroslip.bearing.geometry import orbit_ratio
+from macroslip.case.case import IMPOSED_ORBIT, WHOLE_BEARING, Radau
+from macroslip.errors import InputError
+from macroslip.loads import Drivetrain, main_bearing_load
+from macroslip.mechanisms import Laws
+from macroslip.roller.model import truncation_load
+
+TIGHT = 1e-6
+#: Allowed relative errors of a roller's energy in the window, and of its peak power in each orbit.
+ENERGY, PEAK = 1e-3, 0.02
+#: Energies [J] and powers [W] below which only the absolute error counts: a millionth of what a roller dissipates.
+SMALL_ENERGY, SMALL_POWER = 1e-6, 1e-4
+HISTORIES = ("constant", "waves", "bundled", "thrust reversal", "load through zero", "stop and go", "shaft reversal")
+_STEP = 0.05
+
+
+class Outcome(NamedTuple):
+    """What became of one case: errors of energy and peak, with the largest values they belong to, and times."""
+
+    number: int
+    history: str
+    laws: str
+    dynamics: str
+    bearing: str
+    lubricant: str
+    verdict: str
+    energy_error: float
+    energy: float
+    peak_error: float
+    peak: float
+    seconds: float
+    tight_seconds: float
+
+
+def _waves(random: np.random.Generator, time_s: np.ndarray, size: float) -> np.ndarray:
+    """A sum of waves of wind and rotor, 0.05 to 2 Hz, with a standard deviation of `size`."""
+    frequencies = np.exp(random.uniform(np.log(0.05), np.log(2.0), 6))
+    phases, sizes = random.uniform(0, 2 * np.pi, 6), 1.0 / frequencies**0.5
+    wave = (sizes[:, None] * np.sin(2 * np.pi * frequencies[:, None] * time_s + phases[:, None])).sum(axis=0)
+    return size * wave / np.sqrt(0.5 * (sizes**2).sum())
+
+
+def _history(random: np.random.Generator, kind: str, heavy: float, speed: float, period: float) -> BearingLoads:
+    """Loads of a kind: `heavy` [N] is what the bearing bears, `speed` [rad/s], `period` [s] of an orbit."""
+    seconds = float(random.uniform(1.3, 2.4)) * period
+    t = np.arange(int(seconds / _STEP) + 1) * _STEP
+    down, thrust = -heavy * random.uniform(0.02, 0.6), heavy * random.uniform(-0.25, 0.25)
+    force = np.column_stack([np.zeros(t.size), np.full(t.size, down), np.full(t.size, thrust)])
+    turn = np.full(t.size, speed)
+    slow = 2 * np.pi * t / random.uniform(2.0, 20.0) + random.uniform(0, 2 * np.pi)
+    if kind != "constant":
+        force += np.column_stack([_waves(random, t, abs(down) * random.uniform(0.02, 0.2)) for _ in range(3)])
+        turn = speed * (1.0 + _waves(random, t, random.uniform(0.0, 0.05)))
+    if kind == "thrust reversal":
+        force[:, 2] = max(abs(thrust), 0.02 * heavy) * np.sin(slow)
+    elif kind == "load through zero":
+        force[:, :2] *= np.sin(slow)[:, None]
+        force[:, 2] *= random.choice([0.0, 1.0])
+    elif kind == "stop and go":
+        turn = speed * np.clip(2.0 * np.sin(slow) + random.uniform(-0.5, 1.0), 0.0, 1.0)
+    elif kind == "shaft reversal":
+        turn = speed * np.sin(slow)
+    return BearingLoads(t, turn, force, kind)
+
+
+def _laws(random: np.random.Generator, physical: float) -> Laws:
+    if random.random() < physical:
+        return Laws.physical() if random.random() < 0.7 else Laws.physical().but(rheology="eyring")
+    changes: dict[str, Any] = random.choice(
+        [{}, {}, {}, {"film": "masjedi-khonsari-moes", "inlet_heating": True, "starvation": True}, {"heating": False}]
+    )
+    return Laws.paper().but(**changes)
+
+
+def random_case(number: int, seed: int = 1, physical: float = 0.1, whole: float = 0.0) -> tuple[str, Case]:
+    """The kind of loads and the case with a number: the same ones whenever it is asked for."""
+    random = np.random.default_rng([seed, number])
+    bearing = Bearing.read(random.choice(Bearing.catalogue()))
+    bearing = bearing.replace(diametral_clearance=float(random.uniform(0.0, 0.4e-3)))
+    lubricant = Lubricant.read(random.choice(Lubricant.catalogue()))
+    laws = _laws(random, physical)
+    dynamics = WHOLE_BEARING if random.random() < whole else IMPOSED_ORBIT
+    if dynamics == WHOLE_BEARING:
+        laws = laws.but(rolling="none")
+    kind = str(random.choice(HISTORIES))
+    speed = float(random.choice([-1.0, 1.0], p=[0.1, 0.9]) * random.uniform(4.0, 22.0) * np.pi / 30)
+    heavy = truncation_load(bearing, lubricant) * bearing.rollers_per_row * 0.4
+    period = 2 * np.pi / (orbit_ratio(bearing) * abs(speed))
+    if kind == "bundled":
+        start = float(random.uniform(0.0, 500.0))
+        cases = [f"{wind}{letter}" for wind in range(12, 26, 2) for letter in "ABC"]
+        loads = HubLoads.bundled(str(random.choice(cases))).window(start, start + float(random.uniform(8.0, 16.0)))
+        loads = main_bearing_load(loads, Drivetrain())
+    else:
+        loads = _history(random, kind, heavy, speed, period)
+    rollers = sorted({int(n) for n in random.integers(0, bearing.rollers_per_row, 2)})
+    return kind, Case(
+        loads=loads,
+        bearing=bearing,
+        lubricant=lubricant,
+        temperature=None if random.random() < 0.5 else float(random.uniform(293.15, 343.15)),
+        laws=laws,
+        dynamics=dynamics,
+        gravity=bool(random.random() < 0.9),
+        drag=bool(random.random() < 0.9),
+        rollers="all" if dynamics == WHOLE_BEARING else rollers,
+    )
+
+
+def _largest(error: np.ndarray, of: np.ndarray, small: float) -> tuple[float, float]:
+    """Largest relative error, and the value it belongs to; what is small counts as `small`."""
+    if not error.size:
+        return 0.0, float("nan")
+    relative = np.abs(error) / np.maximum(np.abs(of), small)
+    worst = np.unravel_index(np.nanargmax(relative), relative.shape)
+    return float(relative[worst]), float(of[worst])
+
+
+def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -> Outcome:
+    """One case at both tolerances."""
+    kind, case = random_case(number, seed, **shares)
+    about = number, kind, case.laws.name, case.dynamics, case.bearing.name, case.lubricant.name
+
+    def timed(tolerance: float) -> tuple[Any, float]:
+        start = time.process_time()
+        result = simulate(replace(case, integrator=Radau(tolerance=tolerance)), threads=1)
+        return result, time.process_time() - start
+
+    nothing = float("nan")
+    try:
+        found, seconds = timed(Radau().tolerance)
+    except InputError as problem:
+        verdict = f"refused: {' '.join(str(problem).split())[:120]}"
+        return Outcome(*about, verdict, *[nothing] * 6)
+    if bool((found.status != 0).any()):
+        codes = sorted({int(code) for code in np.unique(found.status) if code})
+        return Outcome(*about, f"failed with status {codes}", *[nothing] * 4, seconds, nothing)
+    exact, tight_seconds = timed(tight)
+    if bool((exact.status != 0).any()):
+        return Outcome(*about, "no reference", *[nothing] * 4, seconds, tight_seconds)
+    energy, reference = (one.energy.sum("interface").values for one in (found, exact))
+    peak, peak_reference = (one.peak_power.max("interface").values for one in (found, exact))
+    energy_error, at = _largest(energy - reference, reference, SMALL_ENERGY)
+    peak_error, peak_at = _largest(peak - peak_reference, peak_reference, SMALL_POWER)
+    wrong = [
+        name for name, error, most in (("energy", energy_error, ENERGY), ("peak", peak_error, PEAK)) if error > most
+    ]
+    verdict = f"off: {' and '.join(wrong)}" if wrong else "agrees"
+    return Outcome(*about, verdict, energy_error, at, peak_error, peak_at, seconds, tight_seconds)
+
+
+def table(outcomes: list[Outcome]) -> Iterator[str]:
+    """Lines of a table by kind of loads, with the outliers below."""
+    yield f"{'loads':<18}{'cases':>6}{'agree':>7}{'failed':>7}{'refused':>8}{'off':>5}{'energy error':>14}{'peak error':>12}"
+    for kind in (*HISTORIES, "all"):
+        some = [one for one in outcomes if kind in (one.history, "all")]
+        count = {
+            word: sum(one.verdict.startswith(word) for one in some) for word in ("agrees", "failed", "refused", "off")
+        }
+        energy = max((one.energy_error for one in some if np.isfinite(one.energy_error)), default=0.0)
+        peak = max((one.peak_error for one in some if np.isfinite(one.peak_error)), default=0.0)
+        yield (
+            f"{kind:<18}{len(some):>6}{count['agrees']:>7}{count['failed']:>7}{count['refused']:>8}{count['off']:>5}"
+            f"{energy:>14.1e}{peak:>12.1e}"
+        )
+    for one in outcomes:
+        if not one.verdict.startswith(("agrees", "refused")):
+            yield (
+                f"  {one.number}: {one.history}, {one.laws}, {one.dynamics}: {one.verdict}; energy {one.energy_error:.1e} of "
+                f"{one.energy:.3g} J, peak {one.peak_error:.1e} of {one.peak:.3g} W"
+            )
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Compare cases one by one; each has its line in the table of results as soon as it is done."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cases", type=int, default=100)
+    parser.add_argument("--first", type=int, default=0, help="number of the first case")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--tight", type=float, default=TIGHT, help="tolerance of the reference")
+    parser.add_argument("--physical", type=float, default=0.1, help="share of cases with the set physical")
+    parser.add_argument("--whole", type=float, default=0.0, help="share of cases in which the whole bearing moves")
+    parser.add_argument("-o", "--output", type=Path, default=Path("random_cases.csv"))
+    given = parser.parse_args(arguments)
+    outcomes = []
+    with given.output.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(Outcome._fields)
+        for number in range(given.first, given.first + given.cases):
+            one = compare(number, given.seed, given.tight, physical=given.physical, whole=given.whole)
+            outcomes.append(one)
+            writer.writerow(one)
+            file.flush()
+            if not one.verdict.startswith("agrees"):
+                print(f"{number}: {one.history}: {one.verdict}", file=sys.stderr, flush=True)
+    print("\n".join(table(outcomes)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,83 @@
+"""HDF5 files from anywhere: the library may never come back from a damaged one, or bring the whole process down.
+
+A flipped byte can make a list within the file point at itself, which HDF5 follows for ever, without hearing an interrupt.
+So a process of its own reads the file first, with bounds on its time and memory.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from macroslip.errors import InputError
+
+#: Processor time [s] for a file, and bytes read in a second beside it; time by the clock is ten times longer.
+_SECONDS, _RATE = 5.0, 10e6
+#: Bytes that a file may announce for each byte it has: well beyond what compression gains on numbers.
+_MOST_EXPANSION, _MOST_SMALL = 200, 50_000_000
+
+_READER = f"""
+import os, sys
+seconds, *paths = sys.argv[1:]
+try:
+    import resource
+    resource.setrlimit(resource.RLIMIT_CPU, (int(float(seconds)) + 1,) * 2)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+except (ImportError, ValueError, OSError):
+    pass
+import h5py
+expansion, small = {_MOST_EXPANSION!r}, {_MOST_SMALL!r}
+for path in paths:
+    print(path, flush=True)
+    most = max(small, expansion * os.path.getsize(path))
+    with h5py.File(path, "r") as file:
+        announced = 0
+        def visit(name, found):
+            global announced
+            dict(found.attrs)
+            if isinstance(found, h5py.Dataset):
+                announced += found.size * found.dtype.itemsize
+                if announced > most:
+                    raise ValueError(f"it announces more than {{most}} bytes")
+                found[()]
+        visit("/", file)
+        file.visititems(visit)
+"""
+
+
+def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
+    """Refuse files that the HDF5 library cannot read to their ends in bounded time and memory.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Files that exist.
+    remedy : str
+        What to do about a damaged one.
+
+    Raises
+    ------
+    InputError
+        For the first file that it does not get through.
+    """
+    seconds = sum(_SECONDS + path.stat().st_size / _RATE for path in paths)
+    command = [sys.executable, "-P", "-c", _READER, str(seconds), *(str(path.absolute()) for path in paths)]
+    try:
+        done = subprocess.run(
+            command,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=60.0 + 10.0 * seconds,
+            check=False,
+        )
+        if done.returncode == 0:
+            return
+        begun, lines = done.stdout, [line for line in done.stderr.splitlines() if line.strip()]
+        reason = lines[-1] if done.returncode == 1 and lines else "the HDF5 library came to no end"
+    except subprocess.TimeoutExpired as late:
+        begun, reason = (late.stdout or b"").decode(errors="replace"), "the HDF5 library came to no end"
+    number = max(0, len(begun.splitlines()) - 1)
+    raise InputError(f"the file cannot be read as netCDF or HDF5 ({reason})", where=str(paths[number]), remedy=remedy)

@@ -1,0 +1,99 @@
+"""What a run leaves alone: the network, programs hidden in data, and where its user keeps files."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SOURCES = Path(__file__).parents[2] / "src" / "macroslip"
+LOADS = "time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + "".join(f"{n / 20},20,0,-300,80\n" for n in range(41))
+#: Runs a command with every door to the network shut, whichever library knocks.
+SCRIPT = """
+import sys
+
+def refuse(event, arguments):
+    if event.startswith(("socket.connect", "socket.bind", "socket.getaddrinfo", "socket.gethostby", "socket.sendto",
+                         "urllib.", "http.", "ftplib.", "smtplib.")):
+        raise RuntimeError(f"the network was asked for: {event} {arguments}")
+
+sys.addaudithook(refuse)
+if sys.argv[1] == "try":
+    import socket
+    socket.create_connection(("127.0.0.1", 9))
+from macroslip.cli import main
+main()
+"""
+
+
+def ran(folder, *arguments):
+    """Run a command in a process of its own."""
+    command = [sys.executable, "-c", SCRIPT, *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=800, check=False)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A result, its page, a study and its page, all of files that are named with their whole paths."""
+    folder = tmp_path_factory.mktemp("somebody")
+    (folder / "home").mkdir()
+    (folder / "home" / "loads.csv").write_text(LOADS)
+    case = folder / "home" / "case.yaml"
+    case.write_text(
+        f"loads: {{bearing_file: {folder / 'home' / 'loads.csv'}}}\nrollers: [0]\ntraces: {{step: 50 ms}}\n"
+    )
+    study = folder / "home" / "study.yaml"
+    study.write_text('case: {rollers: [0]}\nloads: {files: "*.csv", kind: main-bearing}\n')
+    (folder / "home" / "broken.csv").write_text(LOADS[:200] + "\n1,2,3,4\n")
+    for arguments, codes in (
+        (["run", case, "-o", folder / "case.nc"], (0,)),
+        (["report", folder / "case.nc", "-o", folder / "case.html"], (0,)),
+        (["study", study, "-o", folder / "out", "--quiet"], (3,)),
+        (["report", folder / "out", "-o", folder / "study.html"], (3,)),
+        (["aggregate", folder / "out", "-o", folder / "tables", "--field", "loads"], (0, 2)),
+    ):
+        done = ran(folder, *arguments)
+        assert done.returncode in codes, done.stderr
+        assert "the network was asked for" not in done.stderr
+    return folder
+
+
+def test_the_network_is_never_asked_for(folder):
+    assert "the network was asked for" in ran(folder, "try").stderr  # the door is shut indeed
+    assert (folder / "case.html").is_file() and (folder / "study.html").is_file()
+
+
+def test_nothing_that_is_written_says_where_its_user_keeps_files(folder):
+    written = [folder / "case.nc", folder / "case.html", folder / "study.html", *(folder / "out").rglob("*")]
+    files = [path for path in written if path.is_file()]
+    assert len(files) > 7
+    for path in files:
+        assert str(folder).encode() not in path.read_bytes(), path
+
+
+def test_results_name_their_loads_all_the_same(folder):
+    xr = pytest.importorskip("xarray")
+    with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as result:
+        assert result.attrs["title"].endswith("under loads.csv") and '"source": "loads.csv"' in result.attrs["input"]
+
+
+def _names_used(tree):
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            yield from (alias.name for alias in node.names)
+            yield getattr(node, "module", None) or ""
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            yield f"{node.func.id}()"
+        elif isinstance(node, ast.keyword) and node.arg in ("allow_pickle", "typ"):
+            yield f"{node.arg}={getattr(node.value, 'value', None)}"
+
+
+def test_nothing_in_data_can_run():
+    allowed_to_load_programs = {"plugins.py"}  # files named with --laws are programs
+    for path in SOURCES.rglob("*.py"):
+        used = set(_names_used(ast.parse(path.read_text(encoding="utf-8"))))
+        assert not used & {"pickle", "marshal", "shelve", "dill", "joblib", "eval()", "exec()", "compile()", "allow_pickle=True",
+                           "typ=unsafe", "yaml", "read_pickle"}, path  # fmt: skip
+        if path.name not in allowed_to_load_programs:
+            assert not used & {"runpy", "SourceFileLoader", "spec_from_file_location", "exec_module"}, path

@@ -1,0 +1,122 @@
+"""Laws of one's own that break their contract are refused before the first step, those of the examples are not."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+#: Registers wrong laws, and prints what a case with each of them says. Laws stay registered as long as a process lives.
+SCRIPT = """
+import json, math, sys
+from typing import NamedTuple
+
+from macroslip import BearingLoads, Case, load_laws, simulate
+from macroslip.compiled import jit
+from macroslip.errors import InputError
+from macroslip.film import film_law as film_law
+from macroslip.mechanisms import Laws
+from macroslip.traction import traction_law as traction_law
+
+FILMS = {
+    "negative": "h = 1e-6 * (u - 1.0); return h, 1e-6, 0.0",
+    "nan": "return math.nan, 0.0, 0.0",
+    "nan in part": "return (1e-6 * u if load < 1e4 else math.nan), 1e-6, 0.0",
+    "wrong by speed": "return 1e-6 * u ** 0.7, 1e-6 * u ** 0.7 / u, 0.0",
+    "wrong by load": "return 1e-6 * u * load ** -0.1, 1e-6 * load ** -0.1, 0.1e-6 * u * load ** -1.1",
+    "not compiled": "return {}[load], 0.0, 0.0",
+    "kinked": "return 1e-6 * max(u, 0.1), (1e-6 if u >= 0.1 else 0.0), 0.0",
+}
+TRACTIONS = {
+    "backwards": ("return -slip, -1.0, 0.0, 0.0", "return 1.0"),
+    "at rest": ("return 1.0 + slip, 1.0, 0.0, 0.0", "return 1.0"),
+    "wrong by slip": ("return load * slip / h, 2.0 * load / h, -load * slip / h ** 2, slip / h", "return 1.0"),
+    "wrong by film": ("return load * slip / h, load / h, 0.0, slip / h", "return 1.0"),
+    "rises nowhere": ("return slip, 1.0, 0.0, 0.0", "return -1.0"),
+    "sound": ("return load * slip / h * 1e-12, 1e-12 * load / h, -1e-12 * load * slip / h ** 2, 1e-12 * slip / h", "return 1.0"),
+}
+
+class Film(NamedTuple):
+    scale: float
+
+def function(name, arguments, text):
+    space = {"math": math, "jit": jit}
+    exec(f"def {name}({arguments}):\\n    {text}", space)
+    return jit(space[name])
+
+def message(**laws):
+    loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.1)
+    try:
+        simulate(Case(loads=loads, rollers=[0], laws=Laws.paper().but(**laws)))
+    except InputError as error:
+        return str(error)
+    return ""
+
+if __name__ == "__main__":
+    said, always = {}, jit(lambda law, load, u: True)
+    for name, text in FILMS.items():
+        kind = type("Film", (Film,), {})
+        film_law.register(name, kind, reference="", prepare=lambda interface, kind=kind: kind(1.0),
+                          thickness=function("thickness", "law, load, u", text), in_range=always)
+    for name, (text, rising) in TRACTIONS.items():
+        kind = type("Traction", (Film,), {})
+        traction_law.register(name, kind, reference="", prepare=lambda interface, kind=kind: kind(1.0),
+                              traction=function("traction", "law, load, h, slip", text),
+                              rising_slip=function("rising", "law, load, h", rising))
+    from macroslip.result.own_laws import check_own_laws
+    for path in sys.argv[1:]:
+        load_laws(path)
+    case = Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.1))
+    for kind, names in (("film", [*FILMS, "dowson-higginson"]), ("traction", [*TRACTIONS, "isothermal-barus"])):
+        for name in names:
+            laws = Laws.paper().but(**{kind: name})
+            try:
+                check_own_laws(laws, case.bearing, case.oil, 0.5)
+                said[name] = ""
+            except InputError as error:
+                said[name] = str(error)
+    said["simulated"] = message(film="negative")
+    print(json.dumps(said))
+"""
+
+
+@pytest.fixture(scope="module")
+def said(tmp_path_factory):
+    path = tmp_path_factory.mktemp("laws") / "wrong.py"
+    path.write_text(SCRIPT, encoding="utf-8")
+    command = [sys.executable, path, EXAMPLES / "own_film.py", EXAMPLES / "own_law.py"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=800, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize(
+    ("law", "message"),
+    [
+        ("negative", "film law 'negative', inner, load"),
+        ("nan", "the film is nan m. Allowed: a finite thickness above zero."),
+        ("nan in part", "the film is nan m"),
+        ("wrong by speed", "dh/du is"),
+        ("wrong by load", "dh/dQ is"),
+        ("not compiled", "film law 'not compiled': it cannot be compiled (TypingError"),
+        ("backwards", "Allowed: a finite force with the sign of the slip."),
+        ("at rest", "traction is 1 N. Allowed: none without slip."),
+        ("wrong by slip", "dF/dslip is"),
+        ("wrong by film", "dF/dh is 0, but the law itself changes by"),
+        ("rises nowhere", "rising_slip is -1 m/s"),
+    ],
+)
+def test_a_wrong_law_is_refused_with_the_state_at_which_it_is(said, law, message):
+    assert message in said[law] and "Mend the law" in said[law]
+
+
+@pytest.mark.parametrize("law", ["kinked", "sound", "dowson-higginson", "isothermal-barus"])
+def test_a_sound_law_is_not(said, law):
+    assert said[law] == ""
+
+
+def test_a_simulation_looks_before_its_first_step(said):
+    assert said["simulated"] == said["negative"] != ""
