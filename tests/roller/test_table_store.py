@@ -1,6 +1,7 @@
 """Stored tables: found again, made again where they are not what was written, and never in the way."""
 
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -61,6 +62,17 @@ def test_a_place_that_is_no_folder_leaves_tables_in_memory(tmp_path, monkeypatch
     for _ in range(2):
         assert store.stored("cd34", make)[0].size == 1000
     assert make.count == 1
+
+
+def test_without_a_home_folder_nothing_is_written(tmp_path, monkeypatch):
+    forget(monkeypatch)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setattr(store, "user_cache_path", lambda *args, **kwargs: Path("~/.cache/macroslip"))
+    with pytest.raises(RuntimeError):
+        store.folder()
+    assert store.stored("ab78", Maker())[0].size == 1000
+    assert not list(tmp_path.iterdir())
 
 
 def test_threads_make_a_table_once(place):

@@ -83,9 +83,18 @@ def _size(arrays: Sequence[np.ndarray]) -> int:
 
 
 def folder() -> Path:
-    """Where tables are stored: in `macroslip` in the folder of NUMBA_CACHE_DIR, or else in the user's folder for caches."""
-    home = os.environ.get("NUMBA_CACHE_DIR")
-    return (Path(home) / "macroslip" if home else user_cache_path("macroslip", appauthor=False)) / "tables"
+    """Where tables are stored: in `macroslip` in the folder of NUMBA_CACHE_DIR, or else in the user's folder for caches.
+
+    Raises
+    ------
+    RuntimeError
+        If the user has no home folder.
+    """
+    given = os.environ.get("NUMBA_CACHE_DIR")
+    home = Path(given).absolute() / "macroslip" if given else user_cache_path("macroslip", appauthor=False)
+    if not home.is_absolute():
+        raise RuntimeError("there is no home folder")
+    return home / "tables"
 
 
 def _from_disk_or_made(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarray]:

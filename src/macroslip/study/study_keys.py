@@ -175,7 +175,7 @@ class StudyLoads:
 
 
 _Grid = Annotated[
-    dict[str, Axis] | None,
+    dict[str, Axis],
     MappingOf(
         "values of each parameter, of which every combination is run",
         "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",
@@ -190,7 +190,7 @@ _List = Annotated[list[Any] | None, SettingsList("combinations of values, each o
 class Variations:
     """Parameters that vary; every combination of the three is run."""
 
-    grid: _Grid = None
+    grid: _Grid = None  # pyright: ignore[reportAssignmentType]
     list: _List = None
     sample: Sample | None = None
 
@@ -209,13 +209,13 @@ class StudyFile:
         list[str] | None, Texts("lubricants: names of the catalogue, or paths of lubricant files")
     ] = None
     models: Annotated[
-        dict[str, Any] | None,
+        dict[str, Any],
         MappingOf(
             "named choices of the model",
             item=Annotated[list[Any], Settings("values in place of the base case's")],
             may_be_empty=True,
         ),
-    ] = None
+    ] = None  # pyright: ignore[reportAssignmentType]
     variations: Variations = Variations()
     weights: Weighting | None = None
     cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False
