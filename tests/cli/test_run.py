@@ -35,7 +35,7 @@ def test_the_file_holds_what_simulate_gives(quick, folder, macroslip):
 def test_the_summary(quick, folder, macroslip):
     done = macroslip("run", quick(rollers="all"), "-o", "case.nc")
     lines = done.out.splitlines()
-    assert f"{OUTB}, from 60 s to 62 s, 0 complete orbits" in lines[0]
+    assert f"under {OUTB.name}, from 60 s to 62 s, 0 complete orbits" in lines[0]
     with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as written:
         energy = written.energy.sum("interface").mean("roller")
         for line, row in zip(lines[2:4], ("downwind", "upwind"), strict=True):
