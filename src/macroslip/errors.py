@@ -10,8 +10,8 @@ def legible(text: str, longest: int) -> str:
 
     Examples
     --------
-    >>> legible("a\\x1b[31mb", 100), legible("k" * 1000 + "end", 20)
-    ('a\\\\x1b[31mb', 'kkkkkkkkkkkkk … kend')
+    >>> legible("a\x1b[31mb", 100), legible("k" * 1000 + "end", 20)
+    ('a\\x1b[31mb', 'kkkkkkkkkkkkk … kend')
     """
     if len(text) > longest:
         tail = longest // 4

@@ -22,7 +22,7 @@ def result():
     return simulate(Case(loads=loads, rollers=[0, 7, 14, 21], traces=Traces(step=0.05)))
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser():
     """Debian's Chromium, driven over its own protocol."""
     playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: pip install '.[test]'")

@@ -248,7 +248,8 @@ def test_the_opening_fits_on_one_screen(opened, width, height):
 
 
 def test_contents_lead_to_folded_sections(opened):
-    page = opened(anchor="")
+    # Without the smooth way there, which takes its time.
+    page = opened(anchor="", reduced_motion="reduce")
     assert page.locator("details.fold[open]").count() == 0
     page.get_by_role("link", name="Films").click()
     assert page.locator("details.fold[open]").count() == 1

@@ -46,7 +46,7 @@ def test_it_finds_the_same_case_on_imposed_orbits(case, results):
 
 def test_numbers_stand_on_the_page(page, results):
     coupled, imposed = results["coupled"], results["imposed"]
-    assert "orbit and spin together" in page
+    assert "Orbit and spin together" in page
     assert "Angular momentum closes to" in page
     for row in ("downwind", "upwind"):
         place = {"row": row, "interface": "cage"}

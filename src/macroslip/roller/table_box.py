@@ -54,7 +54,7 @@ def table_box(ring_speeds: np.ndarray, highest_load: float, body_force: float) -
     Examples
     --------
     >>> [round(one, 4) for one in table_box(np.array([-0.40, -0.38]), 5e4, 40.0)]
-    [56568.5425, 1131.3708, 0.3751, 0.405]
+    [65536.0, 1310.72, 0.3751, 0.4057]
     """
     fastest = float(np.max(np.abs(ring_speeds)))
     if fastest == 0.0:

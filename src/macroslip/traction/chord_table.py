@@ -29,7 +29,7 @@ _THINNEST, _THICKEST = 2e-8, 4e-4
 _FASTEST = 5.0
 # A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip already.
 _LOWEST_LOG_SLIP = -12.0
-_PRESSURES, _SLIP_SPACING, _FILM_SPACING = 80, 0.35, 0.4
+_PRESSURES, _SLIP_SPACING, _FILM_SPACING = 80, 0.3, 0.35
 
 
 class ChordTable(NamedTuple):
