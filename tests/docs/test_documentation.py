@@ -72,7 +72,7 @@ def python(*arguments: str, folder: Path) -> subprocess.CompletedProcess:
         text=True,
         encoding="utf-8",
         capture_output=True,
-        timeout=600,
+        timeout=850,
         check=False,
     )
 
