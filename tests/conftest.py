@@ -1,13 +1,18 @@
-"""Random examples: the same ones in every run, so that a run cannot fail by chance; fresh ones for a search.
+"""What all tests share: how random examples are drawn, and the base bearing, its oil and rollers.
 
-`make test` draws from a fixed seed. `make test-deep` searches with fresh examples.
+`make test` draws the same examples in every run, so that it cannot fail by chance. `make test-deep` searches with fresh ones.
 """
+
+import math
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from macroslip import compiled, plugins
+from macroslip.bearing import Bearing
 from macroslip.film import film_law
+from macroslip.lubricant import Lubricant
+from macroslip.roller.model import roller_model
 from macroslip.traction import traction_law
 
 settings.register_profile("fixed", deadline=None, derandomize=True, database=None)
@@ -39,3 +44,21 @@ def package_laws():
         with compiled._storing() as folder:
             for dispatcher in compiled._stored if folder else ():
                 dispatcher.enable_caching()
+
+
+@pytest.fixture(scope="session")
+def bearing():
+    """The base bearing."""
+    return Bearing.read("skf-240-600-bc")
+
+
+@pytest.fixture(scope="session")
+def lubricant():
+    """Its oil."""
+    return Lubricant.read("vg460-pao")
+
+
+@pytest.fixture(scope="session")
+def models(bearing, lubricant):
+    """Rollers of both rows by axial sign, tilt 5°."""
+    return {sign: roller_model(bearing, lubricant, sign, tilt=math.radians(5.0)) for sign in (1, -1)}

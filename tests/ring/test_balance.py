@@ -9,10 +9,8 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog, minimize
 from scipy.special import beta
 
-from macroslip.bearing import Bearing
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads
-from macroslip.lubricant import Lubricant
 from macroslip.ring.balance import (
     RingGeometry,
     _energy_gradient_hessian,
@@ -225,16 +223,6 @@ def test_bearing_without_contact_angle_has_no_axial_balance():
     assert not balance(ring(alpha=0.0), 0.0, force, d) <= 1.0
     force[:] = 0.0, -3e5, 0.0
     assert balance(ring(alpha=0.0), 0.0, force, np.zeros(3)) <= 1e-4
-
-
-@pytest.fixture(scope="module")
-def bearing():
-    return Bearing.read("skf-240-600-bc")
-
-
-@pytest.fixture(scope="module")
-def lubricant():
-    return Lubricant.read("vg460-pao")
 
 
 @pytest.fixture(scope="module")

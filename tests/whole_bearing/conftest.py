@@ -7,22 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from macroslip.bearing import Bearing
-from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.whole_bearing.model import whole_bearing
 from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
-
-
-@pytest.fixture(scope="session")
-def bearing():
-    return Bearing.read("skf-240-600-bc")
-
-
-@pytest.fixture(scope="session")
-def lubricant():
-    return Lubricant.read("vg460-pao")
 
 
 @pytest.fixture(scope="session")

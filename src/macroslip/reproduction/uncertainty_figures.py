@@ -65,16 +65,7 @@ def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
             if sure:
                 sign = "+" if value > 0.0 else "−"
                 axes.annotate(sign, (p, place), ha="center", va="center", color="white", fontsize=9)
-    axes.set_xticks(
-        np.arange(rank.shape[1]),
-        [str(name) for name in summary.parameter.values],
-        rotation=60,
-        ha="right",
-        rotation_mode="anchor",
-    )
-    axes.set_yticks([])
-    axes.set_xlim(-0.6, rank.shape[1] - 0.4)
-    axes.set_ylim(-0.6, rank.shape[0] - 0.4)
+    _grid(axes, summary, beyond=-0.4)
     return finish(axes, "varied value", "", "rank correlation")
 
 
@@ -95,16 +86,7 @@ def plot_indices(axes: Axes, summary: xr.Dataset) -> Axes:
                 axes.scatter(p, place, s=330.0 * max(first[q, p], 0.0), marker="s", facecolor=BLUE, linewidth=0.0)
         if np.isfinite(known[q]):
             axes.annotate(f"{known[q]:.2f}", (total.shape[1] - 0.2, place), va="center", fontsize=8)
-    axes.set_xticks(
-        np.arange(total.shape[1]),
-        [str(name) for name in summary.parameter.values],
-        rotation=60,
-        ha="right",
-        rotation_mode="anchor",
-    )
-    axes.set_yticks([])
-    axes.set_xlim(-0.6, total.shape[1] + 1.6)
-    axes.set_ylim(-0.6, total.shape[0] - 0.4)
+    _grid(axes, summary, beyond=1.6)
     return finish(axes, "varied value", "", "Sobol' index, and part foretold")
 
 
@@ -116,3 +98,13 @@ def uncertainty_figure(summary: xr.Dataset) -> Figure:
     plot_indices(axes[2], summary)
     axes[0].set_ylim(axes[1].get_ylim())
     return figure
+
+
+def _grid(axes: Axes, summary: xr.Dataset, *, beyond: float) -> None:
+    """Axes of one square for every quantity and varied value, as far as `beyond` squares past the last value."""
+    values = summary.sizes["parameter"]
+    names = [str(name) for name in summary.parameter.values]
+    axes.set_xticks(np.arange(values), names, rotation=60, ha="right", rotation_mode="anchor")
+    axes.set_yticks([])
+    axes.set_xlim(-0.6, values + beyond)
+    axes.set_ylim(-0.6, summary.sizes["quantity"] - 0.4)

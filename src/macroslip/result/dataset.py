@@ -165,27 +165,42 @@ def to_dataset(
         for name, (dims, units, long_name) in VARIABLES.items()
         if name in values
     }
-    data["status"][-1].update(
-        flag_values=np.array([int(one) for one in Status], dtype=np.int8),
-        flag_meanings=" ".join(one.name.lower() for one in Status),
-    )
-    coordinates = _coordinates(case, edges, curved=curved)
+    data["status"][-1].update(status_flags())
+    coordinates = roller_coordinates(case, edges, curved=curved)
     if case.traces is not None:
         coordinates["time"] = ("time", records[0][0].trace_time, {"units": "s", "long_name": "time"})
-    citations = [*CITATIONS, *references(case.laws)]
-    attributes = {
+    method = [_RADAU] if isinstance(case.integrator, Radau) else []
+    attributes = input_attributes(case, (float(edges[0]), end), notes, drag_power, method)
+    return xr.Dataset(data, coordinates, attributes)
+
+
+def status_flags() -> dict[str, Any]:
+    """What the numbers of `status` mean, as CF conventions have it."""
+    return {
+        "flag_values": np.array([int(one) for one in Status], dtype=np.int8),
+        "flag_meanings": " ".join(one.name.lower() for one in Status),
+    }
+
+
+def input_attributes(
+    case: Case, window: tuple[float, float], notes: dict[str, Any], drag_power: float, method: list[str]
+) -> dict[str, Any]:
+    """Attributes of a result: its window [s], the full input, the version and the works cited, the integrator's last.
+
+    Parameters are those of `to_dataset`, but for `method`, the works on the integrator.
+    """
+    return {
         "title": f"Roller slip of {case.bearing.name} under {without_folders(case.loads.source)}",
         "source": f"macroslip {macroslip.__version__}",
         "model": case.laws.name,
-        "window_start": float(edges[0]),
-        "window_end": end,
+        "window_start": window[0],
+        "window_end": window[1],
         **notes,
         "rollers_per_row": case.bearing.rollers_per_row,
         "drag_power": drag_power,
         "input": json.dumps(case.as_dict(), ensure_ascii=False),
-        "citations": "\n".join([*citations, _RADAU] if isinstance(case.integrator, Radau) else citations),
+        "citations": "\n".join([*CITATIONS, *references(case.laws), *method]),
     }
-    return xr.Dataset(data, coordinates, attributes)
 
 
 def _gathered(records: list[list[RollerRecord]], failed: np.ndarray, name: str) -> np.ndarray:
@@ -261,7 +276,7 @@ def _traces(trace: np.ndarray, model: RollerModel, *, curved: bool) -> dict[str,
     return found | {"skew_moment": stack("skew", INTERFACES[:2])} if curved else found
 
 
-def _coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, Any]:
+def roller_coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, Any]:
     """Rows, rollers, interfaces and orbits, and places and mechanisms where contacts tell them apart."""
     numbers = list(case.roller_numbers)
     angles = np.array([initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in ROWS])
@@ -275,10 +290,10 @@ def _coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, An
         "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
         "start_angle": (_ROLLERS, angles, about),
     }
-    return found | contact_coordinates(case.bearing) if curved else found
+    return found | _contact_coordinates(case.bearing) if curved else found
 
 
-def contact_coordinates(bearing: Bearing) -> dict[str, Any]:
+def _contact_coordinates(bearing: Bearing) -> dict[str, Any]:
     """Places and mechanisms that contacts with microslip or asperities tell apart."""
     edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
     middles = 0.5 * (edges_along[1:] + edges_along[:-1])

@@ -6,20 +6,16 @@ What is added: `cage` (both, or downwind and upwind), `side` of the pocket (fron
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import macroslip
-from macroslip.bearing.frames import ROWS, initial_angles
+from macroslip.bearing.frames import ROWS
 from macroslip.integrate.status import Status
-from macroslip.loads.source_file import without_folders
-from macroslip.result.dataset import CITATIONS, INTERFACES, VARIABLES, contact_coordinates
+from macroslip.result.dataset import INTERFACES, VARIABLES, input_attributes, roller_coordinates, status_flags
 from macroslip.roller.contact_force import CurvedContact
-from macroslip.roller.contacts import references
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS
 from macroslip.whole_bearing.model import whole_bearing
@@ -99,6 +95,11 @@ class _Collector:
     def put(self, name: str, dims: tuple[str, ...], values: Any, units: str, long_name: str, **attributes: Any) -> None:
         self.data[name] = (dims, values, {"units": units, "long_name": long_name, **attributes})
 
+    def put_known(self, name: str, values: Any, **attributes: Any) -> None:
+        """A variable that a result on imposed orbits has too, of the same meaning."""
+        dims, units, long_name = VARIABLES[name]
+        self.put(name, dims, values, units, long_name, **attributes)
+
     def by_roller(self, values: np.ndarray) -> np.ndarray:
         """(n, …) to (row, roller, …) for the rollers asked for; NaN after a failure."""
         found = np.array(values, dtype=float).reshape(len(ROWS), self.count, *values.shape[1:])[:, self.numbers]
@@ -127,8 +128,7 @@ def whole_dataset(
     _put_common(out, record, status, shape)
     _put_cage(out, record)
     _put_books(out, record)
-    about = "temperature of the oil at the inlets of the contacts"
-    out.put("inlet_temperature", (), np.array(case.oil.inlet_temperature), "K", about)
+    out.put_known("inlet_temperature", np.array(case.oil.inlet_temperature))
     if curved:
         _put_details(out, record)
     if case.traces is not None:
@@ -136,18 +136,9 @@ def whole_dataset(
     edges = record.edges
     case_end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
     cages = ["both"] if bearing.cages == 1 else list(ROWS)
-    coordinates: dict[str, Any] = {
-        "row": list(ROWS),
-        "roller": ("roller", numbers, {"units": "1", "long_name": "number of the roller in its row"}),
-        "interface": list(INTERFACES),
-        "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),
-        "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
-        "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
-        "start_angle": (
-            ("row", "roller"),
-            np.array([initial_angles(row, out.count)[numbers] for row in ROWS]),
-            {"units": "rad", "long_name": "pocket's position at the first sample, from +X0 towards +Y0"},
-        ),
+    coordinates = roller_coordinates(case, edges, curved=curved)
+    coordinates["start_angle"][-1]["long_name"] = "pocket's position at the first sample, from +X0 towards +Y0"
+    coordinates |= {
         "cage": cages,
         "side": list(SIDES),
         "position": (
@@ -155,62 +146,30 @@ def whole_dataset(
         ),
         "book_time": ("book_time", record.out_time, {"units": "s", "long_name": "time"}),
     }  # fmt: skip
-    if curved:
-        coordinates |= contact_coordinates(case.bearing)
     if case.traces is not None:
         coordinates["time"] = ("time", record.out_time, {"units": "s", "long_name": "time"})
-    attributes = {
-        "title": f"Roller slip of {case.bearing.name} under {without_folders(case.loads.source)}, whole bearing",
-        "source": f"macroslip {macroslip.__version__}",
-        "model": case.laws.name,
-        "dynamics": case.dynamics,
-        "window_start": float(edges[0]),
-        "window_end": case_end,
-        **notes,
-        "rollers_per_row": case.bearing.rollers_per_row,
-        "drag_power": drag_power,
-        "input": json.dumps(case.as_dict(), ensure_ascii=False),
-        "citations": "\n".join([*CITATIONS, *references(case.laws), _CITATION]),
-    }
+    attributes = input_attributes(case, (float(edges[0]), case_end), notes, drag_power, [_CITATION])
+    attributes |= {"title": f"{attributes['title']}, whole bearing", "dynamics": case.dynamics}
     return xr.Dataset(out.data, coordinates, attributes)
 
 
 def _put_common(out: _Collector, record: BearingRecord, status: int, shape: tuple[int, int]) -> None:
     """What a result on imposed orbits has too."""
     rollers = ("row", "roller")
-    out.put(
-        "energy",
-        (*rollers, "interface"),
-        out.by_roller(record.energy),
-        "J",
-        "energy dissipated by friction in the window",
-    )
-    about = "energy dissipated by rolling resistance in the window, apart from the energy of friction"
-    out.put("rolling_energy", (*rollers, "interface"), out.by_roller(record.rolling_energy), "J", about)
-    dims = (*rollers, "orbit", "interface")
-    about = "energy dissipated by friction in each complete orbit"
-    out.put("orbit_energy", dims, out.by_roller(record.orbit_energy), "J", about)
-    out.put(
-        "peak_power", dims, out.by_roller(record.peak_power), "W", "largest frictional power in each complete orbit"
-    )
+    for name in ("energy", "rolling_energy", "orbit_energy", "peak_power"):
+        out.put_known(name, out.by_roller(getattr(record, name)))
     ratio = out.by_roller(record.spin_ratio)
     about = "smallest ratio of spin to spin in pure rolling in the window"
     out.put("min_spin_ratio", rollers, np.where(np.isinf(ratio), np.nan, ratio), "1", about)
     with np.errstate(invalid="ignore", divide="ignore"):
         outside = record.outside_time / record.loaded_time
-    about = "share of loaded time in which load or speed lay outside the film law's range"
-    out.put("outside_film_range", (*rollers, "interface"), out.by_roller(outside), "1", about)
-    out.put(
-        "status", rollers, np.full(shape, status, dtype=np.int8), "1", "outcome of the integration",
-        flag_values=np.array([int(s) for s in Status], dtype=np.int8),
-        flag_meanings=" ".join(s.name.lower() for s in Status),
-    )  # fmt: skip
+    out.put_known("outside_film_range", out.by_roller(outside))
+    out.put_known("status", np.full(shape, status, dtype=np.int8), **status_flags())
     for position, name in enumerate(("steps", "rejections", "force_evaluations")):
         about = f"number of {name.replace('_', ' ')} of the integrator, of all rollers together"
         out.put(name, rollers, np.full(shape, record.count[position]), "1", about)
-    about = "largest force left unbalanced by an accepted implicit step"
-    out.put("unbalanced_force", rollers, np.full(shape, record.worst[0]), "N", about)
-    out.put("end_time", rollers, np.full(shape, record.end[0]), "s", "time at which the integration ended")
+    out.put_known("unbalanced_force", np.full(shape, record.worst[0]))
+    out.put_known("end_time", np.full(shape, record.end[0]))
     slip = record.end_slip.reshape(len(ROWS), -1)[:, out.numbers]
     out.put("end_slip", rollers, slip, "m/s", "mean slip at inner and outer raceway at which the integration ended")
 
@@ -234,14 +193,12 @@ def _put_details(out: _Collector, record: BearingRecord) -> None:
         "quadrature_error": error,
     }
     for name, value in values.items():
-        dims, units, about = VARIABLES[name]
-        out.put(name, dims, out.by_roller(value), units, about)
+        out.put_known(name, out.by_roller(value))
     for name, value in {
         "surface_energy": details.surface_energy,
         "surface_power_density": details.surface_density,
     }.items():
-        dims, units, about = VARIABLES[name]
-        out.put(name, dims, np.full_like(value, np.nan) if out.failed else value, units, about)
+        out.put_known(name, np.full_like(value, np.nan) if out.failed else value)
 
 
 def _put_cage(out: _Collector, record: BearingRecord) -> None:
@@ -300,7 +257,7 @@ def _put_traces(out: _Collector, record: BearingRecord, bearing: WholeBearing, m
     speed = np.interp(record.out_time, motion.time, motion.shaft_speed)
     pure = -bearing.bodies[0].orbit_ratio * bearing.outer_radius * speed / bearing.radius
     slip = 0.5 * (channel("slip_inner") + channel("slip_outer"))
-    out.put("spin", dims, channel("spin"), "rad/s", "spin about the roller's axis, relative to the orbiting frame")
+    out.put_known("spin", channel("spin"))
     out.put(
         "spin_pure",
         dims,
@@ -316,22 +273,21 @@ def _put_traces(out: _Collector, record: BearingRecord, bearing: WholeBearing, m
         "m/s",
         "slip at the middle of a raceway contact",
     )
-    out.put("roller_load", dims, channel("roller_load"), "N", "elastic load of the roller, without body forces")
+    out.put_known("roller_load", channel("roller_load"))
     about = "force of the spars on the roller, positive along the orbit"
     out.put("cage_force", dims, channel("cage_force"), "N", about)
-    about = "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up"
-    out.put("traction", (*dims, "interface"), stack("traction", INTERFACES), "N", about)
-    out.put("power", (*dims, "interface"), stack("power", INTERFACES), "W", "frictional power")
-    about = "power of rolling resistance, apart from that of friction"
-    out.put("rolling_power", (*dims, "interface"), stack("rolling", INTERFACES), "W", about)
-    about = "central film thickness; NaN without load"
-    out.put("film_thickness", (*dims, "interface"), stack("film", INTERFACES), "m", about)
+    for name, series in (
+        ("traction", "traction"),
+        ("power", "power"),
+        ("rolling_power", "rolling"),
+        ("film_thickness", "film"),
+    ):
+        out.put_known(name, stack(series, INTERFACES))
     out.put("pocket_offset", dims, channel("pocket_offset"), "m", "roller's way ahead of the middle of its pocket")
     about = "orbit speed less that of pure rolling"
     out.put("orbit_speed_deviation", dims, channel("orbit_speed_deviation"), "rad/s", about)
     if curved:
-        dims_, units, about = VARIABLES["skew_moment"]
-        out.put("skew_moment", dims_, _skew_moments(bearing, channel, speed), units, about)
+        out.put_known("skew_moment", _skew_moments(bearing, channel, speed))
     whole = np.moveaxis(trace["pocket_offset"].reshape(record.out_time.size, len(ROWS), -1), 0, -1)
     ahead = (np.roll(whole, -1, axis=1) - whole)[:, out.numbers]
     out.put("spacing_deviation", dims, ahead, "m", "distance to the next roller ahead along the orbit, less the pitch")
