@@ -11,7 +11,6 @@ from typing import Any
 
 from llvmlite import ir
 from numba import types
-from numba.core import cgutils
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
@@ -65,6 +64,11 @@ class _Vectors:
         return self._builder.load(self._builder.inttoptr(address, _VECTOR.as_pointer()), align=8)
 
 
+def _parts(builder: ir.IRBuilder, value: Any) -> list[Any]:
+    """What a tuple consists of."""
+    return [builder.extract_value(value, k) for k in range(len(value.type))]
+
+
 def _check(coefficients: Any, dimensions: int) -> None:
     array = isinstance(coefficients, types.Array) and coefficients.layout == "C"
     if not array or coefficients.ndim != dimensions or coefficients.dtype != types.float64:
@@ -74,7 +78,7 @@ def _check(coefficients: Any, dimensions: int) -> None:
 def _address(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, indices: list[Any]) -> tuple[Any, list[Any]]:
     """Address of an array's element, and the array's strides [bytes]."""
     struct = context.make_array(kind)(context, builder, array)
-    strides = cgutils.unpack_tuple(builder, struct.strides)
+    strides = _parts(builder, struct.strides)
     address = builder.ptrtoint(struct.data, _SIZE)
     for index, stride in zip(indices, strides, strict=True):
         address = builder.add(address, builder.mul(index, stride))
@@ -152,10 +156,10 @@ def in_cell(typingctx, coefficients, cells, first_place, third_place, second_wei
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
-        indices = cgutils.unpack_tuple(builder, arguments[1])
+        indices = _parts(builder, arguments[1])
         corner, strides = _address(context, builder, coefficients, arguments[0], indices)
         t, u = write.splat(arguments[2]), write.splat(arguments[3])
-        z = [write.splat(weight) for weight in cgutils.unpack_tuple(builder, arguments[4])]
+        z = [write.splat(weight) for weight in _parts(builder, arguments[4])]
         planes = []
         for _ in range(_LANES):
             lines, line = [], corner
@@ -202,9 +206,9 @@ def channels_in_cell(typingctx, coefficients, cells, places):
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
-        indices = [*cgutils.unpack_tuple(builder, arguments[1]), ir.Constant(_SIZE, 0)]
+        indices = [*_parts(builder, arguments[1]), ir.Constant(_SIZE, 0)]
         corner, strides = _address(context, builder, coefficients, arguments[0], indices)
-        first, second, third = (write.splat(place) for place in cgutils.unpack_tuple(builder, arguments[2]))
+        first, second, third = (write.splat(place) for place in _parts(builder, arguments[2]))
         along_first = write.splat_lanes(write.polynomial(_CUBIC, first))
         along_second = write.splat_lanes(write.polynomial(_CUBIC, second))
         lines = []
@@ -254,9 +258,9 @@ def channels_in_square(typingctx, coefficients, cells, places):
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
-        indices = [*cgutils.unpack_tuple(builder, arguments[1]), ir.Constant(_SIZE, 0)]
+        indices = [*_parts(builder, arguments[1]), ir.Constant(_SIZE, 0)]
         corner, strides = _address(context, builder, coefficients, arguments[0], indices)
-        first, second = (write.splat(place) for place in cgutils.unpack_tuple(builder, arguments[2]))
+        first, second = (write.splat(place) for place in _parts(builder, arguments[2]))
         (w, dw), (z, dz) = (
             [write.splat_lanes(write.polynomial(terms, place)) for terms in (_CUBIC, _QUADRATIC)]
             for place in (first, second)
