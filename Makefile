@@ -19,9 +19,9 @@ test-fast: $(VENV)/.ready  ## the loop of development, under a minute
 test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs; REPEAT rounds
 	for round in $$(seq $(or $(REPEAT),5)); do $(PYTEST) -m "hypothesis or deep" --hypothesis-profile deep $(ARGS) || exit 1; done
 
-test-lowest:  ## input and results with the lowest versions that pyproject.toml allows
+test-lowest:  ## input, a computed case and results with the lowest versions that pyproject.toml allows
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
-	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/catalogue tests/case tests/loads tests/lubricant tests/bearing
+	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/catalogue tests/case tests/loads tests/lubricant tests/bearing tests/integrate/test_sealed.py src/macroslip/result/simulate.py
 
 lint: $(VENV)/.ready  ## format, lint and types
 	$(BIN)/ruff format --check .
