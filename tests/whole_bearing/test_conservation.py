@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Cage, Case, Radau, simulate
+from macroslip import BearingLoads, Cage, Case, Laws, Radau, simulate
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS
 from macroslip.whole_bearing.pocket import restitution
@@ -28,6 +30,34 @@ def test_books_close(run, impact, arrangement):
     turned_over = np.abs(record.flows[-1, FLOWS.index("friction_loss")]) + np.abs(pocket_loss(record)[-1])
     assert turned_over > 0.0
     assert np.abs(energy_residual(record)).max() < 0.02 * turned_over
+
+
+ROLLING = Laws.paper().but(rolling="whole-film")
+
+
+def test_books_close_with_rolling_resistance(run):
+    """Shear and push of the inlets act on roller and ring with equal and opposite torques, and cost 2 F_R u."""
+    cage = Cage(guide_friction=5.0, offsets="random")
+    status, record, _ = run(cage, RADIAL, 2.143, 0.4, laws=ROLLING)
+    assert status == 0
+    impulses = np.abs(record.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
+    assert np.abs(momentum_residual(record)).max() < 1e-6 * impulses
+    lost = record.flows[-1, [FLOWS.index("raceway_loss"), FLOWS.index("friction_loss")]]
+    assert np.abs(energy_residual(record)).max() < 2e-3 * lost.sum()
+    # The couple that keeps rollers from skewing is an outside one: its power is no part of the books.
+    booked = (
+        record.energy.sum(axis=0) + record.rolling_energy.sum(axis=0) - record.mechanism_energy[:, :, 2].sum(axis=0)
+    )
+    assert [booked[:2].sum(), booked[2]] == pytest.approx(lost, rel=1e-6)
+    assert (record.rolling_energy > 0.0).all()
+
+
+def test_rolling_resistance_of_gripped_rollers_is_that_of_an_imposed_orbit():
+    """Rollers that thrust grips travel as the imposed orbit has it, so the oil of their raceways resists as much."""
+    case = Case(loads=BearingLoads.constant([0.0, 0.0, 4e5], 2.143, 1.5), laws=ROLLING)
+    imposed = simulate(case).rolling_energy.sel(row="downwind").sum("roller")
+    coupled = simulate(replace(case, dynamics="whole-bearing")).rolling_energy.sel(row="downwind").sum("roller")
+    assert coupled.values[:2] == pytest.approx(imposed.values[:2], rel=1e-3)
 
 
 def test_residual_of_energy_falls_with_tolerance(run):
