@@ -104,6 +104,19 @@ def jit_part(function: Callable) -> Callable:
     return register_jitable(**_OPTIONS, forceinline=True)(function)
 
 
+def jit_called(function: Callable) -> Callable:
+    """Compile a part of a kernel that is called in it: with no entry from Python, see `jit_part`."""
+    return numba.njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **_OPTIONS)(function)
+
+
+def jit_merged(function: Callable) -> Callable:
+    """Make a part of one kernel, into whose text it is copied.
+
+    It is not compiled by itself: every function that is, is compiled once more with each that calls it.
+    """
+    return numba.njit(inline="always", **_OPTIONS)(function)
+
+
 def _borrowed(typingctx: Any, value: Any) -> Any:
     """The same value with arrays that are not counted, for use inside a kernel that was given it as an argument.
 

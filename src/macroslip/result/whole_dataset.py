@@ -67,11 +67,13 @@ def simulate_whole_bearing(
     bearing = bearing._replace(models=tuple(models[row] for row in ROWS))
     if case.traces is None:
         times = times._replace(outputs=np.unique(np.concatenate([motion.time[:1], times.edges, [times.end]])))
-    interrupt = np.zeros(1, dtype=np.int8)
-    # The kernel runs in a thread of its own, so that an interrupt is heard here.
+    start, interrupt = pure_rolling(bearing, case.cage), np.zeros(1, dtype=np.int8)
+    # The kernel runs in a thread of its own, so that an interrupt is heard here. It is compiled here, by a run without a
+    # step: an interrupt could not end that in the thread, and it takes minutes.
+    run_whole_bearing(bearing, motion, start, times._replace(outputs=times.outputs[:1]), max_steps=0)
     with ThreadPoolExecutor(1) as pool:
         future = pool.submit(
-            run_whole_bearing, bearing, motion, pure_rolling(bearing, case.cage), times,
+            run_whole_bearing, bearing, motion, start, times,
             tolerance=case.integrator.tolerance, max_steps=case.integrator.max_steps, interrupt=interrupt,
         )  # fmt: skip
         try:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_called, jit_inline
 from macroslip.roller.contact import cage_contact, raceway_contact
 from macroslip.whole_bearing.oil import cage_oil, has_oil, raceway_oil
 
@@ -64,7 +64,7 @@ def _write(sheet, at, contact, oil, ratio, place):
     sheet[at + ROUGH] = found.asperity_power
 
 
-@jit
+@jit_called
 def evaluate_marked(bearing, stations, time, rollers, marked, sheets):
     """Evaluate both raceway contacts of the rollers that are marked into their sheets.
 
@@ -131,6 +131,8 @@ def out_of_reach(sheet, stations, j):
 @jit_inline
 def shear_from(sheet, at, load, speed, slip):
     """Rolling resistance [N] in a raceway's spin force, from the sheet's slopes."""
+    if load <= 0.0:
+        return 0.0
     shear = sheet[at + SHEAR] + sheet[at + SHEAR_V] * (slip - sheet[at + SLIP])
     return shear + sheet[at + SHEAR_Q] * (load - sheet[at + LOAD]) + sheet[at + SHEAR_U] * (speed - sheet[at + SPEED])
 
