@@ -150,7 +150,8 @@ def _book(bearing, moment, due, shaft_angle, time, orbit, details):
         )  # fmt: skip
         span = time - details.place[j, 2] if details.looks[j] else 0.0
         way = _way(details, moment.stations, j, shaft_angle, time)
-        visit = _Visit(orbit, way, span, details.looks[j] % LOOK_EVERY == 0)
+        # The first booking follows no time; the second is the first that can be looked at.
+        visit = _Visit(orbit, way, span, details.looks[j] % LOOK_EVERY == 1)
         details.looks[j] += 1
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.
         if row == 0:
