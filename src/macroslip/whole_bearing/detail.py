@@ -17,6 +17,7 @@ from macroslip.compiled import jit_called, jit_merged
 from macroslip.integrate.detail import EXTREMES, Passage, book_cage, book_raceway, look
 from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS, Way
 from macroslip.integrate.tuning import LOOK_EVERY
+from macroslip.reference import tuple_type
 from macroslip.roller.contact_force import is_curved
 from macroslip.roller.films import cage_film
 from macroslip.whole_bearing.space import CAGE_SLIDING, PUSH
@@ -155,9 +156,9 @@ def _book(bearing, moment, due, shaft_angle, time, orbit, details):
         details.looks[j] += 1
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.
         if row == 0:
-            _book_roller(bearing.models[0], bearing.films, one, moment, j, visit)
+            _book_roller(bearing.models.downwind, bearing.films, one, moment, j, visit)
         else:
-            _book_roller(bearing.models[1], bearing.films, one, moment, j, visit)
+            _book_roller(bearing.models.upwind, bearing.films, one, moment, j, visit)
 
 
 @jit_merged
@@ -206,5 +207,6 @@ def _book_details_of(bearing, moment, due, shaft_angle, time, orbit, details):
 
 def has_details(bearing) -> bool:
     """Whether the contacts of a bearing, given by its numba type, are curved."""
-    models = dict(zip(bearing.fields, bearing.types, strict=True))["models"]
+    known = tuple_type(bearing)
+    models = dict(zip(known.fields, known.types, strict=True))["models"]
     return is_curved(models.types[0].types[-1])

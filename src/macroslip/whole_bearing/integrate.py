@@ -8,6 +8,7 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_merged
 from macroslip.integrate.status import COMPLETED, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
+from macroslip.reference import by_reference
 from macroslip.ring.orbit import instant
 from macroslip.whole_bearing.detail import book_details, collect
 from macroslip.whole_bearing.ledger import book_flows
@@ -139,6 +140,8 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
     int
         A `Status`.
     """
+    bearing, motion, limits = by_reference(bearing), by_reference(motion), by_reference(limits)
+    stops, space, record = by_reference(stops), by_reference(space), by_reference(record)
     count = record.count
     clock, step, failed = _begin(bearing, motion, space), _FIRST_STEP, False
     next_stop, next_output, orbit = 0, 0, -1

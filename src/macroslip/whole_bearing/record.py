@@ -226,7 +226,7 @@ def book_state(bearing, shaft_speed, moment, span, record):
     pitch = bearing.pitch_radius
     rollers = bearing.rollers
     # Films are the same in both rows.
-    model = bearing.models[0]
+    model = bearing.models.downwind
     pure = -bearing.bodies[0].orbit_ratio * shaft_speed * bearing.outer_radius
     for j in range(rollers.row.size):
         surface = stations.outer_speed[j] - state[j, 1]
@@ -267,7 +267,7 @@ def write_output(bearing, index, shaft_speed, moment, record):
     record.flows[index] = record.book
     stocks(bearing, shaft_speed, state, cages, record.held[index])
     pitch, rollers = bearing.pitch_radius, bearing.rollers
-    model = bearing.models[0]
+    model = bearing.models.downwind
     for c in range(bearing.cages):
         turning = cages[c, 0] + 0.5 * shaft_speed * bearing.inner_radius
         line = record.cage_trace[index, c]

@@ -178,7 +178,7 @@ def _meet(bearing, stage, moment, star, sheet, j):
     # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
     sliding = 0.5 * (v_in + v_out + shaft_speed * inner_radius) + bearing.lever * bearing.pitch_radius * cage_turn
     friction, by_sliding, by_push = cage_from(
-        bearing.models[0].cage, bearing.films, sheet, push, sliding, stage.cage_reach
+        bearing.models.downwind.cage, bearing.films, sheet, push, sliding, stage.cage_reach
     )
     f = moment.force[j]
     f[FRICTION], f[PUSH], f[CAGE_SLIDING], f[POCKET_SPEED] = friction, push, sliding, speed

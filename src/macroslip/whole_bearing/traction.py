@@ -97,11 +97,11 @@ def evaluate_marked(bearing, stations, time, rollers, marked, sheets):
         outer_oil = raceway_oil(films, True, at_outer[0], at_outer[1], outer_slip)
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.
         if rows[j] == 0:
-            _write(sheet, INNER, models[0].inner, inner_oil, inner_ratio, at_inner)
-            _write(sheet, OUTER, models[0].outer, outer_oil, outer_ratio, at_outer)
+            _write(sheet, INNER, models.downwind.inner, inner_oil, inner_ratio, at_inner)
+            _write(sheet, OUTER, models.downwind.outer, outer_oil, outer_ratio, at_outer)
         else:
-            _write(sheet, INNER, models[1].inner, inner_oil, inner_ratio, at_inner)
-            _write(sheet, OUTER, models[1].outer, outer_oil, outer_ratio, at_outer)
+            _write(sheet, INNER, models.upwind.inner, inner_oil, inner_ratio, at_inner)
+            _write(sheet, OUTER, models.upwind.outer, outer_oil, outer_ratio, at_outer)
         sheet[WHEN] = time
         evaluations += 2
     return evaluations
