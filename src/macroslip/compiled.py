@@ -105,7 +105,8 @@ def jit_part(function: Callable) -> Callable:
 
 def jit_called(function: Callable) -> Callable:
     """Compile a part of a kernel that is called in it: with no entry from Python, see `jit_part`."""
-    return numba.njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **_OPTIONS)(function)
+    options = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return numba.njit(**options)(function)
 
 
 def jit_merged(function: Callable) -> Callable:
@@ -113,7 +114,8 @@ def jit_merged(function: Callable) -> Callable:
 
     It is not compiled by itself: every function that is, is compiled once more with each that calls it.
     """
-    return numba.njit(inline="always", **_OPTIONS)(function)
+    options = {**_OPTIONS, "inline": "always"}
+    return numba.njit(**options)(function)
 
 
 def entry(function: Callable, *arguments: Any) -> Any:
