@@ -106,7 +106,7 @@ def jit_part(function: Callable) -> Callable:
 
 def jit_called(function: Callable) -> Callable:
     """Compile a part of a kernel that is called in it: with no entry from Python, see `jit_part`."""
-    options = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    options = {**_OPTIONS, "no_cpython_wrapper": True}
     return numba.njit(**options)(function)
 
 
