@@ -18,7 +18,7 @@ import numpy as np
 
 from macroslip import BearingLoads, Cage, Case, HubLoads, Laws, Radau, simulate
 
-PAPER, PHYSICAL = Laws.paper(), Laws.physical().but(rolling="none")
+PAPER, PHYSICAL = Laws.paper(), Laws.physical()
 #: The part of each load case that is simulated [s]; the window opens after one orbit.
 BEGIN, SPAN = 100.0, 60.0
 RATED = 2.143

@@ -104,6 +104,21 @@ def jit_part(function: Callable) -> Callable:
     return register_jitable(**_OPTIONS, forceinline=True)(function)
 
 
+def jit_called(function: Callable) -> Callable:
+    """Compile a part of a kernel that is called in it: with no entry from Python, see `jit_part`."""
+    options = {**_OPTIONS, "no_cpython_wrapper": True}
+    return numba.njit(**options)(function)
+
+
+def jit_merged(function: Callable) -> Callable:
+    """Make a part of one kernel, into whose text it is copied.
+
+    It is not compiled by itself: every function that is, is compiled once more with each that calls it.
+    """
+    options = {**_OPTIONS, "inline": "always"}
+    return numba.njit(**options)(function)
+
+
 def entry(function: Callable, *arguments: Any) -> Any:
     """Compile a function for these types of its arguments, to be called by its address; it returns nothing.
 

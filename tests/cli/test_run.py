@@ -1,8 +1,10 @@
 """`macroslip run` end to end on a genuine OpenFAST file: results, messages, exit codes, what is left on the disk."""
 
+import contextlib
 import errno
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -192,6 +194,26 @@ def test_an_interrupt_leaves_nothing(quick, folder, macroslip, monkeypatch):
     monkeypatch.setattr("macroslip.result.simulate.simulate", interrupted)
     done = macroslip("run", quick(), "-o", "case.nc")
     assert (done.code, done.out, done.err) == (130, "", "interrupted\n")
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+def test_ctrl_c_ends_a_whole_bearing_within_a_step_and_leaves_nothing(folder):
+    """Whether it is compiling or integrating: a history of 600 s takes far longer than the test waits."""
+    (folder / "case.yaml").write_text("loads: {bundled: 14B}\ndynamics: whole-bearing\n")
+    # Where the tests run in the background, interrupts are ignored unless that is undone.
+    main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
+    command = [sys.executable, "-c", main, "run", "case.yaml", "-o", "case.nc", "--quiet"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(timeout=8.0)
+    # Python drops an interrupt that falls into a destructor; a user presses again.
+    for _ in range(20):
+        process.send_signal(signal.SIGINT)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=10.0)
+            break
+    out, err = process.communicate(timeout=10.0)
+    assert (process.returncode, out, err) == (130, "", "interrupted\n")
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from macroslip import Bearing, BearingLoads, Case, Laws, Traces, simulate
+from macroslip import Bearing, BearingLoads, Cage, Case, Laws, Traces, simulate
 from macroslip.bearing import geometry
 from macroslip.torque import computed_torque
 
@@ -12,6 +12,8 @@ pytestmark = pytest.mark.slow
 #: Thrust alone, without weight: every roller of a row runs as all others, and after some seconds steadily.
 LOADS = BearingLoads.constant([0.0, 0.0, 150e3], shaft_speed=2.143, duration=8.0)
 TRACES = Traces(step=1.0, start=8.0)
+#: Books of the whole bearing that its rings' torques are held against.
+BOOKS = ("inner_impulse", "outer_impulse", "body_impulse", "shaft_work")
 BEARING = Bearing.read("skf-240-600-bc")
 ORBIT = 2.143 * geometry.inner_contact_radius(BEARING) / (2.0 * BEARING.pitch_radius)
 
@@ -49,6 +51,27 @@ def test_torques_on_rings_and_rollers_balance():
     size = float(np.abs(torque.ring_torque).sum())
     assert abs(float(torque.ring_torque.sum()) - expected) < 1e-3 * size
     assert abs(expected) > 1e-2 * size
+
+
+def test_rings_of_the_whole_bearing_feel_what_its_books_hold():
+    """Let go, the orbit carries nothing: what the inner ring gets and the outer one does not is drag.
+
+    The books are summed from the forces on the rollers; the torques come from powers and tractions.
+    """
+    traces = Traces(step=0.5, start=7.5)
+    case = Case(
+        loads=LOADS, laws=Laws.paper().but(rolling="whole-film"), traces=traces, gravity=False,
+        dynamics="whole-bearing", cage=Cage(weight=False),
+    )  # fmt: skip
+    result = simulate(case)
+    torque = computed_torque(result).isel(time=-1)
+    inner, outer = torque.ring_torque.values
+    last = result.sel(book_time=slice(7.5, 8.0)).isel(book_time=[0, -1])
+    rates = {name: float(np.diff(last[f"book_{name}"].values)[0]) / 0.5 for name in BOOKS}
+    assert inner < 0.0 < outer
+    assert [inner, outer] == pytest.approx([-rates["inner_impulse"], -rates["outer_impulse"]], rel=1e-4)
+    assert inner + outer == pytest.approx(rates["body_impulse"], rel=1e-2)
+    assert float(torque.torque) * 2.143 == pytest.approx(rates["shaft_work"], rel=1e-3)
 
 
 def test_without_rolling_resistance_nothing_is_booked_for_it():

@@ -102,9 +102,11 @@ def plain_equations(prepared, bearing, displacement, shaft_speed, gap=5e-4):
     [
         ((0.0, -1.05e-4, 0.0), Cage(mass=8.0), 0.12, Laws.paper()),
         ((0.0, 0.0, -3e-4), Cage(mass=8.0, film_fullness=0.1), 0.12, Laws.paper()),
+        ((0.0, -1.05e-4, 0.0), Cage(mass=8.0), 0.12, Laws.paper().but(rolling="whole-film")),
+        ((0.0, -1.05e-4, 0.0), Cage(mass=8.0), 0.12, Laws.physical()),
         ((0.0, -1.05e-4, 0.0), Cage(mass=8.0, impact="dry"), 0.06, Laws.paper()),
     ],
-    ids=["squeeze film", "thrust", "dry impacts"],
+    ids=["squeeze film", "thrust", "rolling resistance", "physical", "dry impacts"],
 )
 def test_speeds_places_and_energies(run, bearing, displacement, cage, span, laws):
     speed = 2.143

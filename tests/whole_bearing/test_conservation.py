@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Cage, Case, Radau, simulate
+from macroslip import BearingLoads, Cage, Case, Laws, Radau, simulate
+from macroslip.ring.motion import ring_motion
+from macroslip.roller.model import highest_load, ring_geometry
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS
+from macroslip.whole_bearing.model import whole_bearing
 from macroslip.whole_bearing.pocket import restitution
+from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
 
 pytestmark = pytest.mark.slow
 
@@ -28,6 +34,34 @@ def test_books_close(run, impact, arrangement):
     turned_over = np.abs(record.flows[-1, FLOWS.index("friction_loss")]) + np.abs(pocket_loss(record)[-1])
     assert turned_over > 0.0
     assert np.abs(energy_residual(record)).max() < 0.02 * turned_over
+
+
+ROLLING = Laws.paper().but(rolling="whole-film")
+
+
+def test_books_close_with_rolling_resistance(run):
+    """Shear and push of the inlets act on roller and ring with equal and opposite torques, and cost 2 F_R u."""
+    cage = Cage(guide_friction=5.0, offsets="random")
+    status, record, _ = run(cage, RADIAL, 2.143, 0.4, laws=ROLLING)
+    assert status == 0
+    impulses = np.abs(record.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
+    assert np.abs(momentum_residual(record)).max() < 1e-6 * impulses
+    lost = record.flows[-1, [FLOWS.index("raceway_loss"), FLOWS.index("friction_loss")]]
+    assert np.abs(energy_residual(record)).max() < 2e-4 * lost.sum()
+    # The couple that keeps rollers from skewing is an outside one: its power is no part of the books.
+    booked = (
+        record.energy.sum(axis=0) + record.rolling_energy.sum(axis=0) - record.mechanism_energy[:, :, 2].sum(axis=0)
+    )
+    assert [booked[:2].sum(), booked[2]] == pytest.approx(lost, rel=1e-6)
+    assert (record.rolling_energy > 0.0).all()
+
+
+def test_rolling_resistance_of_gripped_rollers_is_that_of_an_imposed_orbit():
+    """Rollers that thrust grips travel as the imposed orbit has it, so the oil of their raceways resists as much."""
+    case = Case(loads=BearingLoads.constant([0.0, 0.0, 4e5], 2.143, 1.5), laws=ROLLING)
+    imposed = simulate(case).rolling_energy.sel(row="downwind").sum("roller")
+    coupled = simulate(replace(case, dynamics="whole-bearing")).rolling_energy.sel(row="downwind").sum("roller")
+    assert coupled.values[:2] == pytest.approx(imposed.values[:2], rel=1e-3)
 
 
 def test_residual_of_energy_falls_with_tolerance(run):
@@ -133,6 +167,28 @@ def test_one_roller_model_is_the_limit_of_rigid_bilateral_spars():
     assert coupled.sel(interface="cage").sum("roller").values == pytest.approx(
         imposed.sel(interface="cage").sum("roller").values, rel=0.01
     )
+
+
+def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
+    """Shear, push of the pressure, oil of the pockets and films of rollers with play, all as on an imposed orbit."""
+    loads = BearingLoads.constant([0.0, -3e3, 0.0], 2.143, 1.5)
+    case = Case(loads=loads, laws=ROLLING, integrator=Radau(tolerance=2e-5))
+    imposed = simulate(case)
+    cage = Cage(gap=0.0, impact="dry", weight=False)
+    held = whole_bearing(case.bearing, case.oil, cage, tilt=case.drivetrain.tilt, laws=ROLLING)
+    # The oil of an imposed orbit's pockets has play, which spars in this limit have not; its cage cannot be slowed.
+    held = held._replace(films=held.models[0].films, cage_mass=1e8)
+    ring = ring_geometry(case.bearing, held.models[0])
+    motion, _ = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.oil, ROLLING))
+    window = np.array([imposed.attrs["window_start"], imposed.attrs["window_end"]])
+    status, record = run_whole_bearing(
+        held, motion, pure_rolling(held, cage), Times(window, window, window[1]), tolerance=2e-5
+    )
+    assert status == 0
+    rolling, friction = (each.values.reshape(56, 3) for each in (imposed.rolling_energy, imposed.energy))
+    assert (rolling > 0.0).all()
+    assert record.rolling_energy == pytest.approx(rolling, rel=1e-3)
+    assert record.energy == pytest.approx(friction, rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -79,3 +79,79 @@ def test_power_of_the_cages_friction_closes_with_the_slip_against_the_cage():
     on_roller, on_cage = r * F_c * spin, -r * sp.cos(alpha) * F_c * cage
     sliding = -r * (spin - cage * sp.cos(alpha))
     assert sp.simplify(on_roller + on_cage + F_c * sliding) == 0
+
+
+shear, shaft_speed, cage_speed, omega, orbital = sp.symbols("sigma Omega_in Omega_c omega Omega")
+X, Y, Z = sp.Matrix([1, 0, 0]), sp.Matrix([0, 1, 0]), sp.Matrix([0, 0, 1])
+#: The bearing's axis and the roller's centre in the primed axes, y' = y cos α + z sin α and z' = z cos α − y sin α.
+AXIS = Z * sp.cos(alpha) + Y * sp.sin(alpha)
+CENTRE = pitch * (Y * sp.cos(alpha) - Z * sp.sin(alpha))
+#: Of the roller: its centre's velocity, and its angular velocity in the inertial frame.
+TRAVEL = -orbital * pitch * X
+TURNING = orbital * sp.sin(alpha) * Y + omega * Z
+
+
+def about_axis(place, force):
+    return place.cross(force).dot(AXIS)
+
+
+@pytest.mark.parametrize("side", [-1, 1], ids=["inner", "outer"])
+def test_rolling_resistance_acts_on_roller_and_ring_with_opposite_torques_and_costs_what_the_film_dissipates(side):
+    """Shear σ on both surfaces at the contact, and the pressure's push −2σ R/R_i through the axis of either body.
+
+    Motion is counted along +x' at the inner raceway and along −x' at the outer one.
+    """
+    along = -side * X
+    place = CENTRE + side * r * Y
+    arm = pitch + side * r * sp.cos(alpha)
+    ring_speed = 0 if side > 0 else shaft_speed
+    relative = 1 / r - side * sp.cos(alpha) / arm
+    on_roller, on_ring = 1 / (r * relative), -side * sp.cos(alpha) / (arm * relative)
+    assert sp.simplify(on_roller - arm / pitch) == 0
+    assert sp.simplify(2 * shear - 2 * shear * (on_roller + on_ring)) == 0  # the film has no mass: forces balance
+
+    pull = shear * (1 - 2 * on_roller)
+    roller_torque = about_axis(place, shear * along) + about_axis(CENTRE, -2 * shear * on_roller * along)
+    # The push on the ring goes through the bearing's axis.
+    ring_torque = about_axis(place, shear * along)
+    assert sp.simplify(roller_torque + ring_torque) == 0
+    assert sp.simplify(roller_torque - side * (pitch * pull + side * r * sp.cos(alpha) * shear)) == 0
+
+    about_centre = (side * r * Y).cross(shear * along)
+    assert about_centre == r * shear * Z  # it turns the roller as a traction does
+    power = pull * along.dot(TRAVEL) + about_centre.dot(TURNING) + ring_torque * ring_speed
+    surface = r * (omega - orbital * sp.cos(alpha))
+    ring = side * (ring_speed - orbital) * arm
+    assert sp.simplify(power - shear * (surface + ring)) == 0  # −2 F_R u for σ = −F_R, u the mean speed
+
+
+def test_rolling_resistance_in_a_pocket_acts_as_its_friction_does():
+    """The film has no mass, so the cage gets the opposite of all that the roller gets; the push goes through its axis."""
+    push = sp.symbols("P")
+    for side in (-1, 1):
+        place, along = CENTRE + side * r * X, side * Y
+        moment = (place - CENTRE).cross(shear * along)
+        assert moment == r * shear * Z
+        on_cage = -about_axis(place, shear * along) - about_axis(CENTRE, push * along)
+        assert sp.simplify(on_cage + r * sp.cos(alpha) * shear) == 0
+        # Its forces along ±y' do no work on the centre, which travels along x'.
+        power = moment.dot(TURNING) + on_cage * cage_speed
+        assert sp.simplify(power - shear * r * (omega - cage_speed * sp.cos(alpha))) == 0
+
+
+def test_slip_equations_where_pull_and_spin_force_differ():
+    """What is integrated with rolling resistance or slip that varies along the roller: pull P moves, S turns."""
+    shaft = sp.Function("Omega_in")(t)
+    P_i, P_o, S_i, S_o = sp.symbols("P_i P_o S_i S_o")
+    inner = pitch - r * sp.cos(alpha)
+    rates = {
+        orbit.diff(t): (N - G - P_i + P_o) / (m * pitch),
+        spin.diff(t): r * (S_i + S_o + F_c) / (m * r**2 / 2),
+    }
+    v_in = -shaft * inner + orbit * pitch - r * spin
+    v_out = -orbit * pitch - r * spin
+    found_in = sp.expand(m * v_in.diff(t).subs(rates))
+    found_out = sp.expand(m * v_out.diff(t).subs(rates))
+    turning = 2 * (S_i + S_o + F_c)
+    assert sp.simplify(found_in - (-P_i + P_o - turning + N - G - m * inner * shaft.diff(t))) == 0
+    assert sp.simplify(found_out - (P_i - P_o - turning - (N - G))) == 0

@@ -252,13 +252,6 @@ def _check_dynamics(case: Case) -> None:
         "an error-controlled integrator for dynamics: whole-bearing",
         "Choose integrator.method: radau; its tolerance serves the whole bearing too",
     )
-    _check(
-        case.laws.rolling == "none",
-        f"rolling resistance ({case.laws.rolling}) is not part of the whole bearing yet",
-        "laws.rolling",
-        "none for dynamics: whole-bearing",
-        "Set laws.rolling: none beside the model",
-    )
     case.cage.check_fit(case.bearing)
 
 

@@ -18,7 +18,7 @@ from macroslip.result.dataset import INTERFACES, VARIABLES, input_attributes, ro
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS
-from macroslip.whole_bearing.model import whole_bearing
+from macroslip.whole_bearing.model import RowModels, whole_bearing
 from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, BearingRecord
 from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
 
@@ -64,14 +64,16 @@ def simulate_whole_bearing(
         laws=case.laws,
     )  # fmt: skip
     curved = isinstance(bearing.models[0].inner, CurvedContact)
-    bearing = bearing._replace(models=tuple(models[row] for row in ROWS))
+    bearing = bearing._replace(models=RowModels(**models))
     if case.traces is None:
         times = times._replace(outputs=np.unique(np.concatenate([motion.time[:1], times.edges, [times.end]])))
-    interrupt = np.zeros(1, dtype=np.int8)
-    # The kernel runs in a thread of its own, so that an interrupt is heard here.
+    start, interrupt = pure_rolling(bearing, case.cage), np.zeros(1, dtype=np.int8)
+    # The kernel runs in a thread of its own, so that an interrupt is heard here. It is compiled here, by a run without a
+    # step: an interrupt could not end that in the thread, and it takes minutes.
+    run_whole_bearing(bearing, motion, start, times._replace(outputs=times.outputs[:1]), max_steps=0)
     with ThreadPoolExecutor(1) as pool:
         future = pool.submit(
-            run_whole_bearing, bearing, motion, pure_rolling(bearing, case.cage), times,
+            run_whole_bearing, bearing, motion, start, times,
             tolerance=case.integrator.tolerance, max_steps=case.integrator.max_steps, interrupt=interrupt,
         )  # fmt: skip
         try:

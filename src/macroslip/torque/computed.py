@@ -127,15 +127,20 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
     """Torque on inner and outer ring about +Z0 over (raceway, time)."""
     import xarray as xr
 
-    ring = (result.spin_pure * model.radius).transpose("row", "roller", "time")
+    orbit = -result.spin_pure * model.radius / model.outer_radius
+    shaft = orbit / model.orbit_ratio
+    # In the whole bearing every roller has an orbit of its own.
+    if "orbit_speed_deviation" in result:
+        orbit = orbit + result.orbit_speed_deviation
     roller = (result.spin * model.radius).transpose("row", "roller", "time")
     found = []
     # Positive speeds are those of a ring that turns back at the inner raceway, forth at the outer one.
-    for name, arm in (
-        ("inner", -geometry.inner_contact_radius(bearing)),
-        ("outer", geometry.outer_contact_radius(bearing)),
+    for name, arm, turning in (
+        ("inner", -geometry.inner_contact_radius(bearing), shaft),
+        ("outer", geometry.outer_contact_radius(bearing), 0.0),
     ):
         here = {"interface": name}
+        ring = (arm * (turning - orbit)).transpose("row", "roller", "time")
         friction, power, rolling = (
             result[each].sel(here, drop=True).transpose("row", "roller", "time")
             for each in ("traction", "power", "rolling_power")

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_called, jit_inline
 
 
 class Arrow(NamedTuple):
@@ -48,7 +48,7 @@ def new_arrow(count: int, cages: int) -> Arrow:
     )
 
 
-@jit
+@jit_called
 def eliminate(cage_of, size, arrow):
     """Take the rollers out of the cages' borders, once for all right-hand sides of this matrix.
 
@@ -87,7 +87,7 @@ def _solve_border(matrix, rest, size):
     rest[2] = (r0 * c02 + r1 * (m01 * m20 - m00 * m21) + r2 * (m00 * m11 - m01 * m10)) / determinant
 
 
-@jit
+@jit_called
 def solve(cage_of, size, arrow):
     """Turn `rest` and `border_rest` into the solution of the system that `eliminate` has prepared; parameters as there."""
     for j in range(cage_of.size):

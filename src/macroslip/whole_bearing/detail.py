@@ -13,11 +13,14 @@ import numpy as np
 from numba.extending import overload
 
 from macroslip.bearing.frames import ROWS
-from macroslip.compiled import jit
+from macroslip.compiled import jit_called, jit_merged
 from macroslip.integrate.detail import EXTREMES, Passage, book_cage, book_raceway, look
 from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS, Way
 from macroslip.integrate.tuning import LOOK_EVERY
+from macroslip.reference import tuple_type
 from macroslip.roller.contact_force import is_curved
+from macroslip.roller.films import cage_film
+from macroslip.whole_bearing.space import CAGE_SLIDING, PUSH
 
 _FULL_TURN = 2.0 * math.pi
 #: The energies of a step's stages come by `collect`.
@@ -68,6 +71,15 @@ class _One(NamedTuple):
     station_work: np.ndarray
 
 
+class _Visit(NamedTuple):
+    """The orbit [-] and the way that a roller is booked for, the time since it was booked last [s], and whether to look."""
+
+    orbit: int
+    way: Way
+    span: float
+    fine: bool
+
+
 class _Ring(NamedTuple):
     """Speed of a raceway's surface past the roller's centre [m/s]."""
 
@@ -90,7 +102,7 @@ def new_details(count: int, orbits: int) -> Details:
     )
 
 
-@jit
+@jit_merged
 def _way(details, stations, j, shaft_angle, time):
     """The way of roller `j` since it was booked last, with the actual speed of its orbit."""
     place = details.place[j]
@@ -105,26 +117,29 @@ def _way(details, stations, j, shaft_angle, time):
     return Way(before - ratio * shaft_before, ratio, shaft_before, shaft_angle)
 
 
-@jit
-def _book_contact(one, orbit, interface, contact, place, way, span, fine):
+@jit_called
+def _book_contact(one, interface, contact, place, visit):
     """A raceway contact at its load, ring speed and slip; compiled once for all contacts of the bearing."""
     load, ring_speed, slip = place
-    book_raceway(one, Passage(orbit, _NO_ENERGIES, way), interface, contact, load, _Ring(ring_speed), slip)
-    if fine:
-        look(one, interface, contact, load, ring_speed, slip, span)
+    book_raceway(one, Passage(visit.orbit, _NO_ENERGIES, visit.way), interface, contact, load, _Ring(ring_speed), slip)
+    if visit.fine:
+        look(one, interface, contact, load, ring_speed, slip, visit.span)
 
 
-@jit
-def _book_roller(model, one, moment, j, way, orbit, span, fine):
+@jit_merged
+def _book_roller(model, films, one, moment, j, visit):
     stations, slips, force = moment.stations, moment.values.rollers[j], moment.force[j]
     inner = (stations.inner_load[j], stations.inner_speed[j], slips[0])
     outer = (stations.outer_load[j], stations.outer_speed[j], slips[1])
-    _book_contact(one, orbit, 0, model.inner, inner, way, span, fine)
-    _book_contact(one, orbit, 1, model.outer, outer, way, span, fine)
-    book_cage(one, orbit, model.cage, abs(force[5]), -force[6], moment.powers[j, 2, 0])
+    _book_contact(one, 0, model.inner, inner, visit)
+    _book_contact(one, 1, model.outer, outer, visit)
+    load, surface = abs(force[PUSH]), -force[CAGE_SLIDING]
+    # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
+    oil = -surface * cage_film(films, load, surface).sliding
+    book_cage(one, visit.orbit, model.cage, load, surface, moment.powers[j, 2, 0] - oil)
 
 
-@jit
+@jit_called
 def _book(bearing, moment, due, shaft_angle, time, orbit, details):
     for j in range(due.size):
         if not due[j]:
@@ -136,16 +151,17 @@ def _book(bearing, moment, due, shaft_angle, time, orbit, details):
         )  # fmt: skip
         span = time - details.place[j, 2] if details.looks[j] else 0.0
         way = _way(details, moment.stations, j, shaft_angle, time)
-        fine = details.looks[j] % LOOK_EVERY == 0
+        # The first booking follows no time; the second is the first that can be looked at.
+        visit = _Visit(orbit, way, span, details.looks[j] % LOOK_EVERY == 1)
         details.looks[j] += 1
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.
         if row == 0:
-            _book_roller(bearing.models[0], one, moment, j, way, orbit, span, fine)
+            _book_roller(bearing.models.downwind, bearing.films, one, moment, j, visit)
         else:
-            _book_roller(bearing.models[1], one, moment, j, way, orbit, span, fine)
+            _book_roller(bearing.models.upwind, bearing.films, one, moment, j, visit)
 
 
-@jit
+@jit_merged
 def _collect(first, last, h, part, details):
     for j in range(details.station_work.shape[0]):
         for i in range(2):
@@ -191,5 +207,6 @@ def _book_details_of(bearing, moment, due, shaft_angle, time, orbit, details):
 
 def has_details(bearing) -> bool:
     """Whether the contacts of a bearing, given by its numba type, are curved."""
-    models = dict(zip(bearing.fields, bearing.types, strict=True))["models"]
+    known = tuple_type(bearing)
+    models = dict(zip(known.fields, known.types, strict=True))["models"]
     return is_curved(models.types[0].types[-1])

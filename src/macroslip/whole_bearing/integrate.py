@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_merged
 from macroslip.integrate.status import COMPLETED, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
+from macroslip.reference import by_reference
 from macroslip.ring.orbit import instant
 from macroslip.whole_bearing.detail import book_details, collect
 from macroslip.whole_bearing.ledger import book_flows
@@ -23,7 +24,7 @@ _FIRST_STEP, _GROWTH, _LEAST_PART, _UNSOLVED_PART, _SAFETY = 1e-4, 3.0, 0.2, 0.2
 _STEPS, _REJECTIONS, _EVALUATIONS, _ITERATIONS, _REFRESHED, _UNSOLVED, _INACCURATE, _UNFORETOLD = range(8)
 
 
-@jit
+@jit_merged
 def _begin(bearing, motion, space):
     """Evaluate the start. Returns the clock."""
     moment, tractions = space.last, space.tractions
@@ -39,7 +40,7 @@ def _begin(bearing, motion, space):
     return Clock(time, 0, shaft_speed)
 
 
-@jit
+@jit_merged
 def _touch_ahead(bearing, space, h):
     """Part of `h` [s] after which the first roller meets a spar, if it is free now; 1 if none does."""
     half = bearing.pocket.half_gap
@@ -52,7 +53,7 @@ def _touch_ahead(bearing, space, h):
     return part
 
 
-@jit
+@jit_merged
 def _cut(bearing, space, step, left):
     """Step [s] to the next stop or half-way to it.
 
@@ -66,7 +67,7 @@ def _cut(bearing, space, step, left):
     return h
 
 
-@jit
+@jit_merged
 def _raceway_energy(space, h):
     """Energy [J] that the raceway contacts of all rollers dissipate in a step."""
     energy = 0.0
@@ -87,7 +88,7 @@ def _orbit_of(edges, time, likely):
     return k
 
 
-@jit
+@jit_merged
 def _book(bearing, motion, middle_speed, start, end, orbit, space, record):
     """Book a step. Returns its orbit."""
     h = end.time - start.time
@@ -104,7 +105,7 @@ def _book(bearing, motion, middle_speed, start, end, orbit, space, record):
     return orbit
 
 
-@jit
+@jit_merged
 def _advance(space):
     """Take over state, slopes and evaluations of an accepted step."""
     tractions = space.tractions
@@ -139,6 +140,8 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
     int
         A `Status`.
     """
+    bearing, motion, limits = by_reference(bearing), by_reference(motion), by_reference(limits)
+    stops, space, record = by_reference(stops), by_reference(space), by_reference(record)
     count = record.count
     clock, step, failed = _begin(bearing, motion, space), _FIRST_STEP, False
     next_stop, next_output, orbit = 0, 0, -1

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit_called, jit_merged
 from macroslip.whole_bearing.guidance import guide_energy, guide_force
 from macroslip.whole_bearing.pocket import elastic_energy
 from macroslip.whole_bearing.stage import GUIDE_SPEED
@@ -25,7 +25,7 @@ FLOWS = (
 STOCKS = ("momentum", "kinetic_energy", "elastic_energy")
 
 
-@jit
+@jit_merged
 def stocks(bearing, shaft_speed, state, cages, held):
     """Write angular momentum, kinetic energy and elastic energy into `held`, shape (3,)."""
     pitch, mass = bearing.pitch_radius, bearing.roller_mass
@@ -46,7 +46,7 @@ def stocks(bearing, shaft_speed, state, cages, held):
     held[0], held[1], held[2] = momentum, kinetic, elastic
 
 
-@jit
+@jit_called
 def book_flows(bearing, shaft_speed, moment, span, flows):
     """Add what flows during `span` [s] in the state of a solved stage to `flows`, shape (13,)."""
     stations, state, cages, force = moment.stations, moment.values.rollers, moment.values.cages, moment.force

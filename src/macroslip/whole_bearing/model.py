@@ -41,13 +41,19 @@ class Rollers(NamedTuple):
     inner_radius: np.ndarray
 
 
+class RowModels(NamedTuple):
+    """A `RollerModel` of each row."""
+
+    downwind: Any
+    upwind: Any
+
+
 class WholeBearing(NamedTuple):
     """All rollers, pockets and cages.
 
     Attributes
     ----------
-    models : tuple of two RollerModel
-        Of the downwind and of the upwind row.
+    models : RowModels
     bodies : tuple of two RollerModel
         The same without contacts and films: kernels pick a row's numbers out of these without copying its contacts.
     films : Films or NoFilms
@@ -117,9 +123,11 @@ def whole_bearing(
     """
     cage.check_fit(bearing)
     count = bearing.rollers_per_row
-    models = tuple(
-        roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, gravity=gravity, drag=drag, laws=laws)
-        for row in ROWS
+    models = RowModels(
+        *(
+            roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, gravity=gravity, drag=drag, laws=laws)
+            for row in ROWS
+        )
     )
     angles = np.concatenate([initial_angles(row, count) for row in ROWS])
     row = np.repeat(np.arange(len(ROWS)), count)

@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_called, jit_inline, jit_merged
 from macroslip.film.film_law import film_in_range, film_thickness
 from macroslip.whole_bearing.detail import Details, new_details
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS, stocks
-from macroslip.whole_bearing.space import PUSH
+from macroslip.whole_bearing.space import PUSH, SHEAR_CAGE, SHEAR_INNER, SHEAR_OUTER
 from macroslip.whole_bearing.traction import (
     CAGE_LOAD,
     CAGE_ROUGH,
@@ -146,18 +146,19 @@ def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) 
 
 
 @jit_inline
-def raceway_power(sheet, at, ratio, spin, pull, load, speed, slip):
-    """Powers [W] of a raceway contact with the forces of a stage.
+def raceway_power(sheet, at, ratio, forces, place):
+    """Powers [W] of a raceway contact with the forces of a stage at its load [N], ring speed and slip [m/s].
 
-    Friction by mechanism, rolling resistance, and the part of friction by asperities; that and the skew moment's part
+    Forces are that for the spin, the pull, and rolling resistance in both [N]. Friction by mechanism, rolling resistance, and the part of friction by asperities; that and the skew moment's part
     follow the load.
     """
+    spin, pull, shear = forces
+    load, speed, slip = place
     known = sheet[at + LOAD]
     if load <= 0.0 or known <= 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     grown = (load - known) / known
     skew = sheet[at + SKEW] * (1.0 + 1.5 * grown)
-    shear = shear_from(sheet, at, load, speed, slip)
     lag = pull - spin + 2.0 / ratio * shear
     return (
         (spin - shear) * slip,
@@ -168,9 +169,9 @@ def raceway_power(sheet, at, ratio, spin, pull, load, speed, slip):
     )
 
 
-@jit
+@jit_called
 def stage_powers(bearing, moment, sheets):
-    """Fill the moment's powers [W] of every interface.
+    """Fill the moment's powers [W] of every interface, and rolling resistance in its forces.
 
     First all friction, then its parts by what makes surfaces slide: slip of the middle, curvature, contact angle; then
     rolling resistance, which is apart from friction, and the part of friction by asperities.
@@ -179,24 +180,21 @@ def stage_powers(bearing, moment, sheets):
     inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
     for j in range(powers.shape[0]):
         sheet, f = sheets[j], moment.force[j]
-        inner = raceway_power(
-            sheet, INNER, inner_ratio,
-            f[0], f[2], stations.inner_load[j], stations.inner_speed[j], state[j, 0],
-        )  # fmt: skip
-        outer = raceway_power(
-            sheet, OUTER, outer_ratio,
-            f[1], f[3], stations.outer_load[j], stations.outer_speed[j], state[j, 1],
-        )  # fmt: skip
+        at_inner = (stations.inner_load[j], stations.inner_speed[j], state[j, 0])
+        at_outer = (stations.outer_load[j], stations.outer_speed[j], state[j, 1])
+        f[SHEAR_INNER], f[SHEAR_OUTER] = shear_from(sheet, INNER, *at_inner), shear_from(sheet, OUTER, *at_outer)
+        f[SHEAR_CAGE] = cage_shear_from(sheet, f[5], f[6])
+        inner = raceway_power(sheet, INNER, inner_ratio, (f[0], f[2], f[SHEAR_INNER]), at_inner)
+        outer = raceway_power(sheet, OUTER, outer_ratio, (f[1], f[3], f[SHEAR_OUTER]), at_outer)
         for k in range(5):
             powers[j, 0, k + 1], powers[j, 1, k + 1] = inner[k], outer[k]
         powers[j, 0, 0], powers[j, 1, 0] = inner[0] + inner[1] + inner[2], outer[0] + outer[1] + outer[2]
-        shear = cage_shear_from(sheet, f[5], f[6])
-        powers[j, 2, 0] = powers[j, 2, 1] = (f[4] - shear) * f[6]
-        powers[j, 2, 4] = shear * f[6]
+        powers[j, 2, 0] = powers[j, 2, 1] = (f[4] - f[SHEAR_CAGE]) * f[6]
+        powers[j, 2, 4] = f[SHEAR_CAGE] * f[6]
         powers[j, 2, 5] = sheet[CAGE_ROUGH] * abs(f[5]) / sheet[CAGE_LOAD] if sheet[CAGE_LOAD] > 0.0 else 0.0
 
 
-@jit
+@jit_called
 def book_stage(moment, span, orbit, record):
     """Book energies, peaks and pushes of a solved stage that counts for `span` [s] of the window."""
     stations, powers = moment.stations, moment.powers
@@ -221,14 +219,14 @@ def book_stage(moment, span, orbit, record):
             record.largest_by_position[j, place] = max(record.largest_by_position[j, place], abs(push))
 
 
-@jit
+@jit_merged
 def book_state(bearing, shaft_speed, moment, span, record):
     """Book spin ratios, ranges of the film law and the cages' slip for a state that counts for `span` [s]."""
     stations, state, cages, force = moment.stations, moment.values.rollers, moment.values.cages, moment.force
     pitch = bearing.pitch_radius
     rollers = bearing.rollers
     # Films are the same in both rows.
-    model = bearing.models[0]
+    model = bearing.models.downwind
     pure = -bearing.bodies[0].orbit_ratio * shaft_speed * bearing.outer_radius
     for j in range(rollers.row.size):
         surface = stations.outer_speed[j] - state[j, 1]
@@ -256,12 +254,12 @@ def book_state(bearing, shaft_speed, moment, span, record):
             record.slip_square[c, 2] += span * slip * slip
 
 
-@jit
+@jit_called
 def _film(contact, load, speed):
     return film_thickness(contact.film, load, max(speed, 1e-6))[0] if load > 0.0 else np.nan
 
 
-@jit
+@jit_merged
 def write_output(bearing, index, shaft_speed, moment, record):
     """Write traces and books at output time `index`."""
     stations, state, cages = moment.stations, moment.values.rollers, moment.values.cages
@@ -269,7 +267,7 @@ def write_output(bearing, index, shaft_speed, moment, record):
     record.flows[index] = record.book
     stocks(bearing, shaft_speed, state, cages, record.held[index])
     pitch, rollers = bearing.pitch_radius, bearing.rollers
-    model = bearing.models[0]
+    model = bearing.models.downwind
     for c in range(bearing.cages):
         turning = cages[c, 0] + 0.5 * shaft_speed * bearing.inner_radius
         line = record.cage_trace[index, c]
@@ -281,7 +279,9 @@ def write_output(bearing, index, shaft_speed, moment, record):
         line[0] = (stations.outer_speed[j] - state[j, 1]) / bearing.radius
         line[1], line[2] = state[j, 0], state[j, 1]
         line[3] = stations.elastic_load[j]
-        line[4], line[5], line[6], line[7] = f[0], f[1], f[4], f[5]
+        # Traction without rolling resistance, as on an imposed orbit.
+        line[4], line[5], line[6] = f[0] - f[SHEAR_INNER], f[1] - f[SHEAR_OUTER], f[4] - f[SHEAR_CAGE]
+        line[7] = f[5]
         line[8], line[9], line[10] = powers[j, 0, 0], powers[j, 1, 0], powers[j, 2, 0]
         line[11] = state[j, 2]
         line[12] = (orbital - 0.5 * shaft_speed * bearing.inner_radius) / pitch

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_merged
 from macroslip.whole_bearing.traction import (
     INNER,
     LOAD,
@@ -43,7 +43,7 @@ def _contact_off(mass, limits, sheet, at, foretold, span, power_scale):
     return max(drift / limits.allowed_speed, wrong / (_POWER_SHARE * limits.tolerance * (power + power_scale) + 1e-12))
 
 
-@jit
+@jit_merged
 def _foretold(mass, limits, tractions, stations, j, span, power_scale):
     """How far the new sheet of roller `j` is from what the kept one, `span` [s] older, foretold, over what is allowed."""
     sheet, known = tractions.sheets[j], tractions.known[j]
@@ -59,7 +59,7 @@ def _foretold(mass, limits, tractions, stations, j, span, power_scale):
     return worst
 
 
-@jit
+@jit_merged
 def refresh(bearing, limits, time, space, power_scale):
     """Evaluate the rollers that are due at the step's end, and set the time to their next evaluation.
 

@@ -10,8 +10,10 @@ from macroslip.whole_bearing.arrow import Arrow, new_arrow
 from macroslip.whole_bearing.station import Stations, new_stations
 from macroslip.whole_bearing.traction import new_sheets
 
-#: Columns of forces: S_i, S_o, P_i, P_o, F_c, N [N], slip against the cage and x' [m/s].
+#: Columns of forces: S_i, S_o, P_i, P_o, F_c, N [N], slip against the cage and x' [m/s] …
 SPIN_INNER, SPIN_OUTER, PULL_INNER, PULL_OUTER, FRICTION, PUSH, CAGE_SLIDING, POCKET_SPEED = range(8)
+#: … and, once a stage is solved, rolling resistance in S_i, S_o and F_c [N].
+SHEAR_INNER, SHEAR_OUTER, SHEAR_CAGE = range(8, 11)
 
 
 class Unknowns(NamedTuple):
@@ -36,7 +38,7 @@ class Moment(NamedTuple):
     ----------
     values : Unknowns
     stations : Stations
-    force : ndarray, shape (n, 8)
+    force : ndarray, shape (n, 11)
         See the columns above.
     powers : ndarray, shape (n, 3, 6)
         Of every interface [W], see `macroslip.whole_bearing.record.stage_powers`.
@@ -112,7 +114,7 @@ def new_space(count: int, cages: int) -> Space:
         return Unknowns(np.zeros((count, 3)), np.zeros((cages, 6)))
 
     def moment() -> Moment:
-        return Moment(unknowns(), new_stations(count), np.zeros((count, 8)), np.zeros((count, 3, 6)))
+        return Moment(unknowns(), new_stations(count), np.zeros((count, 11)), np.zeros((count, 3, 6)))
 
     flags = [np.zeros(count, dtype=np.bool_) for _ in range(4)]
     return Space(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_inline, jit_merged
 from macroslip.whole_bearing.arrow import eliminate, solve
 from macroslip.whole_bearing.guidance import guide_force
 from macroslip.whole_bearing.pocket import pocket_force
@@ -95,7 +95,7 @@ class _Meeting(NamedTuple):
     cage_turn: float
 
 
-@jit
+@jit_merged
 def _begin_cages(bearing, stage, cages, star, arrow):
     """Parts of the cages' equations that no roller enters."""
     inertia = bearing.cage_mass / stage.step
@@ -126,7 +126,7 @@ def _begin_cages(bearing, stage, cages, star, arrow):
             border[2, 2] += radial * n_y * n_y + turning_push * n_x * n_x
 
 
-@jit
+@jit_merged
 def _foretell(stations, rollers, sheets, force):
     """Write the raceways' forces that follow from the sheets' slopes into `force`."""
     for j in range(force.shape[0]):
@@ -139,7 +139,7 @@ def _foretell(stations, rollers, sheets, force):
         )
 
 
-@jit
+@jit_merged
 def _raceway_forces(bearing, stage, moment, tractions):
     """Raceway forces at the present state, evaluated where slopes do not serve. Returns the evaluations."""
     stations, force, sheets = moment.stations, moment.force, tractions.sheets
@@ -178,7 +178,7 @@ def _meet(bearing, stage, moment, star, sheet, j):
     # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
     sliding = 0.5 * (v_in + v_out + shaft_speed * inner_radius) + bearing.lever * bearing.pitch_radius * cage_turn
     friction, by_sliding, by_push = cage_from(
-        bearing.models[0].cage, bearing.films, sheet, push, sliding, stage.cage_reach
+        bearing.models.downwind.cage, bearing.films, sheet, push, sliding, stage.cage_reach
     )
     f = moment.force[j]
     f[FRICTION], f[PUSH], f[CAGE_SLIDING], f[POCKET_SPEED] = friction, push, sliding, speed
@@ -236,7 +236,7 @@ def _add_to_border(bearing, stage, stations, met, j, arrow):
             border[2, k] += cosine * by
 
 
-@jit
+@jit_merged
 def _assemble(bearing, stage, moment, star, tractions, arrow):
     """Residuals and derivatives at the present state. Returns the largest residual [N] and the evaluations."""
     values, stations = moment.values, moment.stations
@@ -267,7 +267,7 @@ def _assemble(bearing, stage, moment, star, tractions, arrow):
     return worst if finite else math.inf, evaluations
 
 
-@jit
+@jit_merged
 def solve_stage(bearing, stage, moment, space):
     """Solve a stage from the guess in `moment.values`, which it replaces.
 

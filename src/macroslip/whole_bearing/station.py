@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit_called
 from macroslip.ring.orbit import instant
 from macroslip.roller.films import film_load
 from macroslip.roller.forces import interference
@@ -43,7 +43,7 @@ def new_stations(count: int) -> Stations:
     return Stations(*(np.zeros(count) for _ in Stations._fields))
 
 
-@jit
+@jit_called
 def locate(bearing, motion, interval, time, state, cages, stations):
     """Fill `stations` for a time and a (predicted) state.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_called, jit_merged
 from macroslip.ring.orbit import interval_of
 from macroslip.whole_bearing.arrow import solve
 from macroslip.whole_bearing.record import stage_powers
@@ -45,7 +45,7 @@ def clock_at(motion, time, start):
     return Clock(time, k, motion.shaft_speed[k] + (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) * share)
 
 
-@jit
+@jit_merged
 def _set_star(bearing, span, change, space):
     """y* from the state and the first stage's slope during `span` [s]; the shaft's change [rad/s] enters exactly."""
     star, state, rate = space.star, space.state, space.first_rate
@@ -59,7 +59,7 @@ def _set_star(bearing, span, change, space):
         star.cages[c, 0] -= 0.5 * bearing.inner_radius * change
 
 
-@jit
+@jit_merged
 def _guess(step, star, rate, values):
     for j in range(values.rollers.shape[0]):
         for i in range(3):
@@ -69,7 +69,7 @@ def _guess(step, star, rate, values):
             values.cages[c, i] = star.cages[c, i] + step * rate.cages[c, i]
 
 
-@jit
+@jit_merged
 def _keep_rate(step, star, moment, rate):
     values = moment.values
     for j in range(values.rollers.shape[0]):
@@ -81,7 +81,7 @@ def _keep_rate(step, star, moment, rate):
             rate.cages[c, i] = (values.cages[c, i] - star.cages[c, i]) / step
 
 
-@jit
+@jit_called
 def _solve_at(bearing, motion, stage, clock, moment, space):
     """Place the rollers, solve a stage, and keep its powers. Returns the largest residual [N]."""
     values = moment.values
@@ -91,7 +91,7 @@ def _solve_at(bearing, motion, stage, clock, moment, space):
     return worst
 
 
-@jit
+@jit_merged
 def take_step(bearing, motion, limits, start, end, space):
     """Solve both stages from `space.state`, into `space.first` and `space.last`.
 
@@ -139,7 +139,7 @@ def _weighed(slope, first, last):
     return _ERROR[0] * slope + _ERROR[1] * first + _ERROR[2] * last
 
 
-@jit
+@jit_merged
 def step_error(bearing, limits, h, space):
     """Error of a solved step of `h` [s] over what is allowed."""
     arrow, slope, first, last = space.arrow, space.slope, space.first_rate, space.last_rate

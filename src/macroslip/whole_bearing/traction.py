@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import jit_called, jit_inline
 from macroslip.roller.contact import cage_contact, raceway_contact
 from macroslip.whole_bearing.oil import cage_oil, has_oil, raceway_oil
 
@@ -64,7 +64,7 @@ def _write(sheet, at, contact, oil, ratio, place):
     sheet[at + ROUGH] = found.asperity_power
 
 
-@jit
+@jit_called
 def evaluate_marked(bearing, stations, time, rollers, marked, sheets):
     """Evaluate both raceway contacts of the rollers that are marked into their sheets.
 
@@ -97,11 +97,11 @@ def evaluate_marked(bearing, stations, time, rollers, marked, sheets):
         outer_oil = raceway_oil(films, True, at_outer[0], at_outer[1], outer_slip)
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.
         if rows[j] == 0:
-            _write(sheet, INNER, models[0].inner, inner_oil, inner_ratio, at_inner)
-            _write(sheet, OUTER, models[0].outer, outer_oil, outer_ratio, at_outer)
+            _write(sheet, INNER, models.downwind.inner, inner_oil, inner_ratio, at_inner)
+            _write(sheet, OUTER, models.downwind.outer, outer_oil, outer_ratio, at_outer)
         else:
-            _write(sheet, INNER, models[1].inner, inner_oil, inner_ratio, at_inner)
-            _write(sheet, OUTER, models[1].outer, outer_oil, outer_ratio, at_outer)
+            _write(sheet, INNER, models.upwind.inner, inner_oil, inner_ratio, at_inner)
+            _write(sheet, OUTER, models.upwind.outer, outer_oil, outer_ratio, at_outer)
         sheet[WHEN] = time
         evaluations += 2
     return evaluations
@@ -131,6 +131,8 @@ def out_of_reach(sheet, stations, j):
 @jit_inline
 def shear_from(sheet, at, load, speed, slip):
     """Rolling resistance [N] in a raceway's spin force, from the sheet's slopes."""
+    if load <= 0.0:
+        return 0.0
     shear = sheet[at + SHEAR] + sheet[at + SHEAR_V] * (slip - sheet[at + SLIP])
     return shear + sheet[at + SHEAR_Q] * (load - sheet[at + LOAD]) + sheet[at + SHEAR_U] * (speed - sheet[at + SPEED])
 
