@@ -494,9 +494,7 @@ def test_asperities_alone_add_friction(energies):
 
 def test_physical_energies_rank_with_the_strength_of_the_film(energies):
     """Eyring < Roelands with limiting shear < Barus with limiting shear < constant friction at γ."""
-    eyring, limited, barus = (
-        energies(laws) for laws in (FULL, LIMITED, LIMITED.but(viscosity="barus"))
-    )
+    eyring, limited, barus = (energies(laws) for laws in (FULL, LIMITED, LIMITED.but(viscosity="barus")))
     assert total(eyring) < total(limited) < total(barus)
 
 

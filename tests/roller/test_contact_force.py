@@ -48,7 +48,7 @@ def test_kind_of_contact_follows_the_laws(bearing, lubricant):
     paper = Laws.paper()
     assert kind(paper) is PlainContact
     assert kind(paper.but(starvation=True, film="masjedi-khonsari-moes")) is PlainContact
-    for change in ({"microslip": True}, {"asperities": "film-ratio"}, {"rheology": "limiting-shear"}, {"heating": False}):
+    for change in ({"microslip": True}, {"asperities": "film-ratio"}, {"rheology": "eyring"}, {"heating": False}):
         assert kind(paper.but(**change)) is CurvedContact
 
 
