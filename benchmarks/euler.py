@@ -9,6 +9,7 @@ from benchmarks.outcome import Reference, Solution
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.path import FixedStep, Path
 from macroslip.integrate.record import new_record
+from macroslip.integrate.sealed import sealed
 from macroslip.integrate.status import COMPLETED
 
 
@@ -35,7 +36,7 @@ def solve(history: History, reference: Reference, step: float, tolerance: float)
     times, back = np.unique(times, return_inverse=True)
     record = new_record(np.array([history.start, history.end]), times, history.limits.speed_scale)
     rule = FixedStep(step, True, tolerance, np.inf, history.limits.interrupt)
-    path = Path(history.model, history.motion, history.start_angle, rule)
+    path = Path(sealed(history.model), history.motion, history.start_angle, rule)
     status = integrate_fixed_step(path, 0.0, history.end, record)
     around = record.trace[back, 0].reshape(-1, 2)
     share = (history.marks - history.start) / step - lower

@@ -12,7 +12,7 @@ import numpy as np
 from benchmarks.histories import History
 from macroslip.compiled import jit
 from macroslip.film.masjedi_khonsari import MasjediKhonsari
-from macroslip.integrate.record import powers
+from macroslip.integrate.measures import powers
 from macroslip.ring.orbit import Motion, instant, interval_of
 from macroslip.roller.contact_force import PlainContact
 from macroslip.roller.films import NoFilms

@@ -9,7 +9,6 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -17,7 +16,7 @@ import pytest
 
 import macroslip
 from macroslip import kernel_cache
-from macroslip.compiled import borrowed, jit
+from macroslip.compiled import jit
 from macroslip.kernel_cache import KEPT
 
 pytestmark = pytest.mark.slow
@@ -229,30 +228,9 @@ def test_a_law_that_comes_late_moves_kernels_to_a_folder_of_its_own(small):
 
 
 def test_elementwise_broadcasts_and_keeps_scalars():
-    from macroslip.compiled import elementwise, jit
+    from macroslip.compiled import elementwise
 
     double = elementwise(jit(lambda x, y: 2.0 * x + y))
     assert double(1.0, 2.0) == 4.0
     assert np.ndim(double(1.0, 2.0)) == 0
     assert double(np.array([1.0, 2.0]), np.array([[0.0], [1.0]])).tolist() == [[2.0, 4.0], [3.0, 5.0]]
-
-
-class _Pair(NamedTuple):
-    values: np.ndarray
-    inner: tuple
-
-
-@jit
-def _sum_and_write(pair, others):
-    pair, others = borrowed(pair), borrowed(others)
-    pair.values[0] += 1.0
-    return pair.values.sum() + pair.inner[0].sum() * pair.inner[1] + others.sum()
-
-
-def test_borrowed_arrays_are_the_same_and_are_not_counted():
-    pair, others = _Pair(np.arange(3.0), (np.ones((2, 2)), 10.0)), np.ones(4)
-    counts = [sys.getrefcount(one) for one in (pair.values, pair.inner[0], others)]
-    for number in range(1000):
-        assert _sum_and_write(pair, others) == 3.0 + (number + 1) + 40.0 + 4.0
-    assert [sys.getrefcount(one) for one in (pair.values, pair.inner[0], others)] == counts
-    assert pair.values[0] == 1000.0

@@ -12,8 +12,7 @@ from typing import Any
 import numba
 import numpy as np
 from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic, register_jitable
+from numba.extending import register_jitable
 
 from macroslip.kernel_cache import kernel_folder
 
@@ -104,38 +103,20 @@ def jit_part(function: Callable) -> Callable:
     return register_jitable(**_OPTIONS, forceinline=True)(function)
 
 
-def _borrowed(typingctx: Any, value: Any) -> Any:
-    """The same value with arrays that are not counted, for use inside a kernel that was given it as an argument.
+def entry(function: Callable, *arguments: Any) -> Any:
+    """Compile a function for these types of its arguments, to be called by its address; it returns nothing.
 
-    Numba counts how often an array is referred to, with an atomic operation for each array in a tuple that is passed on.
-    Roller, motion and record hold some sixty of them; counting took half of an integration's time. The caller of a kernel
-    keeps its arguments, so that nothing in it needs to be counted.
-
-    Parameters
-    ----------
-    value : array, number, or tuple of these
-        An argument of the kernel; the borrowed value must not be returned.
+    Returns
+    -------
+    numba.CFunc
+        With the `address`, valid as long as it is kept.
     """
-
-    def strip(context: Any, builder: Any, kind: Any, given: Any) -> Any:
-        if isinstance(kind, types.Array):
-            struct = context.make_array(kind)(context, builder, given)
-            struct.meminfo = cgutils.get_null_value(struct.meminfo.type)
-            struct.parent = cgutils.get_null_value(struct.parent.type)
-            return struct._getvalue()
-        if isinstance(kind, types.BaseTuple):
-            parts = cgutils.unpack_tuple(builder, given, len(kind.types))
-            stripped = [strip(context, builder, *one) for one in zip(kind.types, parts, strict=True)]
-            return context.make_tuple(builder, kind, stripped)
-        return given
-
-    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return strip(context, builder, signature.args[0], arguments[0])
-
-    return value(value), generate
-
-
-borrowed: Any = intrinsic(_borrowed)
+    signature = types.void(*arguments)
+    with _storing() as folder:
+        if folder is not None:
+            with contextlib.suppress(RuntimeError):
+                return numba.cfunc(signature, cache=True, error_model="numpy")(function)
+    return numba.cfunc(signature, error_model="numpy")(function)
 
 
 def elementwise(function: Callable) -> Callable:

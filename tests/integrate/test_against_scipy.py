@@ -12,6 +12,7 @@ from macroslip.integrate.load_zone import empty_classes, firm_interference
 from macroslip.integrate.path import Limits, Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
+from macroslip.integrate.sealed import sealed
 from macroslip.integrate.status import Status
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.roller.model import roller_model
@@ -33,12 +34,12 @@ def solve(bearing, lubricant, displacement, speed, start_angle, slip, times, acc
         energy_scale=fastest**2 / model.mobility,
         longest_step=0.1 * times[-1],
         cold_slip=0.0,
-        firm=firm_interference(model, fastest),
+        firm=firm_interference(sealed(model), fastest),
         interrupt=np.zeros(1, dtype=np.int8),
     )
     record = new_record(np.array([0.0, times[-1]]), np.array(times), fastest)
     status = integrate_radau(
-        Path(model, motion, start_angle, limits), slip, np.array(times), empty_classes(time.size), record
+        Path(sealed(model), motion, start_angle, limits), slip, np.array(times), empty_classes(time.size), record
     )
     assert status == Status.COMPLETED
     return record.trace[:, 0], record.energy

@@ -170,11 +170,13 @@ def test_start_from_standstill_with_microslip(tolerance):
     speed = np.clip((time - 1.0) / 3.0, 0.0, 1.0)
     loads = BearingLoads(time, speed, np.tile([0.0, -300e3, 60e3], (time.size, 1)), "starting")
     found = run(loads, tolerance, rollers=[0, 7, 14], laws=Laws.physical(), window=Window(start=0.0))
-    exact = run(loads, 1e-9, rollers=[0, 7, 14], laws=Laws.physical(), window=Window(start=0.0))
+    exact = run(loads, 1e-10, rollers=[0, 7, 14], laws=Laws.physical(), window=Window(start=0.0))
     assert (found.status == Status.COMPLETED).all() and (exact.status == Status.COMPLETED).all()
-    # A step may be off by ten tolerances of its energy.
+    # A step may be off by ten tolerances of its energy, or of what the mean power since the start spends in its time,
+    # whichever is more. The energies E of the steps add up to that of the history, those of the mean power to the
+    # integral of E(t)/t, which is 1.1 times as much here.
     np.testing.assert_allclose(
-        found.energy.sum("interface"), exact.energy.sum("interface"), rtol=min(10.0 * tolerance, 1e-3)
+        found.energy.sum("interface"), exact.energy.sum("interface"), rtol=min(21.0 * tolerance, 1e-3)
     )
 
 

@@ -8,7 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from macroslip.integrate.root import is_continuous, rising_at
+from macroslip.integrate.held_contact import rising_at
+from macroslip.integrate.root import is_continuous
 from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.model import roller_model
 

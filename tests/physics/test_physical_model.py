@@ -24,6 +24,7 @@ from macroslip.integrate.load_zone import empty_classes
 from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
+from macroslip.integrate.sealed import sealed
 from macroslip.integrate.status import Status
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
@@ -286,7 +287,9 @@ def setup(laws, force, speed, time, *, gravity=False):
 def integrate(model, motion, limits, angle, slip, trace_time):
     record = new_record(np.array([motion.time[0]]), np.asarray(trace_time), limits.speed_scale)
     stops = np.unique(np.concatenate([trace_time, motion.time[-1:]]))
-    status = integrate_radau(Path(model, motion, angle, limits), slip, stops, empty_classes(motion.time.size), record)
+    status = integrate_radau(
+        Path(sealed(model), motion, angle, limits), slip, stops, empty_classes(motion.time.size), record
+    )
     assert status == Status.COMPLETED
     return record.trace[:, 0]
 

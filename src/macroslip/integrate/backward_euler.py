@@ -9,14 +9,15 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit
+from macroslip.integrate.sealed import forces_of
 from macroslip.integrate.tuning import SECANT_ITERATIONS
-from macroslip.roller.forces import net_force, slip_forces
+from macroslip.roller.forces import net_force
 
 
 @jit
 def _defect(model, at, before, spin, step):
     """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s]."""
-    forces = slip_forces(model, at, at.ring_speed - model.radius * spin)
+    forces = forces_of(model, at, at.ring_speed - model.radius * spin)
     return spin - before - step * model.mobility / model.radius * net_force(forces)
 
 

@@ -7,16 +7,24 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_part
-from macroslip.integrate.detail import Passage, book_stage, book_step
-from macroslip.integrate.held_contact import slips_everywhere
+from macroslip.integrate.detail import Passage
 from macroslip.integrate.peak import follow_peak, follow_step
 from macroslip.integrate.radau_step import WEIGHTS
-from macroslip.integrate.record import add_energy, add_rolling, note_state, orbit_at, powers, raise_peak
+from macroslip.integrate.record import add_energy, add_rolling, orbit_at, raise_peak
+from macroslip.integrate.sealed import (
+    book_stage_of,
+    book_step_of,
+    forces_of,
+    has_microslip,
+    note_state_of,
+    powers_of,
+    write_trace_of,
+)
 from macroslip.integrate.stages import between_stages
 from macroslip.integrate.surface import Way
 from macroslip.integrate.tuning import ASTRAY, PEAK_PARTS, RESOLVED, SLIP_SHARE, SNAP
 from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import magnitude, net_force, slip_forces
+from macroslip.roller.forces import magnitude, net_force
 
 
 class StepPowers(NamedTuple):
@@ -52,9 +60,9 @@ class Peaks(NamedTuple):
 def step_powers(model, step, stages):
     """Power at the solved stages of a step, and the energy they add up to."""
     h = step.length
-    i1, o1, c1 = powers(model, step.at1, stages.f1, stages.v1)
-    i2, o2, c2 = powers(model, step.at2, stages.f2, stages.v2)
-    i3, o3, c3 = powers(model, step.at3, stages.f3, stages.v3)
+    i1, o1, c1 = powers_of(model, step.at1, stages.f1, stages.v1)
+    i2, o2, c2 = powers_of(model, step.at2, stages.f2, stages.v2)
+    i3, o3, c3 = powers_of(model, step.at3, stages.f3, stages.v3)
     return StepPowers(
         (i1, i2, i3),
         (o1, o2, o3),
@@ -109,7 +117,7 @@ def _book_peaks(record, path, state, step, stages, found, peaks, edge):
         part = k / PEAK_PARTS
         there, between, _ = between_stages(path, state, step, stages, state.interval, part)
         if abs(between) > resolved:
-            inner, outer, cage = powers(path.model, there, slip_forces(path.model, there, between), between)
+            inner, outer, cage = powers_of(path.model, there, forces_of(path.model, there, between), between)
             follow_peak(record, peaks.orbit, peaks.samples, state.time + part * step.length, inner, outer, cage)
     record.count[2] += PEAK_PARTS
 
@@ -121,7 +129,7 @@ def _may_peak_inside(path, state, stages, peaks):
     if sliding > 0.5 * peaks.top_power:
         return True
     resolved = RESOLVED * SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale
-    jumps = not slips_everywhere(path.model.inner)
+    jumps = not has_microslip(path.model)
     # A gripped roller with microslip slips less where load decreases, without a snap.
     forces = state.forces
     astray = jumps or state.at.elastic_load <= 0.0 or abs(net_force(forces)) > ASTRAY * magnitude(forces)
@@ -132,15 +140,15 @@ def _may_peak_inside(path, state, stages, peaks):
 def _book_details(record, path, step, stages, found, orbit):
     """Book ranges of the film law at the end of the step, and what curved contacts add."""
     model, h, at3 = path.model, step.length, step.at3
-    note_state(record, model, at3, stages.f3, stages.v3, h)
+    note_state_of(record, model, at3, stages.f3, stages.v3, h)
     add_rolling(record, stages.f1.rolling_power, h * WEIGHTS[0])
     add_rolling(record, stages.f2.rolling_power, h * WEIGHTS[1])
     add_rolling(record, stages.f3.rolling_power, h * WEIGHTS[2])
-    book_stage(record, model, step.at1, stages.f1, stages.v1, h * WEIGHTS[0])
-    book_stage(record, model, step.at2, stages.f2, stages.v2, h * WEIGHTS[1])
-    book_stage(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])
+    book_stage_of(record, model, step.at1, stages.f1, stages.v1, h * WEIGHTS[0])
+    book_stage_of(record, model, step.at2, stages.f2, stages.v2, h * WEIGHTS[1])
+    book_stage_of(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])
     energies = (_stage_energies(h, found.inner), _stage_energies(h, found.outer))
-    book_step(record, model, at3, stages.f3, stages.v3, h, Passage(orbit, energies, _way(path, step)))
+    book_step_of(record, model, at3, stages.f3, stages.v3, h, Passage(orbit, energies, _way(path, step)))
 
 
 @jit_part
@@ -162,3 +170,13 @@ def _way(path, step):
 def _sliding(forces, slip):
     """Larger power of sliding of the middle at the raceways [W]: all of it without microslip."""
     return max(abs(forces.inner), abs(forces.outer)) * abs(slip)
+
+
+@jit_part
+def write_traces(record, model, first, time, at, forces, slip):
+    """Write the state at all trace times from index `first` on that are not after `time` [s]; the index after them."""
+    index = first
+    while index < record.trace_time.size and record.trace_time[index] <= time:
+        write_trace_of(record, model, index, at, forces, slip)
+        index += 1
+    return index

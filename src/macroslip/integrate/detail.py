@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from numba import types
 from numba.extending import overload
 
 from macroslip.compiled import jit_part
@@ -18,6 +17,7 @@ from macroslip.film.film_law import film_thickness
 from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.integrate.tuning import LOOK_EVERY
+from macroslip.reference import tuple_type
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
 from macroslip.roller.films import cage_film
 from macroslip.traction.slip_field import slip_at
@@ -228,8 +228,8 @@ def book_step(record, model, at, forces, slip, span, passage):
 
 
 def _is_curved(model) -> bool:
-    # A model is a named tuple of its fields' types; the contacts are its last three.
-    return isinstance(model, types.NamedTuple) and model.types[-1].instance_class is CurvedContact
+    # A model's contacts are its last three fields.
+    return tuple_type(model).types[-1].instance_class is CurvedContact
 
 
 @overload(book_stage)

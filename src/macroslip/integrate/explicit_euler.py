@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from macroslip.compiled import jit
-from macroslip.roller.forces import net_force, slip_forces
+from macroslip.integrate.sealed import forces_of
+from macroslip.roller.forces import net_force
 
 
 @jit
@@ -25,5 +26,5 @@ def explicit_euler_step(model, at, spin, step):
     float
         ω after the step [rad/s]. Stable only while step · (r²/I_z') dF/dv < 2.
     """
-    forces = slip_forces(model, at, at.ring_speed - model.radius * spin)
+    forces = forces_of(model, at, at.ring_speed - model.radius * spin)
     return spin + step * model.mobility / model.radius * net_force(forces)

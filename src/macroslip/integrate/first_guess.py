@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from macroslip.compiled import jit_part
-from macroslip.integrate.held_contact import held_slip, slips_everywhere
+from macroslip.integrate.held_contact import held_slip
 from macroslip.integrate.load_zone import EDGE, FIRM
 from macroslip.integrate.radau_step import NODES
+from macroslip.integrate.sealed import has_microslip
 from macroslip.integrate.tuning import GRIPPED
 from macroslip.roller.forces import net_force
 
@@ -20,6 +21,7 @@ def first_guess(path, state, step, zone, exponent):
     """
     model, h, slip, forces = path.model, step.length, state.slip, state.forces
     at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
+    microslip = has_microslip(model)
     gripped = model.mobility * forces.slope * h
     v1, v2, v3 = slip, slip, slip
     if gripped < 1.0 and zone != EDGE:
@@ -32,8 +34,8 @@ def first_guess(path, state, step, zone, exponent):
         v1 = slip + (at1.ring_speed - at.ring_speed)
         v2 = slip + (at2.ring_speed - at.ring_speed)
         v3 = slip + (at3.ring_speed - at.ring_speed)
-    if zone == FIRM or (slips_everywhere(model.inner) and gripped > GRIPPED and at3.elastic_load > 0.0):
-        v1 = held_slip(model.inner, v1, at, at1, exponent)
-        v2 = held_slip(model.inner, v2, at, at2, exponent)
-        v3 = held_slip(model.inner, v3, at, at3, exponent)
+    if zone == FIRM or (microslip and gripped > GRIPPED and at3.elastic_load > 0.0):
+        v1 = held_slip(microslip, v1, at, at1, exponent)
+        v2 = held_slip(microslip, v2, at, at2, exponent)
+        v3 = held_slip(microslip, v3, at, at3, exponent)
     return v1, v2, v3

@@ -6,13 +6,15 @@ import math
 
 from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
-from macroslip.integrate.detail import Passage, book_stage, book_step, in_stages
+from macroslip.integrate.booking import write_traces
+from macroslip.integrate.detail import Passage, in_stages
 from macroslip.integrate.explicit_euler import explicit_euler_step
-from macroslip.integrate.record import add_energy, add_rolling, note_state, orbit_at, powers, raise_peak, write_traces
+from macroslip.integrate.record import add_energy, add_rolling, orbit_at, raise_peak
+from macroslip.integrate.sealed import book_stage_of, book_step_of, forces_of, note_state_of, powers_of, station_of
 from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, INTERRUPTED, NO_ROOT, NOT_FINITE
 from macroslip.integrate.surface import Way
+from macroslip.reference import by_reference
 from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import slip_forces, station
 
 
 @jit
@@ -40,14 +42,15 @@ def integrate_fixed_step(path, slip, end, record):
     -----
     The slip is formed as u2 − r ω and so carries the round-off of the surface speeds; that is part of these methods.
     """
+    path, record = by_reference(path), by_reference(record)
     model, motion, rule = path.model, path.motion, path.limits
     start = motion.time[0]
     time, interval, next_trace = start, 0, 0
     record.count[2] += 1
     status, orbit = COMPLETED, -1
-    at = station(model, path.start_angle, instant(motion, 0, time))
+    at = station_of(model, path.start_angle, instant(motion, 0, time))
     spin = (at.ring_speed - slip) / model.radius
-    forces = slip_forces(model, at, slip)
+    forces = forces_of(model, at, slip)
     while True:
         next_trace = write_traces(record, model, next_trace, time, at, forces, slip)
         if time >= end:
@@ -59,8 +62,8 @@ def integrate_fixed_step(path, slip, end, record):
         span = after - time
         interval = interval_of(motion, after, interval)
         turned = instant(motion, interval_of(motion, time, interval), time).shaft_angle
-        reached = station(model, path.start_angle, instant(motion, interval, after))
-        inner, outer, cage = powers(model, at, forces, slip)
+        reached = station_of(model, path.start_angle, instant(motion, interval, after))
+        inner, outer, cage = powers_of(model, at, forces, slip)
         if rule.implicit:
             spin, used, unbalanced = backward_euler_step(model, reached, spin, span, rule.tolerance)
             record.count[2] += used
@@ -76,27 +79,27 @@ def integrate_fixed_step(path, slip, end, record):
         if abs(slip) > rule.largest_slip:
             time, status = after, IMPOSSIBLE_SLIP
             break
-        forces = slip_forces(model, reached, slip)
+        forces = forces_of(model, reached, slip)
         record.count[2] += 1
         if rule.implicit:
-            inner, outer, cage = powers(model, reached, forces, slip)
+            inner, outer, cage = powers_of(model, reached, forces, slip)
         if time >= record.edges[0]:
             orbit = orbit_at(record, 0.5 * (time + after), orbit)
             add_energy(record, orbit, span * inner, span * outer, span * cage)
             raise_peak(record, orbit, 0, inner)
             raise_peak(record, orbit, 1, outer)
             raise_peak(record, orbit, 2, cage)
-            note_state(record, model, reached, forces, slip, span)
+            note_state_of(record, model, reached, forces, slip, span)
             # Rectangles: the state a step is evaluated at stands for the whole step.
             if rule.implicit:
                 add_rolling(record, forces.rolling_power, span)
-                book_stage(record, model, reached, forces, slip, span)
+                book_stage_of(record, model, reached, forces, slip, span)
             else:
                 add_rolling(record, before.rolling_power, span)
-                book_stage(record, model, at, before, slip_before, span)
+                book_stage_of(record, model, at, before, slip_before, span)
             parts = (in_stages(span * inner), in_stages(span * outer))
             way = Way(path.start_angle, model.orbit_ratio, turned, instant(motion, interval, after).shaft_angle)
-            book_step(record, model, reached, forces, slip, span, Passage(orbit, parts, way))
+            book_step_of(record, model, reached, forces, slip, span, Passage(orbit, parts, way))
         time, at = after, reached
         record.count[0] += 1
     record.end[0], record.end[1] = time, slip

@@ -9,7 +9,7 @@ from numba.extending import overload
 from macroslip.compiled import jit, jit_part
 from macroslip.film.film_law import film_thickness
 from macroslip.integrate.tuning import MOST_QUICKENING, STEEPEST, TELLING
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved, raceway_force
 from macroslip.traction.traction_law import rising_slip
 
 
@@ -58,14 +58,49 @@ def _slips_everywhere(contact):
     return lambda contact: False
 
 
+@jit
+def rising_at(model, inner_load, outer_load, ring_speed, entrainment_speed):
+    """Slip up to which traction rises at both raceways at the given loads [N] and speeds [m/s]."""
+    inner = steady_slip(model.inner, inner_load, entrainment_speed, slip_variation(model.inner, inner_load, ring_speed))
+    outer = steady_slip(model.outer, outer_load, entrainment_speed, slip_variation(model.outer, outer_load, ring_speed))
+    return min(inner, outer)
+
+
+@jit
+def relaxation_rate(model, load, ring_speed):
+    """Rate (r²/I_z') d(F_i + F_o)/dv [1/s] at the slip at which F_i + F_o = 0, under `load` [N].
+
+    `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a Newton iteration held
+    within the slips that occur in the contact finds it.
+    """
+    slip, low, high = 0.0, -math.inf, math.inf
+    rate = 0.0
+    for _ in range(20):
+        inner = raceway_force(model.inner, load, slip, ring_speed, ring_speed, 0.0)
+        outer = raceway_force(model.outer, load, slip, ring_speed, ring_speed, 0.0)
+        rest, slope = inner.spin + outer.spin, inner.spin_slope + outer.spin_slope
+        rate = model.mobility * slope
+        if rest > 0.0:
+            high = slip
+        else:
+            low = slip
+        following = slip - rest / slope if slope > 0.0 else slip
+        if not low <= following <= high:
+            following = 0.5 * (low + high)
+        if abs(following - slip) <= 1e-6 * abs(slip) or not math.isfinite(following):
+            break
+        slip = following
+    return rate
+
+
 @jit_part
-def held_slip(contact, slip, at, later, exponent):
+def held_slip(microslip, slip, at, later, exponent):
     """Guess of the slip of a firmly held roller at a later station from its slip now.
 
     With microslip the middle slips so that the two sides of the lines of pure rolling balance: in proportion to speed,
     and to a power of the load that `held_exponent` measures.
     """
-    if not slips_everywhere(contact) or at.elastic_load <= 0.0 or at.ring_speed == 0.0:
+    if not microslip or at.elastic_load <= 0.0 or at.ring_speed == 0.0:
         return slip
     if abs(later.ring_speed) > MOST_QUICKENING * abs(at.ring_speed):
         return slip

@@ -13,40 +13,12 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit, jit_part
-from macroslip.integrate.held_contact import slips_everywhere
+from macroslip.integrate.sealed import has_microslip, relaxation_of
 from macroslip.integrate.tuning import FIRM_RATE, FIRM_RATE_MICROSLIP
 from macroslip.ring.orbit import Instant, instant
-from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.forces import interference
 
 FREE, EDGE, FIRM = 0, 1, 2
-
-
-@jit
-def relaxation_rate(model, load, ring_speed):
-    """Rate (r²/I_z') d(F_i + F_o)/dv [1/s] at the slip at which F_i + F_o = 0, under `load` [N].
-
-    `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a Newton iteration held
-    within the slips that occur in the contact finds it.
-    """
-    slip, low, high = 0.0, -math.inf, math.inf
-    rate = 0.0
-    for _ in range(20):
-        inner = raceway_force(model.inner, load, slip, ring_speed, ring_speed, 0.0)
-        outer = raceway_force(model.outer, load, slip, ring_speed, ring_speed, 0.0)
-        rest, slope = inner.spin + outer.spin, inner.spin_slope + outer.spin_slope
-        rate = model.mobility * slope
-        if rest > 0.0:
-            high = slip
-        else:
-            low = slip
-        following = slip - rest / slope if slope > 0.0 else slip
-        if not low <= following <= high:
-            following = 0.5 * (low + high)
-        if abs(following - slip) <= 1e-6 * abs(slip) or not math.isfinite(following):
-            break
-        slip = following
-    return rate
 
 
 @jit
@@ -55,13 +27,13 @@ def firm_interference(model, ring_speed):
 
     Infinite if no load up to 1 GN holds it firmly (a law with bounded slope): then no interval is `FIRM`.
     """
-    firm_rate = FIRM_RATE_MICROSLIP if slips_everywhere(model.inner) else FIRM_RATE
+    firm_rate = FIRM_RATE_MICROSLIP if has_microslip(model) else FIRM_RATE
     low, high = 1e-3, 1e9
-    if relaxation_rate(model, high, ring_speed) < firm_rate:
+    if relaxation_of(model, high, ring_speed) < firm_rate:
         return math.inf
     for _ in range(100):
         middle = math.sqrt(low * high)
-        if relaxation_rate(model, middle, ring_speed) < firm_rate:
+        if relaxation_of(model, middle, ring_speed) < firm_rate:
             low = middle
         else:
             high = middle

@@ -8,13 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_part
-from macroslip.integrate.held_contact import slips_everywhere
 from macroslip.integrate.load_zone import EDGE, FIRM, edge_time
 from macroslip.integrate.path import State
-from macroslip.integrate.record import powers
+from macroslip.integrate.sealed import forces_of, has_microslip, powers_of
 from macroslip.integrate.tuning import EDGE_STEP, FIRST_STEP, SETTLED
 from macroslip.ring.orbit import interval_of
-from macroslip.roller.forces import net_force, slip_forces
+from macroslip.roller.forces import net_force
 
 
 class Pace(NamedTuple):
@@ -80,7 +79,7 @@ def next_stretch(path, state, pace, stops, classes, record):
     state = State(time, interval, state.slip, state.at, state.forces, state.powers)
     zone = np.int64(classes[interval])
     sample_step = path.motion.time[interval + 1] - path.motion.time[interval]
-    jumps = not slips_everywhere(path.model.inner)
+    jumps = not has_microslip(path.model)
     last, step = interval, pace.step
     # With microslip the power of a held roller has a kink at every sample.
     if zone != EDGE and step > 2.0 * sample_step and (jumps or zone != FIRM):
@@ -109,11 +108,11 @@ def _rebalanced(path, state, record):
     needed = -model.orbit_ratio * model.outer_radius * acceleration / model.mobility
     slip = state.slip
     for _ in range(3):
-        forces = slip_forces(model, state.at, slip)
+        forces = forces_of(model, state.at, slip)
         slip += (needed - net_force(forces)) / forces.slope
     record.count[2] += 3
     if not abs(slip - state.slip) < SETTLED * path.limits.speed_scale:
         return state
-    forces = slip_forces(model, state.at, slip)
+    forces = forces_of(model, state.at, slip)
     record.count[2] += 1
-    return State(state.time, interval, slip, state.at, forces, powers(model, state.at, forces, slip))
+    return State(state.time, interval, slip, state.at, forces, powers_of(model, state.at, forces, slip))

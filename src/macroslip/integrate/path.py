@@ -8,10 +8,9 @@ import numpy as np
 
 from macroslip.compiled import jit_part
 from macroslip.integrate.radau_step import NODES
-from macroslip.integrate.record import powers
+from macroslip.integrate.sealed import forces_of, powers_of, station_of
 from macroslip.integrate.tuning import LONGEST_TURN
 from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import slip_forces, station
 
 
 class Limits(NamedTuple):
@@ -77,7 +76,8 @@ class Path(NamedTuple):
 
     Attributes
     ----------
-    model : RollerModel
+    model : SealedModel
+        In plain Python a RollerModel will do.
     motion : Motion
     start_angle : float
         Position φ at the first sample [rad].
@@ -133,9 +133,9 @@ class Step(NamedTuple):
 @jit_part
 def state_at(path, time, interval, slip):
     """The roller at a time [s] in a sample interval, slipping at `slip` [m/s]; one force evaluation."""
-    at = station(path.model, path.start_angle, instant(path.motion, interval, time))
-    forces = slip_forces(path.model, at, slip)
-    return State(time, interval, slip, at, forces, powers(path.model, at, forces, slip))
+    at = station_of(path.model, path.start_angle, instant(path.motion, interval, time))
+    forces = forces_of(path.model, at, slip)
+    return State(time, interval, slip, at, forces, powers_of(path.model, at, forces, slip))
 
 
 @jit_part
@@ -150,9 +150,9 @@ def step_from(path, state, length):
         1.0 / (length * path.model.mobility),
         k3,
         (t1, t2, t3),
-        station(path.model, path.start_angle, instant(path.motion, k1, t1)),
-        station(path.model, path.start_angle, instant(path.motion, k2, t2)),
-        station(path.model, path.start_angle, instant(path.motion, k3, t3)),
+        station_of(path.model, path.start_angle, instant(path.motion, k1, t1)),
+        station_of(path.model, path.start_angle, instant(path.motion, k2, t2)),
+        station_of(path.model, path.start_angle, instant(path.motion, k3, t3)),
     )
 
 

@@ -7,21 +7,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import borrowed, jit, jit_part
-from macroslip.integrate.booking import Peaks, book, step_powers
+from macroslip.compiled import jit, jit_part
+from macroslip.integrate.booking import Peaks, book, step_powers, write_traces
 from macroslip.integrate.first_guess import first_guess
-from macroslip.integrate.held_contact import held_exponent, slips_everywhere
+from macroslip.integrate.held_contact import held_exponent
 from macroslip.integrate.load_zone import EDGE, FIRM, FREE, classify
 from macroslip.integrate.pace import first_pace, next_stretch, paced, shortened
 from macroslip.integrate.path import State, state_at, step_from
 from macroslip.integrate.peak import start_peak
 from macroslip.integrate.radau_step import energy_error
-from macroslip.integrate.record import write_traces
 from macroslip.integrate.root import is_continuous
+from macroslip.integrate.sealed import has_microslip
 from macroslip.integrate.stages import solve_stages
 from macroslip.integrate.status import COMPLETED, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
 from macroslip.integrate.step_control import error_ratio, first_cusp, slip_error_of, step_factor
 from macroslip.integrate.tuning import CUSP_PART, GROWTH, LEAST_PART, LIMIT_EXPONENT, UNSOLVED_PART
+from macroslip.reference import by_reference
 
 
 class Memory(NamedTuple):
@@ -75,7 +76,8 @@ def integrate_radau(path, slip, stops, classes, record):
     int
         A `Status`, or `INTERRUPTED`.
     """
-    path, stops, classes, record = borrowed(path), borrowed(stops), borrowed(classes), borrowed(record)
+    path, record = by_reference(path), by_reference(record)
+    stops, classes = by_reference(stops), by_reference(classes)
     classify(path.model, path.motion, path.start_angle, path.limits.firm, classes)
     state = state_at(path, path.motion.time[0], 0, slip)
     record.count[2] += 1
@@ -150,7 +152,7 @@ def _halted(limits, record):
 @jit_part
 def _attempt(path, state, step, pace, memory, spent, record):
     """Solve a step and find its error; `spent` is the energy of the steps before it [J]."""
-    held = pace.zone == FIRM and slips_everywhere(path.model.inner)
+    held = pace.zone == FIRM and has_microslip(path.model)
     guess = first_guess(path, state, step, pace.zone, memory.exponent)
     stages = solve_stages(path, state, step, guess, held, memory.bend)
     record.count[2] += stages.evaluations

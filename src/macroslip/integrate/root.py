@@ -8,16 +8,15 @@ root found is the continuous one.
 from __future__ import annotations
 
 from macroslip.compiled import jit, jit_part
-from macroslip.integrate.held_contact import slip_variation, steady_slip
+from macroslip.integrate.sealed import rising_of
 from macroslip.integrate.tuning import HOT_CHANGE, SMALL_CHANGE
 
 
 @jit
-def rising_at(model, inner_load, outer_load, ring_speed, entrainment_speed):
-    """Slip up to which traction rises at both raceways at the given loads [N] and speeds [m/s]."""
-    inner = steady_slip(model.inner, inner_load, entrainment_speed, slip_variation(model.inner, inner_load, ring_speed))
-    outer = steady_slip(model.outer, outer_load, entrainment_speed, slip_variation(model.outer, outer_load, ring_speed))
-    return min(inner, outer)
+def cold_slip(model, load, speed):
+    """Slip [m/s] up to which traction rises at loads up to `load` [N] and raceway speeds up to `speed` [m/s]."""
+    # Twice the raceways' speed bounds the slip, and with it the thickest film.
+    return rising_of(model, load, load, speed, 2.0 * speed)
 
 
 @jit_part
@@ -26,7 +25,7 @@ def _surely_rising(model, at, step, slip):
     inner = max(at.inner_load, step.at1.inner_load, step.at2.inner_load, step.at3.inner_load)
     outer = max(at.outer_load, step.at1.outer_load, step.at2.outer_load, step.at3.outer_load)
     ring = max(abs(at.ring_speed), abs(step.at3.ring_speed))
-    return rising_at(model, inner, outer, ring, ring + 0.5 * abs(slip))
+    return rising_of(model, inner, outer, ring, ring + 0.5 * abs(slip))
 
 
 @jit_part

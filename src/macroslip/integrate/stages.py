@@ -6,8 +6,8 @@ import math
 from typing import Any, NamedTuple
 
 from macroslip.compiled import jit_part
-from macroslip.integrate.held_contact import slips_everywhere
 from macroslip.integrate.radau_step import collocation, newton_update, residuals
+from macroslip.integrate.sealed import forces_of, has_microslip, station_of
 from macroslip.integrate.tuning import (
     BEND_SAFETY,
     FORCE_TOLERANCE,
@@ -18,7 +18,7 @@ from macroslip.integrate.tuning import (
     MICROSLIP_FORCE_TOLERANCE,
 )
 from macroslip.ring.orbit import instant
-from macroslip.roller.forces import magnitude, net_force, shifted, slip_forces, station
+from macroslip.roller.forces import magnitude, net_force, shifted
 
 
 class Stages(NamedTuple):
@@ -90,15 +90,15 @@ def solve_stages(path, state, step, guess, held, bend):
     d1 = at1.ring_speed - at.ring_speed
     d2 = at2.ring_speed - at.ring_speed
     d3 = at3.ring_speed - at.ring_speed
-    force_part = force_tolerance(path.limits.tolerance, slips_everywhere(model.inner))
+    force_part = force_tolerance(path.limits.tolerance, has_microslip(model))
     round_off = 4e-15 * scale * (path.limits.speed_scale + abs(slip))
     converged, unbalanced, evaluations = False, math.inf, 0
     f1, f2, f3 = forces, forces, forces
     s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
     for iteration in range(ITERATIONS):
-        f1 = slip_forces(model, at1, v1)
-        f2 = slip_forces(model, at2, v2)
-        f3 = slip_forces(model, at3, v3)
+        f1 = forces_of(model, at1, v1)
+        f2 = forces_of(model, at2, v2)
+        f3 = forces_of(model, at3, v3)
         evaluations += 3
         s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
         rest = residuals(scale, s1, s2, s3, net_force(f1), net_force(f2), net_force(f3))
@@ -142,5 +142,5 @@ def between_stages(path, state, step, stages, interval, part):
     """Station, slip [m/s] and rate of its increment [m/s] at a part of a step, which lies in `interval` there."""
     increment, rate = collocation(part, stages.s1, stages.s2, stages.s3)
     now = instant(path.motion, interval, state.time + part * step.length)
-    there = station(path.model, path.start_angle, now)
+    there = station_of(path.model, path.start_angle, now)
     return there, state.slip + there.ring_speed - state.at.ring_speed + increment, rate

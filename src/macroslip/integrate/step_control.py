@@ -6,9 +6,9 @@ import math
 
 from macroslip.compiled import jit_part
 from macroslip.integrate.crossing import crossing
-from macroslip.integrate.held_contact import slips_everywhere
 from macroslip.integrate.load_zone import EDGE, FIRM
 from macroslip.integrate.radau_step import slip_error
+from macroslip.integrate.sealed import forces_of, has_microslip
 from macroslip.integrate.stages import between_stages
 from macroslip.integrate.tuning import (
     DEFECT_NODES,
@@ -21,7 +21,7 @@ from macroslip.integrate.tuning import (
     SLIP_SHARE,
 )
 from macroslip.ring.orbit import interval_of
-from macroslip.roller.forces import net_force, slip_forces
+from macroslip.roller.forces import net_force
 
 
 @jit_part
@@ -57,7 +57,7 @@ def defect_error(path, state, step, stages, looks):
         part = DEFECT_NODES[check]
         here = interval_of(path.motion, state.time + part * step.length, state.interval)
         there, between, rate = between_stages(path, state, step, stages, here, part)
-        push = slip_forces(path.model, there, between)
+        push = forces_of(path.model, there, between)
         defect = rate + turn * net_force(push)
         grip = turn * abs(push.slope)
         worst = max(worst, DEFECT_WEIGHT * abs(defect) / (1.0 + grip))
@@ -67,7 +67,7 @@ def defect_error(path, state, step, stages, looks):
 @jit_part
 def slip_error_of(path, state, step, stages, zone, record):
     """Estimated error of slip of a step [m/s]; evaluations are counted in `record`."""
-    microslip = slips_everywhere(path.model.inner)
+    microslip = has_microslip(path.model)
     slip_off = 0.0
     if not (zone == FIRM and microslip):
         # A held roller's slip is the balance of the instant, solved for at the end of the step.

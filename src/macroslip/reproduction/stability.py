@@ -10,7 +10,7 @@ import numpy as np
 from macroslip.bearing.frames import AXIAL_SIGNS
 from macroslip.case.case import Case
 from macroslip.case.parts import BackwardEuler, ExplicitEuler, Radau, Traces
-from macroslip.integrate.load_zone import relaxation_rate
+from macroslip.integrate.held_contact import relaxation_rate
 from macroslip.result.simulate import simulate
 from macroslip.roller.model import RollerModel, roller_model
 

@@ -18,7 +18,8 @@ from macroslip.integrate.load_zone import empty_classes, firm_interference
 from macroslip.integrate.path import FixedStep, Limits, Path, longest_step
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import RollerRecord, new_record
-from macroslip.integrate.root import rising_at
+from macroslip.integrate.root import cold_slip
+from macroslip.integrate.sealed import sealed
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
@@ -103,10 +104,11 @@ def simulate(
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
     models, evaluation = evaluated_models(case, models, motion, largest)
+    rollers = {row: sealed(one) for row, one in models.items()}
 
     def run(row: str, angle: float) -> tuple[int, RollerRecord]:
         record = new_record(edges, trace_time, highest_speed(motion, model))
-        path = Path(models[row], motion, angle, limits)
+        path = Path(rollers[row], motion, angle, limits)
         if isinstance(limits, Limits):
             return integrate_radau(path, 0.0, stops, empty_classes(motion.time.size), record), record
         return integrate_fixed_step(path, 0.0, end, record), record
@@ -221,8 +223,8 @@ def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float)
         return None
     speed = highest_speed(motion, model)
     heaviest = largest + abs(model.weight_in_plane) + model.centrifugal * (speed / model.outer_radius) ** 2
-    # Twice the raceways' speed bounds the slip, and with it the thickest film.
-    cold = rising_at(model, heaviest, heaviest, speed, 2.0 * speed) if heaviest else np.inf
+    roller = sealed(model)
+    cold = cold_slip(roller, heaviest, speed) if heaviest else np.inf
     return Limits(
         tolerance=float(case.integrator.tolerance),
         max_steps=case.integrator.max_steps,
@@ -230,7 +232,7 @@ def radau_limits(case: Case, motion: Motion, model: RollerModel, largest: float)
         energy_scale=speed**2 / model.mobility,
         longest_step=longest_step(motion, model.orbit_ratio),
         cold_slip=float(cold),
-        firm=firm_interference(model, speed),
+        firm=firm_interference(roller, speed),
         interrupt=np.zeros(1, dtype=np.int8),
     )
 

@@ -290,7 +290,7 @@ def asperity_power(detail):
 
 def is_curved(contact) -> bool:
     """Whether a contact is curved, from its numba type; for use where a kernel is compiled."""
-    return isinstance(contact, types.NamedTuple) and contact.instance_class is CurvedContact
+    return getattr(contact, "instance_class", None) is CurvedContact
 
 
 @overload(asperity_power)

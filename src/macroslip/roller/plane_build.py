@@ -10,6 +10,7 @@ import numpy as np
 
 from macroslip.compiled import jit
 from macroslip.contact.spline import axis, axis_middles, axis_nodes, read_only, tensor_coefficients
+from macroslip.reference import by_reference
 from macroslip.roller.contact_force import CurvedContact, cage_force
 from macroslip.roller.films import Films, faded, log_film, raceway_film
 from macroslip.roller.model import RollerModel
@@ -27,6 +28,7 @@ _STATES = 4000
 @jit
 def cage_values(contact, loads, slips, values):
     """Write ln(F/Δu) and the asperities' part of power at states of Q [N] and Δu [m/s], shape (states, 2)."""
+    contact = by_reference(contact)
     for n in range(loads.size):
         force, _, _, detail = cage_force(contact, loads[n], slips[n], 0.5 * slips[n], 0.5)
         values[n, 0] = math.log(force / slips[n])
@@ -36,6 +38,7 @@ def cage_values(contact, loads, slips, values):
 @jit
 def film_values(films, raceway, loads, speeds, values):
     """Write ln of sliding per slip, of rolling resistance and of the film at Q [N] and mean speed [m/s], shape (states, 3)."""
+    films = by_reference(films)
     for n in range(loads.size):
         # Sliding is in proportion to slip at a given mean speed.
         found = raceway_film(films, raceway, loads[n], speeds[n], 1.5 * speeds[n])

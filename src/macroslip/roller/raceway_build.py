@@ -10,6 +10,7 @@ import numpy as np
 
 from macroslip.compiled import jit
 from macroslip.contact.spline import axis, axis_middles, axis_nodes, read_only, tensor_coefficients
+from macroslip.reference import by_reference
 from macroslip.roller.contact_force import CurvedContact, raceway_force
 from macroslip.roller.raceway_table import CHANNELS, SLIP_RATIO, RacewayTable
 from macroslip.roller.table_box import LARGEST_ERROR, TableBox, error_summary, values_at
@@ -36,6 +37,7 @@ _STATES, _SLIPS, _USUAL_RATIO = 400, 20, 0.006
 @jit
 def raceway_values(contact, loads, speeds, slips, values):
     """Write what a table holds at states of Q [N], u2 > 0 [m/s] and Δu [m/s], shape (states, 4); NaN for loads of NaN."""
+    contact = by_reference(contact)
     for n in range(loads.size):
         load, speed, slip = loads[n], speeds[n], slips[n]
         if math.isnan(load):
