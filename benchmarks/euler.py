@@ -6,10 +6,10 @@ import numpy as np
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
+from macroslip.integrate.entries import sealed
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.path import FixedStep, Path
 from macroslip.integrate.record import new_record
-from macroslip.integrate.sealed import sealed
 from macroslip.integrate.status import COMPLETED
 
 

@@ -6,11 +6,11 @@ import numpy as np
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
+from macroslip.integrate.entries import sealed
 from macroslip.integrate.load_zone import empty_classes
 from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import RollerRecord, new_record
-from macroslip.integrate.sealed import sealed
 from macroslip.integrate.status import COMPLETED
 
 #: Tolerance of the reference.

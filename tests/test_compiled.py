@@ -36,7 +36,9 @@ def prepare(interface):
 
 @jit
 def traction(law, load, film_thickness, slip):
-    return law.conductance * slip * FACTOR, law.conductance * FACTOR, 0.0, 0.0
+    # A law is a tuple to its own functions.
+    (conductance,) = law
+    return conductance * slip * FACTOR, conductance * FACTOR, 0.0, 0.0
 
 FACTOR = {factor}
 

@@ -67,8 +67,9 @@ def _storing() -> Iterator[Path | None]:
         numba.config.CACHE_DIR = before
 
 
-#: Options of everything that is compiled.
-_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
+#: Options of everything that is compiled. Nothing that is compiled so is called from C, and an entry for that would be a
+#: twelfth of the work.
+_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 
 def _cached(function: Callable, **options: Any) -> Callable:

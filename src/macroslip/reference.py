@@ -14,7 +14,7 @@ from llvmlite import ir
 from numba import types
 from numba.core.errors import TypingError
 from numba.core.typing.templates import AttributeTemplate
-from numba.extending import infer_getattr, intrinsic, lower_getattr_generic, models, register_model
+from numba.extending import infer_getattr, intrinsic, lower_getattr_generic, models, register_jitable, register_model
 
 
 class Reference(types.Type):
@@ -114,6 +114,15 @@ def _by_reference(typingctx: Any, value: Any) -> Any:
     return (Reference(value) if _is_bundle(value) else value)(value), generate
 
 
+def _loaded(typingctx: Any, reference: Any) -> Any:
+    """The named tuple that a reference points to."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return _uncounted(context, builder, reference.target, builder.load(arguments[0]))
+
+    return reference.target(reference), generate
+
+
 def _placed(builder: Any, value: Any) -> Any:
     """Address of a value, in memory of the function's own."""
     with builder.goto_entry_block():
@@ -209,5 +218,21 @@ def calling(given: Any, result: Any) -> Any:
 
 
 by_reference: Any = intrinsic(_by_reference)
+loaded: Any = intrinsic(_loaded)
 write: Any = intrinsic(_write)
 packed: Any = intrinsic(_packed)
+
+
+def taking(law: Any, function: Any) -> Any:
+    """A function of a law, for kernels that know the law's type `law`.
+
+    A law of the user's own is handed on itself, in case it is not only asked for its fields.
+    """
+    if not isinstance(law, Reference) or law.instance_class.__module__.startswith("macroslip."):
+        return function
+
+    @register_jitable
+    def of_tuple(law: Any, *rest: Any) -> Any:
+        return function(loaded(law), *rest)
+
+    return of_tuple

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from macroslip.film.film_law import film_thickness
+from macroslip.integrate.entries import sealed
 from macroslip.integrate.held_contact import relaxation_rate
 from macroslip.integrate.load_zone import (
     EDGE,
@@ -20,7 +21,6 @@ from macroslip.integrate.load_zone import (
     firm_interference,
     interference_at,
 )
-from macroslip.integrate.sealed import sealed
 from macroslip.integrate.tuning import FIRM_RATE, FIRM_RATE_MICROSLIP
 from macroslip.mechanisms import Laws
 from macroslip.ring.orbit import Motion, shaft_angle

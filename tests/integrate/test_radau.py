@@ -163,21 +163,23 @@ def test_shaft_reversal_with_microslip_gives_power_and_energy_of_a_tight_toleran
         assert (abs(found.min_spin_ratio) < 10.0).all()
 
 
-@pytest.mark.parametrize("tolerance", [2e-4, 1e-6, 1e-8])
-def test_start_from_standstill_with_microslip(tolerance):
+def test_start_from_standstill_with_microslip():
     """No energy has been spent yet to which that of the first steps could be compared."""
     time = np.linspace(0.0, 8.0, 161)
     speed = np.clip((time - 1.0) / 3.0, 0.0, 1.0)
     loads = BearingLoads(time, speed, np.tile([0.0, -300e3, 60e3], (time.size, 1)), "starting")
-    found = run(loads, tolerance, rollers=[0, 7, 14], laws=Laws.physical(), window=Window(start=0.0))
-    exact = run(loads, 1e-10, rollers=[0, 7, 14], laws=Laws.physical(), window=Window(start=0.0))
-    assert (found.status == Status.COMPLETED).all() and (exact.status == Status.COMPLETED).all()
+    tightest, *others = (
+        run(loads, tolerance, rollers=[0, 14], laws=Laws.physical(), window=Window(start=0.0))
+        for tolerance in (1e-8, 1e-6, 2e-4)
+    )
+    assert (tightest.status == Status.COMPLETED).all()
     # A step may be off by ten tolerances of its energy, or of what the mean power since the start spends in its time,
     # whichever is more. The energies E of the steps add up to that of the history, those of the mean power to the
     # integral of E(t)/t, which is 1.1 times as much here.
-    np.testing.assert_allclose(
-        found.energy.sum("interface"), exact.energy.sum("interface"), rtol=min(21.0 * tolerance, 1e-3)
-    )
+    exact = tightest.energy.sum("interface")
+    for found, tolerance in zip(others, (1e-6, 2e-4), strict=True):
+        assert (found.status == Status.COMPLETED).all()
+        np.testing.assert_allclose(found.energy.sum("interface"), exact, rtol=min(21.0 * (tolerance + 1e-8), 1e-3))
 
 
 def test_spin_ratio_of_a_shaft_at_rest_is_not_a_number():

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from macroslip.compiled import jit
+from macroslip.integrate.entries import sealed
 from macroslip.integrate.held_contact import relaxation_rate, rising_at
 from macroslip.integrate.measures import powers
-from macroslip.integrate.sealed import forces_of, powers_of, relaxation_of, rising_of, sealed, station_of
+from macroslip.integrate.sealed import forces_of, powers_of, relaxation_of, rising_of, station_of
 from macroslip.mechanisms import Laws
 from macroslip.ring.orbit import Instant
 from macroslip.roller.forces import slip_forces, station

@@ -14,6 +14,7 @@ from numba.extending import overload
 from macroslip.compiled import depend_on
 from macroslip.contact.interface import Interface
 from macroslip.contact.law_registry import LawList
+from macroslip.reference import taking
 
 _laws = LawList("film")
 names, reference, prepare, remove = _laws.names, _laws.reference, _laws.prepare, _laws.remove
@@ -88,11 +89,11 @@ def film_in_range(law, load, entrainment_speed):
 
 @overload(film_thickness)
 def _film_thickness(law, load, entrainment_speed):
-    implementation = _thickness[law.instance_class]
+    implementation = taking(law, _thickness[law.instance_class])
     return lambda law, load, entrainment_speed: implementation(law, load, entrainment_speed)
 
 
 @overload(film_in_range)
 def _film_in_range(law, load, entrainment_speed):
-    implementation = _in_range[law.instance_class]
+    implementation = taking(law, _in_range[law.instance_class])
     return lambda law, load, entrainment_speed: implementation(law, load, entrainment_speed)

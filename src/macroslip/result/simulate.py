@@ -13,13 +13,13 @@ from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
 from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
+from macroslip.integrate.entries import sealed
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.load_zone import empty_classes, firm_interference
 from macroslip.integrate.path import FixedStep, Limits, Path, longest_step
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import RollerRecord, new_record
 from macroslip.integrate.root import cold_slip
-from macroslip.integrate.sealed import sealed
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset

@@ -12,6 +12,7 @@ from numba.extending import overload
 from macroslip.compiled import depend_on
 from macroslip.constants import MECHANISMS
 from macroslip.contact.law_registry import LawList
+from macroslip.reference import taking
 from macroslip.traction.patch import Patch
 
 _laws = LawList("traction", reserved=(MECHANISMS,))
@@ -105,14 +106,15 @@ def rising_slip(law, load, film_thickness):
 
 @overload(patch_traction)
 def _patch_traction(law, load, film_thickness, slip):
-    implementation = _traction[law.instance_class]
+    implementation = taking(law, _traction[law.instance_class])
     return lambda law, load, film_thickness, slip: implementation(law, load, film_thickness, slip)
 
 
 @overload(patch_traction_microslip)
 def _patch_traction_microslip(law, load, film_thickness, field, shape, fine):
-    uniform = _traction[law.instance_class]
+    uniform = taking(law, _traction[law.instance_class])
     varying = _microslip.get(law.instance_class)
+    varying = varying and taking(law, varying)
 
     def alike(law, load, film_thickness, field, shape, fine):
         force, slope, by_film, _ = uniform(law, load, film_thickness, field.sliding)
@@ -129,7 +131,7 @@ def _patch_traction_microslip(law, load, film_thickness, field, shape, fine):
 
 @overload(rising_slip)
 def _rising_slip_of(law, load, film_thickness):
-    implementation = _rising_slip[law.instance_class]
+    implementation = taking(law, _rising_slip[law.instance_class])
     return lambda law, load, film_thickness: implementation(law, load, film_thickness)
 
 
@@ -144,8 +146,9 @@ def chord_traction(law, load, film_thickness, across, cosine, slip):
 def _chord_traction(law, load, film_thickness, across, cosine, slip):
     chord = _chord.get(law.instance_class)
     if chord is not None:
+        chord = taking(law, chord)
         return lambda law, load, film_thickness, across, cosine, slip: chord(law, load, film_thickness, cosine, slip)
-    whole = _traction[law.instance_class]
+    whole = taking(law, _traction[law.instance_class])
     return lambda law, load, film_thickness, across, cosine, slip: (
         0.75 * cosine * cosine / across * whole(law, load, film_thickness, slip)[0]
     )

@@ -1,0 +1,178 @@
+"""The laws of a roller compiled by themselves, for integrators that call them by address."""
+
+from __future__ import annotations
+
+import threading
+import weakref
+from typing import Any
+
+import numba
+import numpy as np
+from numba.extending import overload
+
+from macroslip.compiled import entry, jit, jit_part
+from macroslip.integrate import sealed as types
+from macroslip.integrate.detail import book_stage, book_step
+from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
+from macroslip.integrate.measures import note_state, powers, write_trace
+from macroslip.integrate.sealed import PLAIN, Entries, Powers, SealedModel, Value
+from macroslip.reference import Reference, packed, write
+from macroslip.roller.contact_force import CurvedContact, Detail
+from macroslip.roller.forces import SlipForces, slip_forces, station
+from macroslip.roller.model import RollerModel
+
+
+def _known(detail):
+    return PLAIN if detail is None else detail
+
+
+@overload(_known)
+def _known_of(detail):
+    if isinstance(detail, numba.types.NoneType):
+        return lambda detail: Detail(0.0, np.nan, 0.0)
+    return lambda detail: detail
+
+
+@jit_part
+def _station(model, given, result):
+    write(result, station(model, given.start_angle, given.now))
+
+
+@jit_part
+def _forces(model, given, result):
+    found = slip_forces(model, given.at, given.slip)
+    write(
+        result,
+        SlipForces(
+            found.inner,
+            found.outer,
+            found.cage,
+            found.slope,
+            found.inner_slope,
+            found.outer_slope,
+            found.cage_load,
+            found.cage_load_slope,
+            found.resistance,
+            found.rolling_power,
+            _known(found.inner_detail),
+            _known(found.outer_detail),
+            _known(found.cage_detail),
+        ),
+    )
+
+
+@jit_part
+def _powers(model, given, result):
+    inner, outer, cage = powers(model, given.at, given.forces, given.slip)
+    write(result, Powers(inner, outer, cage))
+
+
+@jit_part
+def _rising(model, given, result):
+    write(
+        result, Value(rising_at(model, given.inner_load, given.outer_load, given.ring_speed, given.entrainment_speed))
+    )
+
+
+@jit_part
+def _relaxation(model, given, result):
+    write(result, Value(relaxation_rate(model, given.inner_load, given.ring_speed)))
+
+
+@jit_part
+def _note(model, given, record):
+    state = given.state
+    note_state(record, model, state.at, state.forces, state.slip, given.span)
+
+
+@jit_part
+def _stage(model, given, record):
+    state = given.state
+    book_stage(record, model, state.at, state.forces, state.slip, given.span)
+
+
+@jit_part
+def _step(model, given, record):
+    state = given.held.state
+    book_step(record, model, state.at, state.forces, state.slip, given.held.span, given.passage)
+
+
+@jit_part
+def _trace(model, given, record):
+    state = given.state
+    write_trace(record, model, given.index, state.at, state.forces, state.slip)
+
+
+#: What each entry runs, is given, and leaves.
+_ENTRIES = {
+    "station": (_station, types.AT_PLACE, types.STATION),
+    "forces": (_forces, types.AT_SLIP, types.FORCES),
+    "powers": (_powers, types.WITH_FORCES, types.POWERS),
+    "rising": (_rising, types.LOADS, types.VALUE),
+    "relaxation": (_relaxation, types.LOADS, types.VALUE),
+    "note": (_note, types.HELD_TYPE, types.RECORD_TYPE),
+    "stage": (_stage, types.HELD_TYPE, types.RECORD_TYPE),
+    "step": (_step, types.PASSED_TYPE, types.RECORD_TYPE),
+    "trace": (_trace, types.TRACED_TYPE, types.RECORD_TYPE),
+}
+
+_compiled: dict[Any, dict[str, Any]] = {}
+_lock = threading.Lock()
+
+
+def _entries(kind: Any) -> dict[str, Any]:
+    """The entries of all rollers of a type, which is compiled once."""
+    with _lock:
+        if kind not in _compiled:
+            _compiled[kind] = {
+                name: entry(
+                    function,
+                    Reference(kind),
+                    Reference(given),
+                    result if isinstance(result, Reference) else Reference(result),
+                )
+                for name, (function, given, result) in _ENTRIES.items()
+            }
+        return _compiled[kind]
+
+
+@jit
+def _pack(model, buffer):
+    return packed(model, buffer)
+
+
+def sealed(model: RollerModel) -> SealedModel:
+    """A roller as the integrators take it.
+
+    Parameters
+    ----------
+    model : RollerModel
+
+    Returns
+    -------
+    SealedModel
+        Of the same type whatever the laws are, which are compiled on the first call for such a roller.
+    """
+    entries = Entries(**{name: one.address for name, one in _entries(numba.typeof(model)).items()})
+    data = np.empty(_pack(model, np.empty(0, dtype=np.uint8)), dtype=np.uint8)
+    _pack(model, data)
+    # The bytes point to the model's arrays.
+    weakref.finalize(data, _forget, model)
+    return SealedModel(
+        radius=model.radius,
+        mobility=model.mobility,
+        stiffness=model.stiffness,
+        cos_contact_angle=model.cos_contact_angle,
+        sin_contact_angle=model.sin_contact_angle,
+        radial_play=model.radial_play,
+        orbit_ratio=model.orbit_ratio,
+        outer_radius=model.outer_radius,
+        microslip=slips_everywhere(model.inner),
+        curved=isinstance(model.inner, CurvedContact),
+        data=data,
+        entries=entries,
+    )
+
+
+def _forget(model: RollerModel) -> None:
+    """Nothing: to be called with a model keeps it until then."""
