@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,7 +84,7 @@ VARIATIONS = (
         name="Eyring stress",
         key="lubricant.eyring_stress",
         unit="MPa",
-        base=lambda case: 1e-6 * case.lubricant.eyring_stress,
+        base=lambda case: 1e-6 * (case.lubricant.eyring_stress or math.nan),
         note="stress at which the film thins under shear; what is reported for PAO near 1 GPa",
     ),
 )
