@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+from typing import Any
 
 import numpy as np
 from scipy.integrate import quad
@@ -161,16 +162,46 @@ def thrust() -> None:
     )
 
 
+#: What is changed, one at a time: choice of laws, and value of the oil [SI]; "kept" is that at 35 degC.
+_ASSUMPTIONS: tuple[tuple[str, dict[str, Any], dict[str, float | str]], ...] = (
+    ("as it is", {}, {}),
+    ("limiting shear", {"rheology": "limiting-shear"}, {}),
+    ("Eyring stress of 3.3 MPa at 35 °C", {}, {"eyring_stress": 3.3e6}),
+    ("Eyring stress kept", {}, {"eyring_stress": "kept"}),
+    ("pressure-viscosity coefficient kept", {}, {"pressure_viscosity": "kept"}),
+    ("density kept", {}, {"density": "kept"}),
+    ("film not starved", {"starvation": False}, {}),
+    ("no asperities", {"asperities": "none"}, {}),
+    ("flooded inlets", {}, {"inlet_film": 1e6}),
+    ("gaps 3 % full", {}, {"fullness": 0.03}),
+    ("no rolling resistance, no films of play", {"rolling": "none"}, {}),
+    (
+        "limiting shear, no asperities, no rolling resistance",
+        {"rheology": "limiting-shear", "asperities": "none", "rolling": "none"},
+        {},
+    ),
+)
+
+
 def temperature() -> None:
-    """Sliding energy of the downwind row over temperature, under both laws of shear."""
+    """Sliding energy of the downwind row over temperature, and with one assumption changed at a time."""
     loads = HubLoads.bundled("12B").window(0.0, 40.0)
-    for rheology in ("limiting-shear", "eyring"):
-        found = []
+    for name, choices, values in _ASSUMPTIONS:
+        whole, raceways = [], []
         for celsius in (20.0, 35.0, 50.0):
-            laws = Laws.physical().but(rheology=rheology)
-            result = simulate(Case(loads=loads, rollers=[0, 14], laws=laws, temperature=celsius + 273.15))
-            found.append(float(result.orbit_energy.sel(row="downwind").sum("interface").mean()))
-        print(f"12B, {rheology}: " + ", ".join(f"{one:.0f}" for one in found) + " J an orbit at 20, 35 and 50 °C")
+            fixed = {key: value for key, value in values.items() if not isinstance(value, str)}
+            kept = {key: getattr(OIL, key) for key, value in values.items() if value == "kept"}
+            oil = OIL.replace(**fixed).at(f"{celsius} degC").replace(**kept)
+            laws = Laws.physical().but(**choices)
+            energy = simulate(Case(loads=loads, rollers=[0, 14], laws=laws, lubricant=oil)).orbit_energy
+            down = energy.sel(row="downwind").mean(("roller", "orbit"))
+            whole.append(float(down.sum()))
+            raceways.append(float(down.sel(interface=["inner", "outer"]).sum()))
+        print(
+            f"12B, {name}: " + ", ".join(f"{one:.0f}" for one in whole) + " J an orbit at 20, 35 and 50 °C, of which "
+            "raceways " + ", ".join(f"{one:.0f}" for one in raceways),
+            flush=True,
+        )
 
 
 def rheology() -> None:

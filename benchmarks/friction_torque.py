@@ -189,8 +189,8 @@ def compare_inlets() -> None:
         *((f"inlet film {film:g}", oil.replace(inlet_film=film), {}) for film in (5.0, 10.0, 20.0, 30.0, 60.0, 1e6)),
         *((f"fullness {full:g}", oil.replace(fullness=full), {}) for full in (0.03, 0.1, 1.0)),
         ("inlet", oil, {"rolling": "inlet"}),
-        ("Eyring, 6.7 MPa", oil, {"rheology": "eyring"}),
-        ("Eyring, 3.3 MPa", oil.replace(eyring_stress=3.3e6), {"rheology": "eyring"}),
+        ("Eyring, 3.3 MPa", oil.replace(eyring_stress=3.3e6), {}),
+        ("limiting shear", oil, {"rheology": "limiting-shear"}),
     ):
         one = torque(
             Case(loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**changes), lubricant=lubricant), loads

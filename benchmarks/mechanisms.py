@@ -22,11 +22,11 @@ def ladder() -> dict[str, Laws]:
     return {
         "paper": Laws.paper(),
         "with film for every load, starvation, inlet heating": film,
-        "with Roelands and limiting shear": limited,
+        "with Roelands and Eyring's law": limited,
         "with microslip": microslip,
         "with asperities: physical": microslip.but(asperities=whole.asperities),
         "physical, without shear heating": whole.but(heating=False),
-        "physical, Eyring": whole.but(rheology="eyring"),
+        "physical, limiting shear": whole.but(rheology="limiting-shear"),
     }
 
 

@@ -87,7 +87,7 @@ def _history(random: np.random.Generator, kind: str, heavy: float, speed: float,
 
 def _laws(random: np.random.Generator, physical: float) -> Laws:
     if random.random() < physical:
-        return Laws.physical() if random.random() < 0.7 else Laws.physical().but(rheology="eyring")
+        return Laws.physical() if random.random() < 0.7 else Laws.physical().but(rheology="limiting-shear")
     changes: dict[str, Any] = random.choice(
         [{}, {}, {}, {"film": "masjedi-khonsari-moes", "inlet_heating": True, "starvation": True}, {"heating": False}]
     )

@@ -50,9 +50,9 @@ class Laws:
     Examples
     --------
     >>> Laws.physical().rheology, Laws.paper().rheology
-    ('limiting-shear', 'newtonian')
-    >>> Laws.paper().but(rheology="eyring", viscosity="roelands").name
-    'paper, but rheology eyring, viscosity roelands'
+    ('eyring', 'newtonian')
+    >>> Laws.paper().but(rheology="limiting-shear", viscosity="roelands").name
+    'paper, but rheology limiting-shear, viscosity roelands'
     """
 
     film: str = "masjedi-khonsari"
@@ -103,15 +103,23 @@ class Laws:
     def physical(cls) -> Laws:
         """All mechanisms.
 
-        Film for every load, starved and heated in the inlet; Roelands; limiting shear; microslip; asperities;
-        rolling resistance of whole films.
+        Film for every load, starved and heated in the inlet; Roelands; Eyring's law; microslip; asperities; rolling
+        resistance of whole films.
+
+        Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils goes on rising with the
+        shear rate and reaches no limit; that of polyglycols does, so for them `rheology` is to be "limiting-shear".
+
+        References
+        ----------
+        Vengudusamy, Enekes and Spallek, Friction (2019), doi:10.1007/s40544-019-0267-5; Jacod, Venner and Lugt,
+        J. Tribol. 123 (2001) 248, doi:10.1115/1.1308021.
         """
         return cls(
             film="masjedi-khonsari-moes",
             starvation=True,
             inlet_heating=True,
             viscosity="roelands",
-            rheology="limiting-shear",
+            rheology="eyring",
             microslip=True,
             asperities="masjedi-khonsari",
             rolling="whole-film",

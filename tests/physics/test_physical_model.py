@@ -41,6 +41,7 @@ pytestmark = pytest.mark.slow
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 # The oil around the rollers has tests of its own, tests/roller/test_films.py.
 FULL, PAPER = Laws.physical().but(rolling="none"), Laws.paper()
+LIMITED = FULL.but(rheology="limiting-shear")
 RATED = 20.463 * 2 * math.pi / 60
 RADIUS = 0.035
 START = Window(start=0.0)
@@ -58,7 +59,7 @@ def run(loads, laws=FULL, rollers=(0, 9), **settings):
 def coulomb():
     """Constant friction 0.05: a film so thin and cool that its stress is at the limit all over."""
     oil = OIL.replace(limiting_shear=0.05)
-    return roller_model(BEARING, oil, 1, tilt=0.0, laws=FULL.but(heating=False, asperities="none"))
+    return roller_model(BEARING, oil, 1, tilt=0.0, laws=LIMITED.but(heating=False, asperities="none"))
 
 
 def constant_friction(contact, load, slip, ring_speed):
@@ -319,7 +320,7 @@ def by_scipy(model, motion, angle, slip, trace_time):
 HOT = {
     "physical": FULL,
     "barus, newtonian": FULL.but(rheology="newtonian", viscosity="barus", asperities="none"),
-    "eyring": FULL.but(rheology="eyring"),
+    "limiting shear": LIMITED,
     "without microslip": FULL.but(microslip=False),
 }
 
@@ -353,7 +354,7 @@ def test_a_roller_whose_shaft_jerks_follows_its_past():
 
 
 @pytest.mark.parametrize("force", [30e3, 150e3, 400e3])
-@pytest.mark.parametrize("name", ["physical", "eyring"])
+@pytest.mark.parametrize("name", ["physical", "limiting shear"])
 def test_slip_settles_where_moments_balance(name, force):
     """Under steady thrust without weight: the root of F_i + F_o + F_c found by bracketing."""
     time = np.linspace(0.0, 0.5, 11)
@@ -496,9 +497,7 @@ def test_asperities_alone_add_friction(energies):
 
 def test_physical_energies_rank_with_the_strength_of_the_film(energies):
     """Eyring < Roelands with limiting shear < Barus with limiting shear < constant friction at γ."""
-    eyring, limited, barus = (
-        energies(laws) for laws in (FULL.but(rheology="eyring"), FULL, FULL.but(viscosity="barus"))
-    )
+    eyring, limited, barus = (energies(laws) for laws in (FULL, LIMITED, LIMITED.but(viscosity="barus")))
     assert total(eyring) < total(limited) < total(barus)
 
 
@@ -546,8 +545,8 @@ def test_named_sets():
 
 
 def test_a_lubricant_without_the_values_is_refused():
-    bare = OIL.replace(limiting_shear=None, starvation=None)
-    with pytest.raises(InputError, match="(?s)limiting.shear.*starvation|starvation.*limiting.shear"):
+    bare = OIL.replace(eyring_stress=None, starvation=None)
+    with pytest.raises(InputError, match="(?s)eyring.stress.*starvation|starvation.*eyring.stress"):
         simulate(Case(loads=BearingLoads.constant([0, -3e5, 0], 2.0, 1.0), lubricant=bare, laws=FULL, rollers=[0]))
 
 

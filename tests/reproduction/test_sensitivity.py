@@ -48,7 +48,7 @@ def test_base_values_are_those_of_the_case_and_lie_between(table):
     assert values["inlet temperature"] == pytest.approx([20.0, 35.0, 60.0])
     assert values["bearing to gearbox"] == pytest.approx([1.8, 2.2, 2.6])
     assert values["film factor"] == [0.7, 1.0, 1.0]
-    assert "limiting shear" not in values
+    assert "Eyring stress" not in values
 
 
 def test_a_colder_oil_and_a_thinner_film_cost_energy(table):
@@ -67,10 +67,10 @@ def test_a_refused_value_is_named_and_the_one_before_it_is_the_limit(table):
     assert not any(table.refused.drop_sel(variation="osculation").values)
 
 
-def test_limiting_shear_is_varied_where_it_acts(small, tmp_path):
+def test_eyring_stress_is_varied_where_it_acts(small, tmp_path):
     made = small("sensitivity_physical", **SHORT | {"rollers": [0], "window": {}})
     computed(made, tmp_path / "out", may_fail=True)
-    downwind = sensitivity(tmp_path / "out", base_case(made)).energy.sel(row="downwind", variation="limiting shear")
+    downwind = sensitivity(tmp_path / "out", base_case(made)).energy.sel(row="downwind", variation="Eyring stress")
     assert (np.diff(downwind.sel(level=["low", "base", "high"])) > 0.0).all()
 
 

@@ -17,13 +17,14 @@ from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, NEWTONIAN
 
 OIL = Lubricant.read("vg460-pao")
 FULL = Laws.physical()
+LIMITED = FULL.but(rheology="limiting-shear")
 CHOICES = {
     "physical": FULL,
-    "cool": FULL.but(heating=False),
-    "eyring": FULL.but(rheology="eyring"),
+    "limiting shear": LIMITED,
+    "cool": LIMITED.but(heating=False),
     "newtonian": FULL.but(rheology="newtonian"),
     "barus": FULL.but(rheology="newtonian", viscosity="barus"),
-    "barus, limiting shear": FULL.but(viscosity="barus"),
+    "barus, limiting shear": LIMITED.but(viscosity="barus"),
 }
 choices = pytest.mark.parametrize("laws", CHOICES.values(), ids=CHOICES)
 
@@ -67,7 +68,7 @@ def test_against_adaptive_integration(laws):
 
 def test_fully_limited_chord_by_hand():
     """Where shear is at its limit all along, q = γ p1 ∫cos²θ dθ = γ p1 π/4."""
-    oil = fluid(FULL.but(heating=False), OIL)
+    oil = fluid(CHOICES["cool"], OIL)
     assert chord_stress(oil, 2e9, 3e-7, 2.0) == pytest.approx(0.042 * 2e9 * math.pi / 4, rel=2e-3)
     assert chord_stress(oil, 2e9, 3e-7, 2.0) < 0.042 * 2e9 * math.pi / 4
 

@@ -27,11 +27,12 @@ pytestmark = pytest.mark.slow
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 FULL = Laws.physical()
+LIMITED = FULL.but(rheology="limiting-shear")
 RADIUS, GAMMA = 0.035, 0.042
 CHOICES = {
     "physical": FULL,
-    "cool": FULL.but(heating=False),
-    "eyring": FULL.but(rheology="eyring"),
+    "limiting shear": LIMITED,
+    "cool": LIMITED.but(heating=False),
     "newtonian": FULL.but(rheology="newtonian"),
     "barus": FULL.but(rheology="newtonian", viscosity="barus"),
 }
@@ -139,7 +140,7 @@ def test_whole_contact_against_integration_over_its_area(name, ring):
             assert power(found, shape, slip, -0.396) == pytest.approx(spent, rel=promised), (load, slip)
 
 
-@pytest.mark.parametrize("name", ["physical", "eyring", "cool"])
+@pytest.mark.parametrize("name", ["physical", "limiting shear", "cool"])
 def test_fine_rule_is_finer(name):
     """What the error estimate compares with must itself be far closer to the truth."""
     laws = CHOICES[name]
@@ -175,7 +176,7 @@ def test_power_is_never_negative(name):
 @given(load=decades(0.5, 5.3), slip=st.floats(-0.12, 0.12), film=decades(-7, -5.5), ring_speed=st.floats(-0.6, 0.6))
 @settings(deadline=None, max_examples=80)
 def test_traction_is_bounded_by_limiting_shear(ring, load, slip, film, ring_speed):
-    here = contact(FULL, ring)
+    here = contact(LIMITED, ring)
     found = microslip_traction(here.traction, load, film, slip_field(here.shape, slip, ring_speed), here.shape, False)
     assert abs(found.force) <= GAMMA * load * (1 + 1e-4)
     half = min(here.semi_axis_across * load ** (1 / 3), here.shape.half_length)
@@ -186,7 +187,7 @@ def test_traction_is_bounded_by_limiting_shear(ring, load, slip, film, ring_spee
 
 def test_no_heat_and_no_slip_are_beyond_the_bound():
     """Extremes of every argument."""
-    here = contact(FULL)
+    here = contact(LIMITED)
     for load in (1e-9, 3.0, 2e5, 1e7):
         for film in (1e-12, 1e-7, 1e-2):
             for slip in (0.0, 1e-300, 1e-12, 10.0, 1e6):
@@ -326,7 +327,7 @@ def test_newtonian_barus_film_with_heating_is_the_papers(ring, load):
 
 def test_light_load_is_isoviscous():
     """F → η0 Δu/h times the area of the ellipse."""
-    for name in ("eyring", "newtonian", "barus"):
+    for name in ("physical", "newtonian", "barus"):
         law = contact(CHOICES[name]).traction
         for load in (1e-9, 1e-6):
             area = math.pi * law.semi_axis_across * law.semi_axis_along * load ** (2 / 3)
@@ -335,7 +336,7 @@ def test_light_load_is_isoviscous():
 
 def test_contact_is_cut_off_at_the_ends_of_the_roller():
     """Coulomb-like stress γ p: what Hertz pressure carries beyond ±l/2 is left out, a known part of the load."""
-    here = contact(FULL.but(heating=False))
+    here = contact(CHOICES["cool"])
     law = here.traction
     load = 4e5
     across = law.semi_axis_across * load ** (1 / 3)

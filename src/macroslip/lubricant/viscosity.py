@@ -46,8 +46,8 @@ def roelands(viscosity: float, pressure_viscosity: float, pressure: float) -> fl
     """Viscosity under pressure by Roelands' law, eta = eta0 exp{(ln eta0 + 9.67) [(1 + p/p_r)^Z - 1]}.
 
     Z is such that d ln eta/dp is alpha_p at p = 0, as Barus' law has it everywhere; for Z < 1 Roelands' viscosity is
-    below Barus' at every pressure. Fitted to oils up to about 1 GPa; above, real viscosities rise faster again, but the
-    film has then long reached its limiting shear stress.
+    below Barus' at every pressure. Fitted to oils up to about 1 GPa; above, real viscosities rise faster again, of which
+    the stress of a film that thins under shear feels the logarithm.
 
     Parameters
     ----------

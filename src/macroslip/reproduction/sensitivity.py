@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -80,11 +81,11 @@ VARIATIONS = (
         note="film thickness over that of the law, at every interface; 0.7 is reported for a starved bearing",
     ),
     Variation(
-        name="limiting shear",
-        key="lubricant.limiting_shear",
-        unit="1",
-        base=lambda case: case.lubricant.limiting_shear,
-        note="largest shear stress of the film over pressure; the range reported for PAO",
+        name="Eyring stress",
+        key="lubricant.eyring_stress",
+        unit="MPa",
+        base=lambda case: 1e-6 * (case.lubricant.eyring_stress or math.nan),
+        note="stress at which the film thins under shear; what is reported for PAO near 1 GPa",
     ),
 )
 

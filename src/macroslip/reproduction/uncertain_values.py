@@ -167,7 +167,7 @@ VALUES = (
         low=0.0,
         high=1.0,
         tag="C",
-        reason="traction measured on mineral oils and PAO favours Eyring's form, its size the limit",
+        reason="traction measured on mineral oils and PAO has Eyring's form; that of polyglycols has a limit",
         choices=("limiting-shear", "eyring"),
     ),
     UncertainValue(
