@@ -50,8 +50,9 @@ def test_microslip_dissipates_downwind_where_the_load_is(parts):
     micro = down.sel(part=[one for one in PARTS if "," in one and "sliding" not in one]).sum("part")
     cage = down.sel(part="cage")
     assert (micro > 0.95 * (down.sum("part") - cage)).all()
-    # Rolling resistance presses the rollers against the cage.
-    assert ((cage > 0.02 * micro) & (cage < 0.2 * micro)).all()
+    # Rolling resistance presses the rollers against the cage: 12 to 20 % of the row's energy, as the study page says.
+    share = cage / down.sum("part")
+    assert ((share > 0.12) & (share < 0.2)).all()
     assert ((parts.asperity_share >= 0.0) & (parts.asperity_share < 1.0)).all()
 
 

@@ -114,8 +114,9 @@ def models_figure(numbers: Mapping[str, xr.Dataset]) -> Figure:
     plot_models(log_ticks(axes[1]), numbers, "energy_ratio", "energy, downwind / upwind [–]")
     plot_models(log_ticks(axes[2]), numbers, "peak_power_mean", r"mean $P_\mathrm{max}$ of an orbit [W]")
     plot_models(log_ticks(axes[3]), numbers, "peak_power_ratio", r"mean $P_\mathrm{max}$, downwind / upwind [–]")
-    for one in (axes[0], axes[2]):
-        one.legend(frameon=False, fontsize=8)
+    axes[0].legend(frameon=False, fontsize=8)
+    # Bands fill the panel.
+    legend_above(figure, axes[2])
     return figure
 
 
