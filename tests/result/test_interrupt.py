@@ -16,8 +16,12 @@ pytestmark = pytest.mark.slow
 PROMISED = 2.0
 
 PROGRAM = """
+import signal
+
 from macroslip import BackwardEuler, BearingLoads, Case, Laws, Radau, simulate
 
+# Tests that run in the background of a shell leave interrupts to be ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 integrator, slow = {integrator}, {slow}
 laws = Laws.physical()
 simulate(Case(loads=BearingLoads.constant([0.0, -3e5, 0.0], 2.0, 1.0), laws=laws, rollers=[0], integrator=integrator))
