@@ -6,7 +6,6 @@ import numpy as np
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from macroslip.integrate.entries import sealed
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.path import FixedStep, Path
 from macroslip.integrate.record import new_record
@@ -36,7 +35,7 @@ def solve(history: History, reference: Reference, step: float, tolerance: float)
     times, back = np.unique(times, return_inverse=True)
     record = new_record(np.array([history.start, history.end]), times, history.limits.speed_scale)
     rule = FixedStep(step, True, tolerance, np.inf, history.limits.interrupt)
-    path = Path(sealed(history.model), history.motion, history.start_angle, rule)
+    path = Path(history.roller, history.motion, history.start_angle, rule)
     status = integrate_fixed_step(path, 0.0, history.end, record)
     around = record.trace[back, 0].reshape(-1, 2)
     share = (history.marks - history.start) / step - lower

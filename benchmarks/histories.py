@@ -10,8 +10,10 @@ import numpy as np
 
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.case.case import Case
+from macroslip.integrate.entries import sealed
 from macroslip.integrate.load_zone import EDGE, classify, edge_time, empty_classes, interference_at
 from macroslip.integrate.path import Limits
+from macroslip.integrate.sealed import SealedModel
 from macroslip.loads import HubLoads, bundled_cases, main_bearing_load
 from macroslip.mechanisms import Laws
 from macroslip.result.simulate import radau_limits
@@ -34,6 +36,8 @@ class History(NamedTuple):
     name : str
         Case, row and length.
     model : RollerModel
+    roller : SealedModel
+        The same, as the integrators take it.
     motion : Motion
     start_angle : float
         Position φ at the first sample [rad].
@@ -47,6 +51,7 @@ class History(NamedTuple):
 
     name: str
     model: RollerModel
+    roller: SealedModel
     motion: Motion
     start_angle: float
     limits: Limits
@@ -118,12 +123,13 @@ def histories_of(
     found = []
     length = motion.time[-1] - motion.time[0]
     for row in ROWS:
+        roller = sealed(models[row])
         for number in rollers:
             angle = float(initial_angles(row, bearing.rollers_per_row)[number])
             edges = load_edges(models[row], motion, angle)
             marks = _coast_middles(models[row], motion, angle, edges)
             title = f"{name} {row}, roller {number}, {length:g} s"
-            found.append(History(title, models[row], motion, angle, limits, edges, marks))
+            found.append(History(title, models[row], roller, motion, angle, limits, edges, marks))
     return found
 
 

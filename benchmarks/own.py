@@ -6,7 +6,6 @@ import numpy as np
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from macroslip.integrate.entries import sealed
 from macroslip.integrate.load_zone import empty_classes
 from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
@@ -22,7 +21,7 @@ def integrate(history: History, tolerance: float, trace_time: np.ndarray) -> tup
     record = new_record(np.array([history.start, history.end]), trace_time, history.limits.speed_scale)
     stops = np.unique(np.concatenate([trace_time, [history.end]]))
     limits = history.limits._replace(tolerance=tolerance)
-    path = Path(sealed(history.model), history.motion, history.start_angle, limits)
+    path = Path(history.roller, history.motion, history.start_angle, limits)
     classes = empty_classes(history.motion.time.size)
     status = integrate_radau(path, 0.0, stops, classes, record)
     return status, record

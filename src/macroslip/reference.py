@@ -178,38 +178,34 @@ def calling(given: Any, result: Any) -> Any:
         named tuples.
     """
 
-    def prepare(builder: Any, address: Any, data: Any) -> tuple[Any, Any, Any]:
+    def call(builder: Any, values: Any, place: Any) -> None:
         pointer = ir.IntType(8).as_pointer()
         kind = ir.FunctionType(ir.VoidType(), [pointer, pointer, pointer])
-        function = builder.inttoptr(address, kind.as_pointer())
-        return function, builder.inttoptr(data, pointer), pointer
+        function, data = builder.inttoptr(values[0], kind.as_pointer()), builder.inttoptr(values[1], pointer)
+        source = _placed(builder, values[2])
+        builder.call(function, [data, builder.bitcast(source, pointer), builder.bitcast(place, pointer)])
 
-    def check(found: Any) -> None:
-        if found != given:
-            raise TypingError(f"{found} is not the {given} that is expected")
+    def check(found: Any, expected: Any) -> None:
+        if found != expected:
+            raise TypingError(f"{found} is not the {expected} that is expected")
 
     def returning(typingctx: Any, address: Any, data: Any, arguments: Any) -> Any:
-        check(arguments)
+        check(arguments, given)
 
         def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            function, owner, pointer = prepare(builder, values[0], values[1])
             with builder.goto_entry_block():
                 place = builder.alloca(context.get_value_type(result))
-            source = _placed(builder, values[2])
-            builder.call(function, [owner, builder.bitcast(source, pointer), builder.bitcast(place, pointer)])
+            call(builder, values, place)
             return builder.load(place)
 
         return result(address, data, arguments), generate
 
     def handing_on(typingctx: Any, address: Any, data: Any, arguments: Any, target: Any) -> Any:
-        check(arguments)
-        if target != result:
-            raise TypingError(f"{target} is not the {result} that is expected")
+        check(arguments, given)
+        check(target, result)
 
         def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-            function, owner, pointer = prepare(builder, values[0], values[1])
-            source = _placed(builder, values[2])
-            builder.call(function, [owner, builder.bitcast(source, pointer), builder.bitcast(values[3], pointer)])
+            call(builder, values, values[3])
             return context.get_dummy_value()
 
         return types.none(address, data, arguments, target), generate

@@ -18,7 +18,7 @@ from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.integrate.tuning import LOOK_EVERY
 from macroslip.reference import tuple_type
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, slip_field
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, is_curved, slip_field
 from macroslip.roller.films import cage_film
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
@@ -229,7 +229,7 @@ def book_step(record, model, at, forces, slip, span, passage):
 
 def _is_curved(model) -> bool:
     # A model's contacts are its last three fields.
-    return tuple_type(model).types[-1].instance_class is CurvedContact
+    return is_curved(tuple_type(model).types[-1])
 
 
 @overload(book_stage)

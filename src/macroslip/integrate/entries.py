@@ -10,7 +10,7 @@ import numba
 import numpy as np
 from numba.extending import overload
 
-from macroslip.compiled import entry, jit, jit_part
+from macroslip.compiled import entry, jit
 from macroslip.integrate import sealed as types
 from macroslip.integrate.detail import book_stage, book_step
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
@@ -33,12 +33,10 @@ def _known_of(detail):
     return lambda detail: detail
 
 
-@jit_part
 def _station(model, given, result):
     write(result, station(model, given.start_angle, given.now))
 
 
-@jit_part
 def _forces(model, given, result):
     found = slip_forces(model, given.at, given.slip)
     write(
@@ -61,43 +59,36 @@ def _forces(model, given, result):
     )
 
 
-@jit_part
 def _powers(model, given, result):
     inner, outer, cage = powers(model, given.at, given.forces, given.slip)
     write(result, Powers(inner, outer, cage))
 
 
-@jit_part
 def _rising(model, given, result):
     write(
         result, Value(rising_at(model, given.inner_load, given.outer_load, given.ring_speed, given.entrainment_speed))
     )
 
 
-@jit_part
 def _relaxation(model, given, result):
     write(result, Value(relaxation_rate(model, given.inner_load, given.ring_speed)))
 
 
-@jit_part
 def _note(model, given, record):
     state = given.state
     note_state(record, model, state.at, state.forces, state.slip, given.span)
 
 
-@jit_part
 def _stage(model, given, record):
     state = given.state
     book_stage(record, model, state.at, state.forces, state.slip, given.span)
 
 
-@jit_part
 def _step(model, given, record):
     state = given.held.state
     book_step(record, model, state.at, state.forces, state.slip, given.held.span, given.passage)
 
 
-@jit_part
 def _trace(model, given, record):
     state = given.state
     write_trace(record, model, given.index, state.at, state.forces, state.slip)
@@ -115,6 +106,9 @@ _ENTRIES = {
     "step": (_step, types.PASSED_TYPE, types.RECORD_TYPE),
     "trace": (_trace, types.TRACED_TYPE, types.RECORD_TYPE),
 }
+
+#: What a sealed roller has of its own of a roller's numbers.
+_GEOMETRY = [name for name in SealedModel._fields if name in RollerModel._fields]
 
 _compiled: dict[Any, dict[str, Any]] = {}
 _lock = threading.Lock()
@@ -159,14 +153,7 @@ def sealed(model: RollerModel) -> SealedModel:
     # The bytes point to the model's arrays.
     weakref.finalize(data, _forget, model)
     return SealedModel(
-        radius=model.radius,
-        mobility=model.mobility,
-        stiffness=model.stiffness,
-        cos_contact_angle=model.cos_contact_angle,
-        sin_contact_angle=model.sin_contact_angle,
-        radial_play=model.radial_play,
-        orbit_ratio=model.orbit_ratio,
-        outer_radius=model.outer_radius,
+        **{name: getattr(model, name) for name in _GEOMETRY},
         microslip=slips_everywhere(model.inner),
         curved=isinstance(model.inner, CurvedContact),
         data=data,

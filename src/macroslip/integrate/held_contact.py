@@ -51,13 +51,6 @@ def slips_everywhere(contact):
     return isinstance(contact, CurvedContact) and contact.shape.microslip
 
 
-@overload(slips_everywhere)
-def _slips_everywhere(contact):
-    if is_curved(contact):
-        return lambda contact: contact.shape.microslip
-    return lambda contact: False
-
-
 @jit
 def rising_at(model, inner_load, outer_load, ring_speed, entrainment_speed):
     """Slip up to which traction rises at both raceways at the given loads [N] and speeds [m/s]."""

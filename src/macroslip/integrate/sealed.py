@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
+from numba import typeof
 from numba.extending import overload
 
 from macroslip.integrate.detail import Passage, book_stage, book_step
@@ -49,7 +49,7 @@ class SealedModel(NamedTuple):
     curved : bool
         Whether contacts have mechanisms and places to book.
     data : ndarray of uint8
-        The roller with its
+        The roller with its laws.
     entries : Entries
     """
 
@@ -144,16 +144,12 @@ _PASSED = Passed(_HELD, Passage(0, (_STAGES, _STAGES), Way(0.0, 0.0, 0.0, 0.0)))
 _RECORD = new_record(np.zeros(1), np.zeros(0), 0.0)
 
 
-def _type(example):
-    return numba.typeof(example)
-
-
-RECORD_TYPE = Reference(_type(_RECORD))
-AT_PLACE = _type(AtPlace(0.0, Instant(0.0, 0.0, 0.0, 0.0, 0.0)))
-AT_SLIP, WITH_FORCES = _type(AtSlip(_NO_STATION, 0.0)), _type(_STATE)
-LOADS, VALUE = _type(Loads(0.0, 0.0, 0.0, 0.0)), _type(Value(0.0))
-STATION, FORCES, POWERS = _type(_NO_STATION), _type(_NO_FORCES), _type(Powers(0.0, 0.0, 0.0))
-HELD_TYPE, PASSED_TYPE, TRACED_TYPE = _type(_HELD), _type(_PASSED), _type(Traced(_STATE, 0))
+RECORD_TYPE = Reference(typeof(_RECORD))
+AT_PLACE = typeof(AtPlace(0.0, Instant(0.0, 0.0, 0.0, 0.0, 0.0)))
+AT_SLIP, WITH_FORCES = typeof(AtSlip(_NO_STATION, 0.0)), typeof(_STATE)
+LOADS, VALUE = typeof(Loads(0.0, 0.0, 0.0, 0.0)), typeof(Value(0.0))
+STATION, FORCES, POWERS = typeof(_NO_STATION), typeof(_NO_FORCES), typeof(Powers(0.0, 0.0, 0.0))
+HELD_TYPE, PASSED_TYPE, TRACED_TYPE = typeof(_HELD), typeof(_PASSED), typeof(Traced(_STATE, 0))
 
 _call_station = calling(AT_PLACE, STATION)
 _call_forces = calling(AT_SLIP, FORCES)

@@ -149,8 +149,8 @@ def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) 
 def raceway_power(sheet, at, ratio, forces, place):
     """Powers [W] of a raceway contact with the forces of a stage at its load [N], ring speed and slip [m/s].
 
-    Forces are that for the spin, the pull, and rolling resistance in both [N]. Friction by mechanism, rolling resistance, and the part of friction by asperities; that and the skew moment's part
-    follow the load.
+    Forces are that for the spin, the pull, and rolling resistance in both [N]. Returned are friction by mechanism, rolling
+    resistance, and the part of friction by asperities; that and the skew moment's part follow the load.
     """
     spin, pull, shear = forces
     load, speed, slip = place
