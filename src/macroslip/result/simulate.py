@@ -100,7 +100,8 @@ def simulate(
     if case.dynamics == WHOLE_BEARING:
         times = Times(edges, trace_time, end)
         drag = _drag_power(case, model, motion, edges[0], end)
-        return simulate_whole_bearing(case, models, motion, times, _notes(case, largest), drag)
+        models, evaluation = evaluated_models(case, models, motion, largest)
+        return simulate_whole_bearing(case, models, motion, times, {**_notes(case, largest), **evaluation}, drag)
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
     models, evaluation = evaluated_models(case, models, motion, largest)

@@ -18,7 +18,7 @@ from macroslip.result.dataset import INTERFACES, VARIABLES, input_attributes, ro
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS
-from macroslip.whole_bearing.model import RowModels, whole_bearing
+from macroslip.whole_bearing.model import RowModels, whole_bearing, with_rollers
 from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, BearingRecord
 from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
 
@@ -64,7 +64,7 @@ def simulate_whole_bearing(
         laws=case.laws,
     )  # fmt: skip
     curved = isinstance(bearing.models[0].inner, CurvedContact)
-    bearing = bearing._replace(models=RowModels(**models))
+    bearing = with_rollers(bearing, RowModels(**models))
     if case.traces is None:
         times = times._replace(outputs=np.unique(np.concatenate([motion.time[:1], times.edges, [times.end]])))
     start, interrupt = pure_rolling(bearing, case.cage), np.zeros(1, dtype=np.int8)

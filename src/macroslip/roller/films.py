@@ -32,6 +32,8 @@ from macroslip.rolling.martin import FLOW
 _FADED = 1.0 / 30.0
 #: Bounds of ln q [ln N] and iterations; Newton's takes about four.
 _LOWEST, _HIGHEST, _ITERATIONS = math.log(1e-9), math.log(1e7), 60
+#: Load [N] below which one known before is no guess.
+_FAINT = 1e-6
 
 
 class NoFilms(NamedTuple):
@@ -140,7 +142,7 @@ def _excess(films, log_load, body, play, log_speed):
 
 
 @jit
-def carried(films, play, body, ring_speed):
+def carried(films, play, body, ring_speed, guess=1.0):
     """Load q [N] of the film on the side that no body force presses on.
 
     Parameters
@@ -152,10 +154,12 @@ def carried(films, play, body, ring_speed):
         Body force B along the contact normal [N], positive outward.
     ring_speed : float
         u2 [m/s].
+    guess : float
+        Where to look for it first [N].
     """
     log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     low, high = _LOWEST, _HIGHEST
-    place = 0.0
+    place = math.log(guess) if guess > _FAINT else 0.0
     for _ in range(_ITERATIONS):
         excess, slope = _excess(films, place, body, play, log_speed)
         if excess > 0.0:
@@ -165,7 +169,8 @@ def carried(films, play, body, ring_speed):
         following = place - excess / slope if slope < 0.0 else low
         if not low < following < high:
             following = 0.5 * (low + high)
-        if abs(following - place) < 1e-12 * (1.0 + abs(place)):
+        # Newton's error is then the square of this.
+        if abs(following - place) < 1e-7:
             place = following
             break
         place = following
@@ -174,16 +179,16 @@ def carried(films, play, body, ring_speed):
 
 
 @jit
-def _film_load(films, load, approach, body, ring_speed):
+def _film_load(films, load, approach, body, ring_speed, guess):
     if load <= 0.0:
-        return carried(films, -approach, body, ring_speed)
+        return carried(films, -approach, body, ring_speed, guess)
     if load >= films.faded_load and abs(ring_speed) <= films.faded_speed:
         return 0.0
     log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     excess, _ = _excess(films, math.log(_FADED * load), body, 0.0, log_speed)
     if excess <= 0.0:
         return 0.0
-    most = carried(films, 0.0, body, ring_speed)
+    most = carried(films, 0.0, body, ring_speed, guess)
     return most * math.exp(-load / most) if most > 0.0 else 0.0
 
 
@@ -251,7 +256,7 @@ _NO_RACEWAY = RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _NO_CAGE = CageFilm(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def film_load(films, load, approach, body, ring_speed):
+def film_load(films, load, approach, body, ring_speed, guess=1.0):
     """Load [N] of films on either raceway, beside elastic load and body force.
 
     Parameters
@@ -265,8 +270,10 @@ def film_load(films, load, approach, body, ring_speed):
         Body force along the contact normal [N], positive outward.
     ring_speed : float
         u2 [m/s].
+    guess : float
+        Load near which it is looked for [N]; what was found for much the same place before, say.
     """
-    return _film_load(films, load, approach, body, ring_speed) if isinstance(films, Films) else 0.0
+    return _film_load(films, load, approach, body, ring_speed, guess) if isinstance(films, Films) else 0.0
 
 
 def raceway_film(films, raceway, load, slip, ring_speed):
@@ -296,10 +303,12 @@ def cage_film(films, load, surface_speed):
 
 
 @overload(film_load)
-def _film_load_of(films, load, approach, body, ring_speed):
+def _film_load_of(films, load, approach, body, ring_speed, guess=1.0):
     if films.instance_class is Films:
-        return lambda films, load, approach, body, ring_speed: _film_load(films, load, approach, body, ring_speed)
-    return lambda films, load, approach, body, ring_speed: 0.0
+        return lambda films, load, approach, body, ring_speed, guess=1.0: _film_load(
+            films, load, approach, body, ring_speed, guess
+        )
+    return lambda films, load, approach, body, ring_speed, guess=1.0: 0.0
 
 
 @overload(raceway_film)

@@ -20,8 +20,8 @@ class Stations(NamedTuple):
     ----------
     cosine, sine : ndarray, shape (n,)
         Of the pocket's angle θ.
-    inner_load, outer_load, elastic_load : ndarray, shape (n,)
-        Normal loads with body forces and the rings' load alone [N].
+    inner_load, outer_load, elastic_load, film_load : ndarray, shape (n,)
+        Normal loads with body forces, the rings' load alone, and what films carry beside it [N].
     tangential : ndarray, shape (n,)
         G = F_g,x' + F_d,x' [N], against the orbit.
     inner_speed, outer_speed : ndarray, shape (n,)
@@ -33,6 +33,7 @@ class Stations(NamedTuple):
     inner_load: np.ndarray
     outer_load: np.ndarray
     elastic_load: np.ndarray
+    film_load: np.ndarray
     tangential: np.ndarray
     inner_speed: np.ndarray
     outer_speed: np.ndarray
@@ -95,10 +96,12 @@ def locate(bearing, motion, interval, time, state, cages, stations):
             outward = (model.centrifugal * orbit * orbit - model.weight_in_plane * y) * model.cos_contact_angle
             outward += model.weight_along_axis * model.sin_contact_angle
             stations.elastic_load[j] = load
-            pressed = load + film_load(bearing.films, load, approach, outward, -orbit * bearing.outer_radius)
+            outer_speed = -orbit * bearing.outer_radius
+            stations.film_load[j] = film_load(bearing.films, load, approach, outward, outer_speed, stations.film_load[j])
+            pressed = load + stations.film_load[j]
             stations.inner_load[j] = pressed - min(outward, 0.0)
             stations.outer_load[j] = pressed + max(outward, 0.0)
             stations.tangential[j] = model.weight_in_plane * x + model.drag * orbit * abs(orbit)
             stations.inner_speed[j] = orbit * rollers.inner_radius[j] - ring
-            stations.outer_speed[j] = -orbit * bearing.outer_radius
+            stations.outer_speed[j] = outer_speed
     return speed
