@@ -238,6 +238,59 @@ def channels_in_cell(typingctx, coefficients, cells, places):
 
 
 @intrinsic
+def channels_and_slopes_in_cell(typingctx, coefficients, cells, places):
+    """As `channels_in_cell`, with all derivatives.
+
+    Parameters
+    ----------
+    coefficients : ndarray, 4 dimensions, the last one of four splines
+        c.
+    cells : tuple of 3 int
+        i, k, j, with the cell within the array.
+    places : tuple of 3 float
+        t, s and u in the cell, from 0 to 1.
+
+    Returns
+    -------
+    tuple of 4 float, four times
+        The splines, and their derivatives by t, by s and by u.
+    """
+    _check(coefficients, 4)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        write = _Vectors(builder)
+        indices = [*_parts(builder, arguments[1]), ir.Constant(_SIZE, 0)]
+        corner, strides = _address(context, builder, coefficients, arguments[0], indices)
+        (w, dw), (z, dz), (v, dv) = (
+            [write.splat_lanes(write.polynomial(terms, write.splat(place))) for terms in (_CUBIC, _QUADRATIC)]
+            for place in _parts(builder, arguments[2])
+        )
+        lines, by_first, by_second = [], [], []
+        for _ in range(_LANES):
+            plane, sums, slopes = corner, [], []
+            for _ in range(_LANES):
+                line, values = plane, []
+                for _ in range(_LANES):
+                    values.append(write.load(line))
+                    line = builder.add(line, strides[1])
+                sums.append(write.weighted_sum(z, values))
+                slopes.append(write.weighted_sum(dz, values))
+                plane = builder.add(plane, strides[0])
+            lines.append(write.weighted_sum(w, sums))
+            by_first.append(write.weighted_sum(dw, sums))
+            by_second.append(write.weighted_sum(w, slopes))
+            corner = builder.add(corner, strides[2])
+        found = [
+            context.make_tuple(builder, _WEIGHTS, write.lanes(write.weighted_sum(weights, given)))
+            for weights, given in ((v, lines), (v, by_first), (v, by_second), (dv, lines))
+        ]
+        return context.make_tuple(builder, signature.return_type, found)
+
+    given = types.UniTuple(types.intp, 3), types.UniTuple(types.float64, 3)
+    return types.UniTuple(_WEIGHTS, 4)(coefficients, *given), generate
+
+
+@intrinsic
 def channels_in_square(typingctx, coefficients, cells, places):
     """Four splines on one grid at a place, Σ w_m(t) w_n(u) c[i + m, j + n], and their derivatives by t and u.
 

@@ -22,6 +22,8 @@ class Arrow(NamedTuple):
         Inverse of each roller's 2 × 2 block.
     column, row : ndarray, shape (n, 2, 3)
         Its border: derivatives of its residuals by w, p, q and of the cage's residuals by v_in, v_out.
+    slope : ndarray, shape (n, 3)
+        Derivatives of the spars' push by x' [N s/m], and of the cage's friction by slip [N s/m] and by the push [-].
     rest : ndarray, shape (n, 2)
         Its residuals [N], or the right-hand side of a solution.
     border : ndarray, shape (c, 3, 3)
@@ -31,6 +33,7 @@ class Arrow(NamedTuple):
     inverse: np.ndarray
     column: np.ndarray
     row: np.ndarray
+    slope: np.ndarray
     rest: np.ndarray
     border: np.ndarray
     border_rest: np.ndarray
@@ -42,6 +45,7 @@ def new_arrow(count: int, cages: int) -> Arrow:
         inverse=np.zeros((count, 4)),
         column=np.zeros((count, 2, 3)),
         row=np.zeros((count, 2, 3)),
+        slope=np.zeros((count, 3)),
         rest=np.zeros((count, 2)),
         border=np.zeros((cages, 3, 3)),
         border_rest=np.zeros((cages, 3)),

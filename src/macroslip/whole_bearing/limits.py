@@ -8,7 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 #: Part of the tolerance that a step's error of speed may take, against the raceway speed.
-_SPEED_SHARE = 0.5
+_SPEED_SHARE = 5.0
+#: Allowed relative error of power where slopes foretell it, in tolerances.
+_POWER_SHARE = 3.0
 #: Longest time between evaluations of a roller's tractions [s].
 _LONGEST_REST = 0.05
 #: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 3e-4 of itself at most.
@@ -24,6 +26,8 @@ class Limits(NamedTuple):
         Relative accuracy per step of speeds, against the raceway speed.
     allowed_speed : float
         Error of speed that a step may make [m/s].
+    power : float
+        Allowed relative error of power where slopes foretell it.
     force : float
         Largest force an iteration may leave unbalanced [N].
     rounding : float
@@ -44,6 +48,7 @@ class Limits(NamedTuple):
 
     tolerance: float
     allowed_speed: float
+    power: float
     force: float
     rounding: float
     longest_step: float
@@ -59,7 +64,8 @@ def limits_of(tolerance: float, speed_scale: float, longest_step: float) -> Limi
     return Limits(
         tolerance=tolerance,
         allowed_speed=_SPEED_SHARE * tolerance * speed_scale,
-        force=0.5 * tolerance,
+        power=_POWER_SHARE * tolerance,
+        force=5.0 * tolerance,
         rounding=4.0 * float(np.finfo(float).eps) * speed_scale,
         longest_step=longest_step,
         max_steps=100_000_000,
