@@ -1,13 +1,20 @@
 """Derivatives of the oil's forces, which Newton's method and the sheets of tractions rest on."""
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from macroslip.mechanisms import Laws
 from macroslip.roller.films import NoFilms
 from macroslip.roller.model import roller_model
+from macroslip.roller.plane_build import film_table
+from macroslip.roller.table_box import TableBox
 from macroslip.whole_bearing.oil import cage_oil, has_oil, raceway_oil
 
 SPEED, SLIP = -0.37, 2e-3
+
+
+BOX = TableBox(highest_load=9e4, highest_cage_load=1.8e3, lowest_speed=0.35, highest_speed=0.42)
 
 
 @pytest.fixture(scope="module")
@@ -15,10 +22,17 @@ def films(bearing, lubricant):
     return roller_model(bearing, lubricant, 1, tilt=0.0, laws=Laws.paper().but(rolling="whole-film")).films
 
 
+@pytest.fixture(scope="module")
+def tabled(films):
+    return films._replace(inner_table=film_table(films, 0, BOX), outer_table=film_table(films, 1, BOX))
+
+
 @pytest.mark.parametrize("outer", [False, True])
 @pytest.mark.parametrize("load", [2.0, 300.0, 3e4])
 @pytest.mark.parametrize("direction", [-1.0, 1.0])
-def test_raceway(films, outer, load, direction):
+@pytest.mark.parametrize("by", ["films", "tabled"])
+def test_raceway(request, by, outer, load, direction):
+    films = request.getfixturevalue(by)
     speed, slip = direction * SPEED, direction * SLIP
     found = raceway_oil(films, outer, load, speed, slip)
     for name, places in {
@@ -32,6 +46,19 @@ def test_raceway(films, outer, load, direction):
             slope = (getattr(more, force) - getattr(less, force)) / width
             assert getattr(found, f"{force}_by_{name}") == pytest.approx(slope, rel=1e-4, abs=1e-9)
     assert found.shear * speed < 0.0
+
+
+@pytest.mark.parametrize("outer", [False, True])
+@given(load=st.floats(-1.5, 4.9).map(lambda x: 10.0**x), speed=st.floats(0.36, 0.41), ratio=st.floats(-0.01, 1.0))
+@settings(deadline=None, max_examples=50)
+def test_a_raceway_by_its_table_is_that_of_the_laws(films, tabled, outer, load, speed, ratio):
+    found, expected = (raceway_oil(one, outer, load, -speed, -ratio * speed) for one in (tabled, films))
+    assert (found.sliding, found.shear) == pytest.approx((expected.sliding, expected.shear), rel=1e-4)
+    for force in ("sliding", "shear"):
+        size = abs(expected.sliding) + abs(expected.shear)
+        for name, unit in (("slip", speed), ("speed", speed), ("load", load)):
+            slope = getattr(expected, f"{force}_by_{name}")
+            assert getattr(found, f"{force}_by_{name}") == pytest.approx(slope, rel=1e-2, abs=1e-3 * size / unit)
 
 
 @pytest.mark.parametrize("load", [0.5, 30.0])

@@ -67,9 +67,10 @@ def eliminate(cage_of, size, arrow):
     for j in range(cage_of.size):
         border, inverse = arrow.border[cage_of[j]], arrow.inverse[j]
         column, row = arrow.column[j], arrow.row[j]
+        i0, i1, i2, i3 = inverse[0], inverse[1], inverse[2], inverse[3]
         for k in range(size):
-            first = inverse[0] * column[0, k] + inverse[1] * column[1, k]
-            second = inverse[2] * column[0, k] + inverse[3] * column[1, k]
+            ahead, behind = column[0, k], column[1, k]
+            first, second = i0 * ahead + i1 * behind, i2 * ahead + i3 * behind
             for i in range(size):
                 border[i, k] -= row[0, i] * first + row[1, i] * second
 

@@ -86,7 +86,7 @@ def run_whole_bearing(
     start : Start
     times : Times
     tolerance : float
-        Relative accuracy per step of speeds, against the raceway speed.
+        Of energies, see `macroslip.whole_bearing.limits`.
     max_steps : int
     rests : bool
         Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
