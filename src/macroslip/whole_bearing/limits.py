@@ -10,7 +10,7 @@ import numpy as np
 #: Error of speed that a step may make in tolerances of the raceway speed, error of power where slopes foretell it and
 #: force [N] left unbalanced in tolerances. Chosen so that energies of bundled load cases are good to 1e-3 at the default
 #: tolerance, 2e-4, with squeeze films and dry impacts under either law (docs/whole-bearing.md has the table).
-_SPEED_SHARE, _POWER_SHARE, _FORCE_SHARE = 5.0, 3.0, 5.0
+_SPEED_SHARE, _POWER_SHARE, _FORCE_SHARE = 5.0, 3.0, 1.0
 #: Longest time between evaluations of a roller's tractions [s].
 _LONGEST_REST = 0.05
 #: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most.
