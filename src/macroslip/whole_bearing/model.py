@@ -163,5 +163,5 @@ def whole_bearing(
 
 
 def with_rollers(bearing: WholeBearing, models: RowModels) -> WholeBearing:
-    """The bearing with the same rollers by other means, tables for their contacts say."""
-    return bearing._replace(models=models, films=_pocket_films(models.downwind.films, bearing.pocket))
+    """The bearing with the same rollers by other means, tables say, made of the bearing's own `films`."""
+    return bearing._replace(models=models, films=models.downwind.films)

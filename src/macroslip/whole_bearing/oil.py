@@ -92,8 +92,30 @@ def _raceway_oil(films, outer, load, ring_speed, slip):
     return _from_light(light_contact(law, load, ring_speed - slip, ring_speed))
 
 
+@jit_inline
+def _pocket_from_table(table, known, load, slip):
+    """Oil in a pocket, whose mean speed is −Δu/2, from splines of ln conductance and ln resistance per mean speed."""
+    conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
+    sliding, shear = conductance * slip, 0.5 * resistance * slip
+    speeds, per_load = table.speed.per_spacing, table.load.per_spacing / load
+    return Oil(
+        sliding,
+        shear,
+        conductance * (1.0 + known.by_speed[0] * speeds),
+        0.5 * resistance * (1.0 + known.by_speed[1] * speeds),
+        sliding * known.by_load[0] * per_load,
+        shear * known.by_load[1] * per_load,
+        -2.0 * conductance * known.by_speed[0] * speeds,
+        -resistance * (1.0 + known.by_speed[1] * speeds),
+    )
+
+
 @jit
 def _cage_oil(films, load, slip):
+    if load > 0.0 and slip != 0.0:
+        known = plane_values(films.cage_table, math.log(load), math.log(0.5 * abs(slip)))
+        if known.known:
+            return _pocket_from_table(films.cage_table, known, load, slip)
     return _from_light(pocket_contact(films.cage, load, -slip, 0.0, films.pocket_gap))
 
 

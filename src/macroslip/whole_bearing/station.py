@@ -9,8 +9,8 @@ import numpy as np
 
 from macroslip.compiled import jit_called, jit_inline
 from macroslip.ring.orbit import instant
-from macroslip.roller.films import film_load
 from macroslip.roller.forces import interference
+from macroslip.roller.play import film_load
 
 #: Relative change of a place up to which the films of a roller with play carry the same. They carry newtons, of which
 #: traction is some hundredths: 1e-4 N, the tolerance of Newton's iteration at the default.
@@ -62,7 +62,7 @@ def _film_load(films, load, place, known):
         near = near and abs(place[k] - known[k + 1]) <= _REACH * abs(known[k + 1])
     if not near:
         approach, body, ring_speed = place
-        known[0] = film_load(films, load, approach, body, ring_speed, known[0])
+        known[0] = film_load(films, load, approach, body, ring_speed)
         known[1], known[2], known[3] = place
     return known[0]
 
