@@ -230,7 +230,7 @@ def long() -> None:
     )  # fmt: skip
     for orbits in (100, 1000, 10_000, 100_000):
         duration = orbits * 2.0 * np.pi / (RATED * 0.45397)
-        loads = BearingLoads.constant([0.0, -12e3, 0.0], RATED, duration)
+        loads = BearingLoads.constant([0.0, -12e3, 0.0], RATED, duration, step=1.0)
         cage = Cage(weight=False, mass=8.0)
         case = Case(loads=loads, laws=PAPER, bearing=bearing, dynamics="whole-bearing", cage=cage)
         result, spent = timed(case)

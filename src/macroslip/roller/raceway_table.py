@@ -18,7 +18,7 @@ import numpy as np
 
 from macroslip.compiled import jit_inline
 from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
-from macroslip.traction.spline_cell import channels_and_slopes_in_cell, channels_in_cell
+from macroslip.traction.spline_cell import channels_in_cell
 
 #: Ratio of slip to ring speed by which the third coordinate is scaled.
 SLIP_RATIO = 6e-4
@@ -134,7 +134,7 @@ def table_force(table, load, ring_speed, slip):
     cell, places, root, size = _cell_of_state(table, load, ring_speed, slip)
     if cell[0] < 0:
         return TableForce(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    value, by_ratio = channels_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
+    value, _, _, by_ratio = channels_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
     sign = math.copysign(1.0, ring_speed)
     pull_scale = sign * load
     lag_scale = pull_scale * root * root
@@ -169,7 +169,7 @@ def table_slopes(table, load, ring_speed, slip):
     none = (0.0, 0.0, 0.0)
     if cell[0] < 0:
         return TableSlopes(False, none, none, none, none, 0.0)
-    found = channels_and_slopes_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
+    found = channels_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
     value, first, second, third = found
     sign = math.copysign(1.0, ring_speed)
     pull, lag, skew = sign * load, sign * load * root * root, sign * table.side * load * root

@@ -187,59 +187,9 @@ def in_cell(typingctx, coefficients, cells, first_place, third_place, second_wei
 
 @intrinsic
 def channels_in_cell(typingctx, coefficients, cells, places):
-    """Four splines on one grid at a place, Σ w_m(t) w_q(s) w_n(u) c[i + m, k + q, j + n], and their derivatives by u.
+    """Four splines on one grid at a place, Σ w_m(t) w_q(s) w_n(u) c[i + m, k + q, j + n], and their derivatives.
 
-    Parameters
-    ----------
-    coefficients : ndarray, 4 dimensions, the last one of four splines
-        c.
-    cells : tuple of 3 int
-        i, k, j, with the cell within the array.
-    places : tuple of 3 float
-        t, s and u in the cell, from 0 to 1.
-
-    Returns
-    -------
-    tuple of 4 float, tuple of 4 float
-    """
-    _check(coefficients, 4)
-
-    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        write = _Vectors(builder)
-        indices = [*_parts(builder, arguments[1]), ir.Constant(_SIZE, 0)]
-        corner, strides = _address(context, builder, coefficients, arguments[0], indices)
-        first, second, third = (write.splat(place) for place in _parts(builder, arguments[2]))
-        along_first = write.splat_lanes(write.polynomial(_CUBIC, first))
-        along_second = write.splat_lanes(write.polynomial(_CUBIC, second))
-        lines = []
-        for _ in range(_LANES):
-            plane, sums = corner, []
-            for _ in range(_LANES):
-                line, values = plane, []
-                for _ in range(_LANES):
-                    values.append(write.load(line))
-                    line = builder.add(line, strides[1])
-                sums.append(write.weighted_sum(along_second, values))
-                plane = builder.add(plane, strides[0])
-            lines.append(write.weighted_sum(along_first, sums))
-            corner = builder.add(corner, strides[2])
-        found = [
-            context.make_tuple(
-                builder,
-                _WEIGHTS,
-                write.lanes(write.weighted_sum(write.splat_lanes(write.polynomial(terms, third)), lines)),
-            )
-            for terms in (_CUBIC, _QUADRATIC)
-        ]
-        return context.make_tuple(builder, signature.return_type, found)
-
-    given = types.UniTuple(types.intp, 3), types.UniTuple(types.float64, 3)
-    return types.UniTuple(_WEIGHTS, 2)(coefficients, *given), generate
-
-
-@intrinsic
-def channels_and_slopes_in_cell(typingctx, coefficients, cells, places):
-    """As `channels_in_cell`, with all derivatives.
+    What is not used of them costs nothing: it is not compiled.
 
     Parameters
     ----------
