@@ -82,7 +82,7 @@ def solve_held(path, state, step, exponent, bend):
     exponent : float
         Power of the load that slip follows.
     bend : float
-        How much forces bend along Newton's correction [1/N]; infinite where that is not known.
+        As in `macroslip.integrate.stages`.
 
     Returns
     -------
@@ -101,7 +101,7 @@ def solve_held(path, state, step, exponent, bend):
     later = held_exponent(at, slip, step.at2, ahead, exponent)
     v3 = held_slip(True, ahead, step.at2, step.at3, later)
     f3 = forces_of(model, step.at3, v3)
-    evaluations, unbalanced, converged = 2, math.inf, False
+    evaluations, unbalanced, converged, change, foreseen = 2, math.inf, False, 0.0, math.inf
     s3 = v3 - slip - d3
     for iteration in range(HELD_ITERATIONS):
         rest_2 = scale * s3 + net_force(f2)
@@ -112,14 +112,15 @@ def solve_held(path, state, step, exponent, bend):
             break
         if iteration > 0:
             if iteration == 1:
-                bend = max(size / (unbalanced * unbalanced), FORGET * bend if bend < math.inf else 0.0)
+                bend = max(size / (change * change), FORGET * bend if bend < math.inf else 0.0)
             if size > 0.9 * unbalanced and size > allowed:
                 break
             foreseen = min(size, size * size / unbalanced)
-        else:
-            foreseen = BEND_SAFETY * bend * size * size
-        unbalanced = size
         u2, u3 = held_update(scale, f2.slope, f3.slope, rest_2, rest_3)
+        change = max(abs(u2), abs(u3))
+        if iteration == 0:
+            foreseen = BEND_SAFETY * bend * change * change
+        unbalanced = size
         v2 += u2
         v3 += u3
         s2, s3 = v2 - slip - d2, v3 - slip - d3
@@ -137,8 +138,8 @@ def held_energy_error(energy, length, before, after):
     """Estimated error of the energy of a held step [J], from powers at its ends [W].
 
     Simpson's rule is off in proportion to the fourth power of the step, the trapezoidal rule to the second; the square of
-    what they differ by relatively has the order of the one, and for a power that grows as an exponential twenty times its
-    error.
+    twice what they differ by relatively has the order of the one, and for a power that grows as an exponential eighty
+    times its error. Errors of a rising and of a falling power are of one sign and add up, hence the margin.
     """
-    trapezoid = 0.5 * length * (before + after)
-    return (energy - trapezoid) * (energy - trapezoid) / abs(energy) if energy != 0.0 else math.inf
+    difference = 2.0 * energy - length * (before + after)
+    return difference * difference / abs(energy) if energy != 0.0 else math.inf

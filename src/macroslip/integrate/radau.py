@@ -28,10 +28,26 @@ from macroslip.reference import by_reference
 
 
 class Memory(NamedTuple):
-    """What steps of a held roller leave to the next: the power of load its slip follows, and how its forces bend [1/N]."""
+    """What a step leaves to the next, for its first guess.
+
+    Attributes
+    ----------
+    exponent : float
+        Power of the load that the slip of a held roller follows.
+    bend : float
+        As in `macroslip.integrate.stages`.
+    length : float
+        Of the last step of three stages [s]; 0 where another has come since.
+    s1, s2, s3 : float
+        The increments of slip by forces at its stages [m/s].
+    """
 
     exponent: float
     bend: float
+    length: float
+    s1: float
+    s2: float
+    s3: float
 
 
 class Attempt(NamedTuple):
@@ -85,7 +101,7 @@ def integrate_radau(path, slip, stops, classes, record):
     record.count[2] += 1
     pace = first_pace(path, state)
     peaks = Peaks(np.empty((2, 4)), -1, 0.0)
-    memory = Memory(LIMIT_EXPONENT, math.inf)
+    memory = Memory(LIMIT_EXPONENT, math.inf, 0.0, 0.0, 0.0, 0.0)
     spent, next_trace, status, looks = 0.0, 0, COMPLETED, no_looks()
     while True:
         next_trace = write_traces(record, path.model, next_trace, state.time, state.at, state.forces, state.slip)
@@ -118,20 +134,14 @@ def integrate_radau(path, slip, stops, classes, record):
                 pace = paced(pace, part * length, min(pace.barrier, state.time + part * length), pace.failed)
                 continue
         tried = _attempt(path, state, step, pace, memory, spent, record)
-        memory = Memory(memory.exponent, tried.stages.bend)
+        memory = _with_bend(memory, tried.stages.bend)
         if tried.solved and not math.isfinite(tried.energy):
             status = NOT_FINITE
             break
         factor = step_factor(tried.error)
         if not tried.solved or tried.error > 1.0:
             record.count[1] += 1
-            if step.held:
-                # The same step with three stages.
-                pace = paced(pace, pace.step, pace.barrier, True)
-                continue
-            pace = shortened(
-                path, state, pace, length * max(LEAST_PART, factor) if tried.solved else UNSOLVED_PART * length
-            )
+            pace = _rejected(path, state, pace, step, tried, factor)
             continue
         record.count[0] += 1
         spent += tried.energy
@@ -142,15 +152,37 @@ def integrate_radau(path, slip, stops, classes, record):
             energies = (tried.found.inner_energy, tried.found.outer_energy)
             looks = follow(record, path, after, energies, peaks.orbit, looks)
         record.worst[0] = max(record.worst[0], tried.stages.unbalanced)
-        if pace.zone == FIRM:
-            exponent = held_exponent(state.at, state.slip, after.at, after.slip, memory.exponent)
-            memory = Memory(exponent, memory.bend)
+        memory = _learnt(memory, state, after, step, tried.stages, pace.zone)
         state = after
         pace = paced(pace, length * min(1.0 if pace.failed else GROWTH, factor), pace.barrier, False)
     if looks.time < state.time:
         looked(record, path, state, looks.orbit, looks)
     record.end[0], record.end[1] = state.time, state.slip
     return status
+
+
+@jit_part
+def _rejected(path, state, pace, step, tried, factor):
+    """The pace after a step that was not taken."""
+    if step.held:
+        # The same step with three stages.
+        return paced(pace, pace.step, pace.barrier, True)
+    part = max(LEAST_PART, factor) if tried.solved else UNSOLVED_PART
+    return shortened(path, state, pace, part * step.length)
+
+
+@jit_part
+def _learnt(memory, state, after, step, stages, zone):
+    """What an accepted step leaves to the next."""
+    exponent = memory.exponent
+    if zone == FIRM:
+        exponent = held_exponent(state.at, state.slip, after.at, after.slip, exponent)
+    return Memory(exponent, memory.bend, 0.0 if step.held else step.length, stages.s1, stages.s2, stages.s3)
+
+
+@jit_part
+def _with_bend(memory, bend):
+    return Memory(memory.exponent, bend, memory.length, memory.s1, memory.s2, memory.s3)
 
 
 @jit_part
@@ -169,9 +201,9 @@ def _attempt(path, state, step, pace, memory, spent, record):
     if step.held:
         stages = solve_held(path, state, step, memory.exponent, memory.bend)
     else:
-        held = pace.zone == FIRM and has_microslip(path.model)
-        guess = first_guess(path, state, step, pace.zone, memory.exponent)
-        stages = solve_stages(path, state, step, guess, held, memory.bend)
+        smooth = has_microslip(path.model)
+        guess = first_guess(path, state, step, pace.zone, memory)
+        stages = solve_stages(path, state, step, guess, smooth, memory.bend)
     record.count[2] += stages.evaluations
     found = step_powers(path.model, step, stages)
     energy = found.inner_energy + found.outer_energy + found.cage_energy

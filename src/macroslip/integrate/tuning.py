@@ -57,7 +57,7 @@ FORCE_TOLERANCE = 1e-9
 MICROSLIP_FORCE_SHARE, MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
 #: Safety factor on the residual foreseen from the curvature of the forces in earlier steps, and what is left of that
 #: curvature when a newer one is smaller. With them a held roller takes 3.7 evaluations a step on average, not 6.
-BEND_SAFETY, FORGET = 10.0, 0.7
+BEND_SAFETY, FORGET = 3.0, 0.5
 #: Part of the sum of force magnitudes up to which the second of two residuals may be left to a last correction without
 #: an evaluation. A larger one is no sign of convergence, however much larger the first was: but for the forces the
 #: stage equations are linear in slip, so a correction removes most of a residual that a poor guess made; and where the
@@ -71,6 +71,8 @@ HELD_ITERATIONS = 4
 #: Step over relaxation time from which on a roller with microslip is taken to follow its loads, for a first guess.
 #: Judgement; a poor guess costs an evaluation and no accuracy.
 GRIPPED = 10.0
+#: Step over the one before, up to which the polynomial of that is a first guess. Judgement.
+MOST_AHEAD = 3.0
 #: Power of the load with which the middle of a held contact slips where stress is at its limit: that of the drop of the
 #: contour at the end of the ellipse.
 LIMIT_EXPONENT = 2.0 / 3.0
