@@ -2,7 +2,8 @@
 
 Parts, each with `-paper` or `-physical`: `cases` (imposed orbit and whole bearing under the 21 load cases), `choices` (gap, oil,
 weight, arrangement, guidance, scatter under 14B), `places` (forces by place on the orbit under a radial load), `operation`
-(start, stop, reversal, idling, emergency stop) and `speed`. Under the paper's laws alone: `dry` (dry impacts and their cost),
+(start, stop, reversal, idling, emergency stop), `speed` (600 s), `accuracy` (energies against a tight tolerance) and `rollers` (cost
+by their number). Under the paper's laws alone: `dry` (dry impacts and their cost),
 `tolerance` and `scatter` (energies by tolerance and by initial offsets) and `long` (what grows over many orbits).
 """
 
@@ -218,42 +219,86 @@ def operation(laws: Laws) -> None:
 
 
 def long() -> None:
-    """Momentum's residual and energy per orbit of a bearing with three rollers a row, over many orbits."""
+    """What is left open in the books, and what orbits cost, of a bearing with three rollers a row over many orbits."""
     from macroslip.bearing import Bearing
 
     bearing = Bearing.read("skf-240-600-bc").replace(rollers_per_row=3)
     heading(
-        "orbits", "momentum residual / impulse through the bearing", "energy of the last tenth / of the tenth before"
-    )
-    for orbits in (10, 100, 1000):
+        "orbits", "time of one core [s]", "momentum left open in the first, in the last tenth [N m s]",
+        "impulse through the bearing in a tenth [N m s]", "energy left open in the first, in the last tenth [J]",
+        "energy of the last tenth / of the second",
+    )  # fmt: skip
+    for orbits in (100, 1000, 10_000, 100_000):
         duration = orbits * 2.0 * np.pi / (RATED * 0.45397)
-        loads = BearingLoads.constant([0.0, -12e3, 0.0], RATED, duration)
-        edges = np.linspace(0.0, duration, 11)
-        case = Case(
-            loads=loads, laws=PAPER, bearing=bearing, dynamics="whole-bearing", cage=Cage(weight=False, mass=8.0)
-        )
-        result = simulate(case)
-        at = result.interp(book_time=edges)
-        spent = np.diff((at.book_raceway_loss + at.book_friction_loss).values)
-        impulse = float(abs(result.book_inner_impulse[-1]))
+        loads = BearingLoads.constant([0.0, -12e3, 0.0], RATED, duration, step=1.0)
+        cage = Cage(weight=False, mass=8.0)
+        case = Case(loads=loads, laws=PAPER, bearing=bearing, dynamics="whole-bearing", cage=cage)
+        result, spent = timed(case)
+        at = result.sel(book_time=np.linspace(0.0, duration, 11), method="nearest")
+        lost = np.diff((at.book_raceway_loss + at.book_friction_loss).values)
+        momentum, energy = np.diff(at.momentum_residual.values), np.diff(at.energy_residual.values)
+        impulse = float(abs(np.diff(at.book_inner_impulse.values)[-1]))
         print(
-            cells(orbits, f"{float(abs(result.momentum_residual).max()) / impulse:.1e}", f"{spent[-1] / spent[-2]:.5f}")
-        )
+            cells(
+                orbits, spent, f"{momentum[0]:.1e}, {momentum[-1]:.1e}", impulse,
+                f"{energy[0]:.1e}, {energy[-1]:.1e}", f"{lost[-1] / lost[1]:.6f}",
+            ), flush=True,
+        )  # fmt: skip
 
 
 def speed(laws: Laws) -> None:
-    """Time of one core for load case 14B, after a first run that compiles."""
+    """Time of one core for all 600 s of load case 14B, after a first run that compiles."""
     heading("spars", "simulated [s]", "time of one core [s]", "times real time", "steps", "contact evaluations")
-    for name, cage, span in (("squeeze film", Cage(), 60.0), ("dry", Cage(impact="dry"), 10.0)):
+    for name, cage in (("squeeze film", Cage()), ("dry", Cage(impact="dry"))):
         loads = HubLoads.bundled("14B")
-        case = Case(loads=loads.window(BEGIN, BEGIN + span), laws=laws, dynamics="whole-bearing", cage=cage)
+        case = Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
         simulate(replace(case, loads=loads.window(BEGIN, BEGIN + 8.0)))
         result, spent = timed(case)
         steps = int((result.steps + result.rejections).max())
+        span = float(loads.time[-1] - loads.time[0])
         print(cells(name, span, spent, span / spent, steps, int(result.force_evaluations.max())), flush=True)
 
 
-BY_LAWS = {"cases": cases, "choices": choices, "places": places, "operation": operation, "speed": speed}
+def accuracy(laws: Laws) -> None:
+    """Energies of 14B at the default tolerance over those at a finer one, by the laws themselves."""
+    heading(
+        "spars", "downwind raceways", "downwind cage", "upwind raceways", "upwind cage", "rolling resistance",
+        "energy left open / lost",
+    )  # fmt: skip
+    runs = ("squeeze film", Cage(), 60.0, 2e-6), ("dry", Cage(impact="dry"), 8.0, 2e-5)
+    for name, cage, span, fine in runs:
+        loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + span)
+        case = Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
+        found = []
+        for integrator in (Radau(), Radau(tolerance=fine, tables=False)):
+            result = simulate(replace(case, integrator=integrator))
+            found.append(np.append(energies(result).ravel(), float(result.rolling_energy.sum())))
+            if len(found) == 1:
+                lost = float(result.book_raceway_loss[-1] + result.book_friction_loss[-1])
+                left = float(abs(result.energy_residual).max()) / lost
+        parts = [f"{a / b - 1.0:+.1e}" if b > 0.0 else "–" for a, b in zip(*found, strict=True)]
+        print(cells(name, *parts, f"{left:.1e}"), flush=True)
+
+
+def rollers(laws: Laws) -> None:
+    """Time of one core by the number of rollers, under thrust in proportion to them."""
+    from macroslip.bearing import Bearing
+
+    heading("rollers", "time of one core [ms/s]", "steps a second", "µs a step and roller")
+    for count in (7, 14, 28):
+        bearing = Bearing.read("skf-240-600-bc").replace(rollers_per_row=count)
+        loads = BearingLoads.constant([0.0, -12e3 * count, 4e3 * count], RATED, 60.0)
+        cage = Cage(mass=50.0 * count / 28)
+        case = Case(loads=loads, laws=laws, bearing=bearing, dynamics="whole-bearing", cage=cage)
+        result, spent = min((timed(case) for _ in range(3)), key=lambda one: one[1])
+        steps = int((result.steps + result.rejections).max())
+        print(cells(2 * count, 1e3 * spent / 60.0, steps / 60.0, 1e6 * spent / (steps * 2 * count)), flush=True)
+
+
+BY_LAWS = {
+    "cases": cases, "choices": choices, "places": places, "operation": operation, "speed": speed,
+    "accuracy": accuracy, "rollers": rollers,
+}  # fmt: skip
 PARTS = {
     **{f"{name}-paper": partial(part, PAPER) for name, part in BY_LAWS.items()},
     **{f"{name}-physical": partial(part, PHYSICAL) for name, part in BY_LAWS.items()},

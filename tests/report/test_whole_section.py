@@ -60,6 +60,10 @@ def test_figures_show_what_the_result_holds(results):
     axes = Figure().add_subplot(projection="polar")
     plot_force_by_position(axes, results["coupled"], "upwind")
     drawn = axes.lines[0].get_ydata()[:-1]
+    # Once round and on to where it began, never back across the picture.
+    place = axes.lines[0].get_xdata()
+    assert (np.diff(place) > 0.0).all()
+    assert place[-1] - place[0] == pytest.approx(2.0 * np.pi)
     wanted = results["coupled"].largest_force_by_position.sel(row="upwind").values
     assert drawn == pytest.approx(np.maximum(wanted, 0.1))
     axes = Figure().subplots()

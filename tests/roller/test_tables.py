@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from macroslip.contact import table_store
 from macroslip.mechanisms import Laws
 from macroslip.roller import play_build, raceway_build
+from macroslip.roller.contact import raceway_contact
 from macroslip.roller.contact_force import cage_force, friction_power, raceway_force
 from macroslip.roller.films import cage_film, raceway_film
 from macroslip.roller.forces import Station, slip_forces
@@ -99,6 +100,30 @@ def test_most_states_are_known_and_the_rest_are_those_of_the_laws(made, rows, ri
     assert 200 < unknown < 900
     empty = no_raceway_table()
     assert not table_force(empty, 1e3, 0.4, 0.1).known and not table_force(table.table, 1e3, 0.0, 0.1).known
+
+
+@rings
+@given(load=light, speed=speeds, ratio=st.floats(-0.001, 0.999), side=st.sampled_from([-1.0, 1.0]))
+@settings(deadline=None, max_examples=60)
+def test_derivatives_of_a_table_are_those_of_its_values(made, rows, ring, load, speed, ratio, side):
+    """Central differences of the forces; between cells the splines' second derivatives are continuous."""
+    table, _ = both(made, rows, "downwind", ring)
+    state = np.array([load, side * speed, side * ratio * speed])
+    steps = np.array([1e-4 * load, 1e-5 * speed, 1e-5 * 6e-4 * (1.0 + abs(ratio) / 6e-4) * speed])
+    found = raceway_contact(table, *state)
+    around = [[forces(table, *(state + sign * step))[0] for sign in (1, -1)] for step in np.diag(steps)]
+    assume(
+        all(table_force(table.table, *(state + sign * step)).known for step in np.diag(steps) for sign in (-1, 0, 1))
+    )
+    here, power = forces(table, *state)
+    assert (found.spin, found.pull) == pytest.approx((here.spin, here.pull), rel=1e-10)
+    assert (found.power, found.asperity_power) == pytest.approx((power, here.detail.asperity_power), rel=1e-10)
+    scale = largest_force(table, load, speed)
+    for name, size, step, (more, less) in zip(("load", "speed", "slip"), abs(state), steps, around, strict=True):
+        for force in ("spin", "pull"):
+            slope = (getattr(more, force) - getattr(less, force)) / (2.0 * step)
+            unit = scale / max(size, 6e-4 * speed) if name == "slip" else scale / size
+            assert getattr(found, f"{force}_by_{name}") == pytest.approx(slope, rel=1e-4, abs=1e-4 * unit)
 
 
 @rings

@@ -8,7 +8,12 @@ from numba.core.errors import TypingError
 from scipy.interpolate import BSpline, NdBSpline
 
 from macroslip.compiled import jit
-from macroslip.traction.spline_cell import along_line, channels_in_cell, channels_in_square, in_cell
+from macroslip.traction.spline_cell import (
+    along_line,
+    channels_in_cell,
+    channels_in_square,
+    in_cell,
+)
 
 SHAPE = (9, 7, 12)
 COEFFICIENTS = np.random.default_rng(4).normal(size=SHAPE)
@@ -79,11 +84,12 @@ def test_other_arrays_are_refused_and_not_misread(coefficients):
 def test_four_splines_in_a_cell(x, y, z):
     four = np.stack([COEFFICIENTS * (n + 1) + n for n in range(4)], axis=-1)
     cells, there = zip(*(split(place, count) for place, count in zip((x, y, z), SHAPE, strict=True)), strict=True)
-    value, by_third = four_in_cell(four, cells, there)
     spline = NdBSpline(tuple(KNOTS), COEFFICIENTS, 3)
-    expected, slope = float(spline((x, y, z))), float(spline((x, y, z), nu=(0, 0, 1)))
-    np.testing.assert_allclose(value, [expected * (n + 1) + n for n in range(4)], atol=1e-12)
-    np.testing.assert_allclose(by_third, [slope * (n + 1) for n in range(4)], atol=1e-12)
+    orders = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+    for order, values in zip(orders, four_in_cell(four, cells, there), strict=True):
+        constant = np.arange(4.0) if order == (0, 0, 0) else 0.0
+        expected = float(spline((x, y, z), nu=order)) * np.arange(1.0, 5.0) + constant
+        np.testing.assert_allclose(values, expected, atol=1e-12)
 
 
 @given(x=places[0], y=places[1])

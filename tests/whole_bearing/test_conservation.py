@@ -42,7 +42,7 @@ ROLLING = Laws.paper().but(rolling="whole-film")
 def test_books_close_with_rolling_resistance(run):
     """Shear and push of the inlets act on roller and ring with equal and opposite torques, and cost 2 F_R u."""
     cage = Cage(guide_friction=5.0, offsets="random")
-    status, record, _ = run(cage, RADIAL, 2.143, 0.4, laws=ROLLING)
+    status, record, _ = run(cage, RADIAL, 2.143, 0.4, tolerance=2e-5, laws=ROLLING)
     assert status == 0
     impulses = np.abs(record.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
     assert np.abs(momentum_residual(record)).max() < 1e-6 * impulses
@@ -79,7 +79,7 @@ def test_energies_spin_and_force_converge(run):
             [*record.energy.sum(axis=0), record.trace[-1, :28, 0].mean(), np.abs(record.trace[-1, :, 11]).mean()]
         )
 
-    coarse, fine, finest = figures(2e-4), figures(2e-5), figures(2e-6)
+    coarse, fine, finest = figures(2e-5), figures(2e-6), figures(2e-7)
     off, less = np.abs(coarse / finest - 1.0), np.abs(fine / finest - 1.0)
     assert off.max() < 5e-3
     assert less.max() < 1e-3

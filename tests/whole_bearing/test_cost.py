@@ -31,7 +31,7 @@ def test_work_grows_in_proportion_to_the_rollers(run):
         shaft = ([0.0, 0.25, 0.5], [2.0, 2.5, 1.5])
         _, record, _ = run(
             Cage(weight=False, mass=50.0 * rollers / 28), (0.0, 0.0, 8e-4), shaft, 0.5, rollers=rollers, rests=False,
-            gravity=False,
+            gravity=False, tolerance=2e-5,
         )  # fmt: skip
         iterations[rollers] = record.count[3]
         # At most both raceways of every roller are evaluated in a pass.
@@ -41,17 +41,15 @@ def test_work_grows_in_proportion_to_the_rollers(run):
 
 
 def test_nothing_drifts(run):
-    """Over 150 orbits the torque that Newton's method leaves unbalanced stays the same and far below any other.
+    """Over 150 orbits the torque that Newton's method leaves unbalanced stays far below any other, without growing.
 
     Orbits after the first cost the same energy, and the cage stays where the rollers hold it.
     """
     orbit = 2.0 * math.pi / (SPEED * 0.45397)
     status, record, _ = run(Cage(weight=False), (0.0, -1.05e-4, 0.0), SPEED, 150.0 * orbit, rollers=3, outputs=7)
     assert status == 0
-    passed = np.abs(record.flows[-1, FLOWS.index("inner_impulse")])
-    residual = np.abs(momentum_residual(record))
-    assert residual.max() < 1e-6 * passed
-    assert np.diff(residual) == pytest.approx(residual[1], rel=0.1)
+    passed = np.abs(np.diff(record.flows[:, FLOWS.index("inner_impulse")]))
+    assert (np.abs(np.diff(momentum_residual(record))) < 1e-6 * passed).all()
     spent = np.diff(record.flows[:, FLOWS.index("friction_loss")] + record.flows[:, FLOWS.index("raceway_loss")])
     assert spent[2:] == pytest.approx(spent[1], rel=2e-3)
     # The cage stays within its gap of the rollers that carry it.

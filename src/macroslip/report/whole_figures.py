@@ -32,7 +32,8 @@ def plot_force_by_position(axes: Axes, result: xr.Dataset, row: str) -> Axes:
     # Looking downwind +X0 is on the left, and φ runs clockwise.
     axes.set_theta_zero_location("W")
     axes.set_theta_direction(-1)
-    axes.plot(np.append(place, place[0]), np.append(values, values[0]), drawstyle="steps-mid")
+    # A full turn later, not back across the picture.
+    axes.plot(np.append(place, place[0] + 2.0 * np.pi), np.append(values, values[0]), drawstyle="steps-mid")
     axes.set_rscale("log")
     axes.set_rlim(1e-1, max(10.0, 2.0 * float(values.max())))
     axes.set_xticks(np.radians([0.0, 90.0, 180.0, 270.0]), ["+X0", "top", "−X0", "bottom"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -100,7 +101,8 @@ def simulate(
     if case.dynamics == WHOLE_BEARING:
         times = Times(edges, trace_time, end)
         drag = _drag_power(case, model, motion, edges[0], end)
-        return simulate_whole_bearing(case, models, motion, times, _notes(case, largest), drag)
+        evaluated = partial(evaluated_models, case, motion=motion, largest=largest)
+        return simulate_whole_bearing(case, models, motion, times, evaluated, _notes(case, largest), drag)
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
     models, evaluation = evaluated_models(case, models, motion, largest)

@@ -18,7 +18,7 @@ from macroslip.result.dataset import INTERFACES, VARIABLES, input_attributes, ro
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS
-from macroslip.whole_bearing.model import RowModels, whole_bearing
+from macroslip.whole_bearing.model import RowModels, whole_bearing, with_rollers
 from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, BearingRecord
 from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
 
@@ -36,7 +36,13 @@ _CITATION = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068
 
 
 def simulate_whole_bearing(
-    case: Case, models: dict[str, RollerModel], motion: Motion, times: Times, notes: dict[str, Any], drag_power: float
+    case: Case,
+    models: dict[str, RollerModel],
+    motion: Motion,
+    times: Times,
+    evaluated: Callable,
+    notes: dict[str, Any],
+    drag_power: float,
 ) -> xr.Dataset:
     """Compute orbit and spin of all rollers, and the cages.
 
@@ -49,6 +55,8 @@ def simulate_whole_bearing(
         Of the inner ring.
     times : Times
         With those of traces as outputs, if any were asked for.
+    evaluated : callable
+        From rollers by row to those that are integrated, by tables say, and the result's attributes on that.
     notes : dict
         Attributes of the result on its accuracy, by name.
     drag_power : float
@@ -64,7 +72,9 @@ def simulate_whole_bearing(
         laws=case.laws,
     )  # fmt: skip
     curved = isinstance(bearing.models[0].inner, CurvedContact)
-    bearing = bearing._replace(models=RowModels(**models))
+    # The oil of these pockets is as wide as their play.
+    models, evaluation = evaluated({row: one._replace(films=bearing.films) for row, one in models.items()})
+    bearing, notes = with_rollers(bearing, RowModels(**models)), {**notes, **evaluation}
     if case.traces is None:
         times = times._replace(outputs=np.unique(np.concatenate([motion.time[:1], times.edges, [times.end]])))
     start, interrupt = pure_rolling(bearing, case.cage), np.zeros(1, dtype=np.int8)

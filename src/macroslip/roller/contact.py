@@ -14,12 +14,14 @@ from macroslip.film.film_law import film_thickness
 from macroslip.roller.contact_force import (
     LOWEST_ENTRAINMENT_SPEED,
     CurvedContact,
+    Detail,
     asperity_power,
     cage_force,
     friction_power,
     is_curved,
     raceway_force,
 )
+from macroslip.roller.raceway_table import table_slopes
 from macroslip.traction.traction_law import patch_traction
 
 #: Part of a load or speed by which it is changed for a difference.
@@ -98,9 +100,30 @@ def _plain_contact(contact, load, ring_speed, slip):
 
 @jit
 def _curved_contact(contact, load, ring_speed, slip):
-    """A contact over which slip varies: its derivatives by load and ring speed are differences."""
+    """A contact over which slip varies: without a table its derivatives by load and ring speed are differences."""
     if load <= 0.0:
         return RacewayContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    found = table_slopes(contact.table, load, ring_speed, slip)
+    if found.known:
+        (pull, lag, skew), rough = found.value, found.asperity_power
+        spin = pull - lag
+        return RacewayContact(
+            spin,
+            pull,
+            found.by_slip[0] - found.by_slip[1],
+            found.by_slip[0],
+            found.by_load[0] - found.by_load[1],
+            found.by_load[0],
+            found.by_speed[0] - found.by_speed[1],
+            found.by_speed[0],
+            friction_power(contact, slip, ring_speed, spin, Detail(lag, skew, rough)),
+            rough,
+        )
+    return _curved_by_laws(contact, load, ring_speed, slip)
+
+
+@jit
+def _curved_by_laws(contact, load, ring_speed, slip):
     here = _forces(contact, load, ring_speed, slip)
     power = friction_power(contact, slip, ring_speed, here.spin, here.detail)
     change = _PART * load

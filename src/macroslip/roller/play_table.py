@@ -64,5 +64,5 @@ def tabled_load(table, play, body, ring_speed):
     j, u = cell_of(table.speed, math.log(abs(ring_speed)))
     if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
         return math.nan
-    value, _ = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
+    value, _, _, _ = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
     return math.exp(value[0] if body >= 0.0 else value[1])

@@ -69,6 +69,27 @@ class TableForce(NamedTuple):
     lag_slope: float
 
 
+class TableSlopes(NamedTuple):
+    """What a table gives with all derivatives: by load, ring speed and slip, each at constant others.
+
+    Attributes
+    ----------
+    known : bool
+        Whether the table knows the state.
+    value, by_load, by_speed, by_slip : tuple of 3 float
+        Force and lag [N] and skew moment [N m], and their derivatives [1/N, s/m].
+    asperity_power : float
+        [W].
+    """
+
+    known: bool
+    value: tuple[float, float, float]
+    by_load: tuple[float, float, float]
+    by_speed: tuple[float, float, float]
+    by_slip: tuple[float, float, float]
+    asperity_power: float
+
+
 def no_raceway_table() -> RacewayTable:
     """A table that knows no state."""
     return RacewayTable(
@@ -84,17 +105,11 @@ def no_raceway_table() -> RacewayTable:
 
 
 @jit_inline
-def table_force(table, load, ring_speed, slip):
-    """Look a state up: Q > 0 [N], u2 [m/s] and Δu [m/s].
-
-    Returns
-    -------
-    TableForce
-        Zeros where the table does not know the state.
-    """
-    nothing = TableForce(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+def _cell_of_state(table, load, ring_speed, slip):
+    """Cell of a state, places in it, Q^(1/3) and √(1 + z²) with z the slip in the third coordinate; cell −1 outside."""
+    nowhere = (-1, -1, -1), (0.0, 0.0, 0.0), 0.0, 0.0
     if table.load.cells == 0 or ring_speed == 0.0:
-        return nothing
+        return nowhere
     log_load = math.log(load)
     root = math.exp(log_load * (1.0 / 3.0))
     i, t = cell_of(table.load, log_load + table.stretch * root)
@@ -103,8 +118,23 @@ def table_force(table, load, ring_speed, slip):
     size = math.sqrt(z * z + 1.0)
     j, u = cell_of(table.ratio, math.copysign(math.log(abs(z) + size), z))
     if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
-        return nothing
-    value, by_ratio = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
+        return nowhere
+    return (i, k, j), (t, s, u), root, size
+
+
+@jit_inline
+def table_force(table, load, ring_speed, slip):
+    """Look a state up: Q > 0 [N], u2 [m/s] and Δu [m/s].
+
+    Returns
+    -------
+    TableForce
+        Zeros where the table does not know the state.
+    """
+    cell, places, root, size = _cell_of_state(table, load, ring_speed, slip)
+    if cell[0] < 0:
+        return TableForce(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    value, _, _, by_ratio = channels_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
     sign = math.copysign(1.0, ring_speed)
     pull_scale = sign * load
     lag_scale = pull_scale * root * root
@@ -117,4 +147,49 @@ def table_force(table, load, ring_speed, slip):
         load * root * root * abs(ring_speed) * value[3],
         pull_scale * by_ratio[0] * by_slip,
         lag_scale * by_ratio[1] * by_slip,
+    )
+
+
+@jit_inline
+def _grown(scale, power, value, by_coordinate, by_load):
+    """Derivative by load of scale · Q · value, where scale · Q goes with the load to `power`."""
+    return scale * (value * power + by_coordinate * by_load)
+
+
+@jit_inline
+def table_slopes(table, load, ring_speed, slip):
+    """Look a state up with all derivatives; parameters as for `table_force`.
+
+    Returns
+    -------
+    TableSlopes
+        Zeros where the table does not know the state.
+    """
+    cell, places, root, size = _cell_of_state(table, load, ring_speed, slip)
+    none = (0.0, 0.0, 0.0)
+    if cell[0] < 0:
+        return TableSlopes(False, none, none, none, none, 0.0)
+    found = channels_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
+    value, first, second, third = found
+    sign = math.copysign(1.0, ring_speed)
+    pull, lag, skew = sign * load, sign * load * root * root, sign * table.side * load * root
+    by_load = table.load.per_spacing * (1.0 + table.stretch * root * (1.0 / 3.0))
+    by_speed = table.speed.per_spacing / ring_speed
+    by_slip = table.ratio.per_spacing / (SLIP_RATIO * size * ring_speed)
+    along = -slip / ring_speed * by_slip
+    return TableSlopes(
+        True,
+        (pull * value[0], lag * value[1], skew * value[2]),
+        (
+            _grown(pull / load, 1.0, value[0], first[0], by_load),
+            _grown(lag / load, 5.0 / 3.0, value[1], first[1], by_load),
+            _grown(skew / load, 4.0 / 3.0, value[2], first[2], by_load),
+        ),
+        (
+            pull * (second[0] * by_speed + third[0] * along),
+            lag * (second[1] * by_speed + third[1] * along),
+            skew * (second[2] * by_speed + third[2] * along),
+        ),
+        (pull * third[0] * by_slip, lag * third[1] * by_slip, skew * third[2] * by_slip),
+        load * root * root * abs(ring_speed) * value[3],
     )

@@ -187,7 +187,9 @@ def in_cell(typingctx, coefficients, cells, first_place, third_place, second_wei
 
 @intrinsic
 def channels_in_cell(typingctx, coefficients, cells, places):
-    """Four splines on one grid at a place, Σ w_m(t) w_q(s) w_n(u) c[i + m, k + q, j + n], and their derivatives by u.
+    """Four splines on one grid at a place, Σ w_m(t) w_q(s) w_n(u) c[i + m, k + q, j + n], and their derivatives.
+
+    What is not used of them costs nothing: it is not compiled.
 
     Parameters
     ----------
@@ -200,7 +202,8 @@ def channels_in_cell(typingctx, coefficients, cells, places):
 
     Returns
     -------
-    tuple of 4 float, tuple of 4 float
+    tuple of 4 float, four times
+        The splines, and their derivatives by t, by s and by u.
     """
     _check(coefficients, 4)
 
@@ -208,33 +211,33 @@ def channels_in_cell(typingctx, coefficients, cells, places):
         write = _Vectors(builder)
         indices = [*_parts(builder, arguments[1]), ir.Constant(_SIZE, 0)]
         corner, strides = _address(context, builder, coefficients, arguments[0], indices)
-        first, second, third = (write.splat(place) for place in _parts(builder, arguments[2]))
-        along_first = write.splat_lanes(write.polynomial(_CUBIC, first))
-        along_second = write.splat_lanes(write.polynomial(_CUBIC, second))
-        lines = []
+        (w, dw), (z, dz), (v, dv) = (
+            [write.splat_lanes(write.polynomial(terms, write.splat(place))) for terms in (_CUBIC, _QUADRATIC)]
+            for place in _parts(builder, arguments[2])
+        )
+        lines, by_first, by_second = [], [], []
         for _ in range(_LANES):
-            plane, sums = corner, []
+            plane, sums, slopes = corner, [], []
             for _ in range(_LANES):
                 line, values = plane, []
                 for _ in range(_LANES):
                     values.append(write.load(line))
                     line = builder.add(line, strides[1])
-                sums.append(write.weighted_sum(along_second, values))
+                sums.append(write.weighted_sum(z, values))
+                slopes.append(write.weighted_sum(dz, values))
                 plane = builder.add(plane, strides[0])
-            lines.append(write.weighted_sum(along_first, sums))
+            lines.append(write.weighted_sum(w, sums))
+            by_first.append(write.weighted_sum(dw, sums))
+            by_second.append(write.weighted_sum(w, slopes))
             corner = builder.add(corner, strides[2])
         found = [
-            context.make_tuple(
-                builder,
-                _WEIGHTS,
-                write.lanes(write.weighted_sum(write.splat_lanes(write.polynomial(terms, third)), lines)),
-            )
-            for terms in (_CUBIC, _QUADRATIC)
+            context.make_tuple(builder, _WEIGHTS, write.lanes(write.weighted_sum(weights, given)))
+            for weights, given in ((v, lines), (v, by_first), (v, by_second), (dv, lines))
         ]
         return context.make_tuple(builder, signature.return_type, found)
 
     given = types.UniTuple(types.intp, 3), types.UniTuple(types.float64, 3)
-    return types.UniTuple(_WEIGHTS, 2)(coefficients, *given), generate
+    return types.UniTuple(_WEIGHTS, 4)(coefficients, *given), generate
 
 
 @intrinsic

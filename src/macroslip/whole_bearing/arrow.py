@@ -22,6 +22,8 @@ class Arrow(NamedTuple):
         Inverse of each roller's 2 × 2 block.
     column, row : ndarray, shape (n, 2, 3)
         Its border: derivatives of its residuals by w, p, q and of the cage's residuals by v_in, v_out.
+    slope : ndarray, shape (n, 3)
+        Derivatives of the spars' push by x' [N s/m], and of the cage's friction by slip [N s/m] and by the push [-].
     rest : ndarray, shape (n, 2)
         Its residuals [N], or the right-hand side of a solution.
     border : ndarray, shape (c, 3, 3)
@@ -31,6 +33,7 @@ class Arrow(NamedTuple):
     inverse: np.ndarray
     column: np.ndarray
     row: np.ndarray
+    slope: np.ndarray
     rest: np.ndarray
     border: np.ndarray
     border_rest: np.ndarray
@@ -42,6 +45,7 @@ def new_arrow(count: int, cages: int) -> Arrow:
         inverse=np.zeros((count, 4)),
         column=np.zeros((count, 2, 3)),
         row=np.zeros((count, 2, 3)),
+        slope=np.zeros((count, 3)),
         rest=np.zeros((count, 2)),
         border=np.zeros((cages, 3, 3)),
         border_rest=np.zeros((cages, 3)),
@@ -63,9 +67,10 @@ def eliminate(cage_of, size, arrow):
     for j in range(cage_of.size):
         border, inverse = arrow.border[cage_of[j]], arrow.inverse[j]
         column, row = arrow.column[j], arrow.row[j]
+        i0, i1, i2, i3 = inverse[0], inverse[1], inverse[2], inverse[3]
         for k in range(size):
-            first = inverse[0] * column[0, k] + inverse[1] * column[1, k]
-            second = inverse[2] * column[0, k] + inverse[3] * column[1, k]
+            ahead, behind = column[0, k], column[1, k]
+            first, second = i0 * ahead + i1 * behind, i2 * ahead + i3 * behind
             for i in range(size):
                 border[i, k] -= row[0, i] * first + row[1, i] * second
 

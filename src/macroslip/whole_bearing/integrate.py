@@ -20,6 +20,8 @@ from macroslip.whole_bearing.traction import evaluate_marked
 
 #: First step [s]; growth and least part of a step; its part after an unsolved stage; safety factor.
 _FIRST_STEP, _GROWTH, _LEAST_PART, _UNSOLVED_PART, _SAFETY = 1e-4, 3.0, 0.2, 0.25, 0.85
+#: Part of the deepest indentation below which a dry impact has just begun, and part of it in the first step then.
+_BEGUN, _IMPACT_PART = 0.1, 0.5
 #: Positions in the record's counts.
 _STEPS, _REJECTIONS, _EVALUATIONS, _ITERATIONS, _REFRESHED, _UNSOLVED, _INACCURATE, _UNFORETOLD = range(8)
 
@@ -54,11 +56,31 @@ def _touch_ahead(bearing, space, h):
 
 
 @jit_merged
+def _impact_step(bearing, space):
+    """First step [s] of the fastest dry impact that has just begun; infinite if none has.
+
+    A mass m that runs at v into K δ^1.5 goes in by (5 m v²/4K)^0.4; the step is the time in which it travels a part of
+    that.
+    """
+    half, shortest = bearing.pocket.half_gap, math.inf
+    for j in range(space.state.rollers.shape[0]):
+        offset, speed = space.state.rollers[j, 2], space.slope.rollers[j, 2]
+        depth = abs(offset) - half
+        if depth > 0.0 and offset * speed > 0.0:
+            deepest = (1.25 * bearing.roller_mass * speed * speed / bearing.pocket.stiffness) ** 0.4
+            if depth < _BEGUN * deepest:
+                shortest = min(shortest, _IMPACT_PART * deepest / abs(speed))
+    return shortest
+
+
+@jit_merged
 def _cut(bearing, space, step, left):
     """Step [s] to the next stop or half-way to it.
 
-    With dry impacts to just after a touch, so that the impact begins in the step after.
+    With dry impacts to just after a touch, so that the impact begins in the step after, which is as short as it needs.
     """
+    if bearing.pocket.film == 0.0:
+        step = min(step, _impact_step(bearing, space))
     h = left if step >= 0.95 * left else (0.5 * left if step > 0.6 * left else step)
     if bearing.pocket.film == 0.0:
         part = _touch_ahead(bearing, space, h)

@@ -160,3 +160,8 @@ def whole_bearing(
         radial_play=float(cage.gap),
         guide_friction=float(cage.guide_friction),
     )
+
+
+def with_rollers(bearing: WholeBearing, models: RowModels) -> WholeBearing:
+    """The bearing with the same rollers by other means, tables say, made of the bearing's own `films`."""
+    return bearing._replace(models=models, films=models.downwind.films)

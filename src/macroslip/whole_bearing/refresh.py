@@ -8,43 +8,53 @@ from __future__ import annotations
 
 import math
 
-from macroslip.compiled import jit, jit_merged
+from macroslip.compiled import jit_inline, jit_merged
+from macroslip.whole_bearing.record import raceway_power
 from macroslip.whole_bearing.traction import (
     INNER,
     LOAD,
     OUTER,
     PULL,
     PULL_V,
+    SHEAR,
     SLIP,
     SPIN,
     SPIN_V,
     WHEN,
     evaluate_marked,
     raceway_from,
+    shear_from,
 )
 
-#: Allowed relative error of power where slopes foretell it, in tolerances.
-_POWER_SHARE = 25.0
 #: Factors by which the time between evaluations changes.
 _REST_GROWTH, _REST_PART = 2.0, 0.3
 #: How many times its allowance a foretold force may be off before the step is repeated.
-_FAR_OFF = 6.0
+_FAR_OFF = 30.0
 
 
-@jit
-def _contact_off(mass, limits, sheet, at, foretold, span, power_scale):
-    """How far a raceway contact is from the spin force and pull [N] foretold for it, over what is allowed."""
-    spin, pull = foretold
+@jit_inline
+def _contact_off(bearing, limits, sheets, at, place, span, power_scale):
+    """How far spin force, pull [N] and powers [W] of a raceway contact are from those foretold, over what is allowed.
+
+    `sheets` are the kept one and the new one; `place` is load [N], ring speed and slip [m/s].
+    """
+    known, sheet = sheets
+    load, speed, slip = place
+    ratio = bearing.pitch_radius / (bearing.inner_radius if at == INNER else bearing.outer_radius)
+    spin, pull = raceway_from(known, at, load, speed, slip)
     off = max(abs(spin - sheet[at + SPIN]), abs(pull - sheet[at + PULL]))
-    drift = off / (mass / max(span, 1e-9) + max(sheet[at + SPIN_V], sheet[at + PULL_V], 0.0))
-    slip = sheet[at + SLIP]
-    power = abs(sheet[at + SPIN] * slip)
-    wrong = abs((spin - sheet[at + SPIN]) * slip)
-    return max(drift / limits.allowed_speed, wrong / (_POWER_SHARE * limits.tolerance * (power + power_scale) + 1e-12))
+    drift = off / (bearing.roller_mass / max(span, 1e-9) + max(sheet[at + SPIN_V], sheet[at + PULL_V], 0.0))
+    foretold = raceway_power(known, at, ratio, (spin, pull, shear_from(known, at, load, speed, slip)), place)
+    found = raceway_power(sheet, at, ratio, (sheet[at + SPIN], sheet[at + PULL], sheet[at + SHEAR]), place)
+    wrong, power = 0.0, 0.0
+    for k in range(4):
+        wrong += foretold[k] - found[k]
+        power += abs(found[k])
+    return max(drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12))
 
 
 @jit_merged
-def _foretold(mass, limits, tractions, stations, j, span, power_scale):
+def _foretold(bearing, limits, tractions, stations, j, span, power_scale):
     """How far the new sheet of roller `j` is from what the kept one, `span` [s] older, foretold, over what is allowed."""
     sheet, known = tractions.sheets[j], tractions.known[j]
     worst = 0.0
@@ -52,8 +62,8 @@ def _foretold(mass, limits, tractions, stations, j, span, power_scale):
         at = INNER if k == 0 else OUTER
         load = stations.inner_load[j] if k == 0 else stations.outer_load[j]
         speed = stations.inner_speed[j] if k == 0 else stations.outer_speed[j]
-        foretold = raceway_from(known, at, load, speed, sheet[at + SLIP])
-        worst = max(worst, _contact_off(mass, limits, sheet, at, foretold, span, power_scale))
+        place = (load, speed, sheet[at + SLIP])
+        worst = max(worst, _contact_off(bearing, limits, (known, sheet), at, place, span, power_scale))
         change = abs(load - known[at + LOAD])
         worst = max(worst, (change / (0.2 * max(load, known[at + LOAD]) + 1e-9)) ** 2)
     return worst
@@ -92,7 +102,7 @@ def refresh(bearing, limits, time, space, power_scale):
     for j in range(rest.size):
         span = time - tractions.known[j, WHEN]
         if tractions.due[j]:
-            ratio = _foretold(bearing.roller_mass, limits, tractions, moment.stations, j, span, power_scale)
+            ratio = _foretold(bearing, limits, tractions, moment.stations, j, span, power_scale)
             tractions.ratio[j] = ratio
             if not tractions.fresh[j] and ratio > _FAR_OFF and span > 0.0:
                 rest[j] = 0.0

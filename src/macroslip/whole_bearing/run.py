@@ -86,7 +86,7 @@ def run_whole_bearing(
     start : Start
     times : Times
     tolerance : float
-        Relative accuracy per step of speeds, against the raceway speed.
+        Of energies, see `macroslip.whole_bearing.limits`.
     max_steps : int
     rests : bool
         Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
@@ -113,7 +113,8 @@ def run_whole_bearing(
     scale = max(
         float(np.abs(motion.shaft_speed).max()) * bearing.bodies[0].orbit_ratio * bearing.outer_radius, LEAST_SPEED
     )
-    limits = limits_of(float(tolerance), scale, min(LONGEST_STEP, 0.1 * float(times.end - motion.time[0])))
+    longest = min(LONGEST_STEP, 0.1 * float(times.end - motion.time[0]))
+    limits = limits_of(float(tolerance), scale, longest, dry=bearing.pocket.film == 0.0)
     limits = limits._replace(max_steps=max_steps, rests=rests)
     if interrupt is not None:
         limits = limits._replace(interrupt=interrupt)

@@ -13,34 +13,17 @@ from typing import NamedTuple
 from macroslip.compiled import jit_inline, jit_merged
 from macroslip.whole_bearing.arrow import eliminate, solve
 from macroslip.whole_bearing.guidance import guide_force
-from macroslip.whole_bearing.pocket import pocket_force
-from macroslip.whole_bearing.space import (
-    CAGE_SLIDING,
-    FRICTION,
-    POCKET_SPEED,
-    PULL_INNER,
-    PULL_OUTER,
-    PUSH,
-    SPIN_INNER,
-    SPIN_OUTER,
-)
-from macroslip.whole_bearing.traction import (
-    INNER,
-    OUTER,
-    PULL,
-    PULL_V,
-    SPIN,
-    SPIN_V,
-    cage_from,
-    evaluate_marked,
-    out_of_reach,
-    raceway_from,
-)
+from macroslip.whole_bearing.meeting import add_to_border, follow_roller, meet, write_block
+from macroslip.whole_bearing.space import PULL_INNER, PULL_OUTER, SPIN_INNER, SPIN_OUTER
+from macroslip.whole_bearing.traction import INNER, OUTER, PULL, SPIN, evaluate_marked, out_of_reach, raceway_from
 
 #: Newton iterations before a step counts as unsolved.
 _ITERATIONS = 12
 #: Tolerances by which the slopes may be off at the last evaluation, for Newton's next update is far smaller.
 _FORETOLD = 10.0
+#: Least part of a residual that is foreseen to be left by the next update. Newton's iteration squares it, but slopes of
+#: contacts are those of a state nearby.
+_FORESEEABLE = 1e-3
 #: Speed over which the guide's friction turns its sign [m/s].
 GUIDE_SPEED = 1e-3
 
@@ -67,32 +50,6 @@ class Stage(NamedTuple):
     shaft_speed: float
     tolerance: float
     cage_reach: float
-
-
-class _Meeting(NamedTuple):
-    """How a roller meets its pocket.
-
-    Attributes
-    ----------
-    push, friction : float
-        N and F_c [N].
-    give : float
-        Derivative of N by x', with the offset that follows from it in this stage [N s/m].
-    by_sliding, by_push : float
-        Derivatives of F_c by the slip against the cage [N s/m] and by N [-].
-    arm : float
-        Lever of N about the cage's own axis over the pitch radius [-].
-    cage_turn : float
-        Speed of the cage [rad/s].
-    """
-
-    push: float
-    give: float
-    by_sliding: float
-    by_push: float
-    friction: float
-    arm: float
-    cage_turn: float
 
 
 @jit_merged
@@ -162,94 +119,25 @@ def _raceway_forces(bearing, stage, moment, tractions):
 
 
 @jit_inline
-def _meet(bearing, stage, moment, star, sheet, j):
-    """Push and friction of the pocket of roller `j`; its offset follows from its speed."""
-    v_in, v_out = moment.values.rollers[j, 0], moment.values.rollers[j, 1]
-    cage = moment.values.cages[bearing.rollers.cage[j]]
-    cosine, sine = moment.stations.cosine[j], moment.stations.sine[j]
-    inner_radius, shaft_speed = bearing.rollers.inner_radius[j], stage.shaft_speed
-    cage_turn = (cage[0] + 0.5 * shaft_speed * bearing.inner_radius) / bearing.pitch_radius
-    off_axis = cage[4] * cosine + cage[5] * sine
-    speed = 0.5 * (v_in - v_out) - cage[0] + cage[2] * sine - cage[3] * cosine + cage_turn * off_axis
-    speed += 0.5 * shaft_speed * (inner_radius - bearing.inner_radius)
-    offset = star.rollers[j, 2] + stage.step * speed
-    moment.values.rollers[j, 2] = offset
-    push, by_offset, by_speed = pocket_force(bearing.pocket, offset, speed)
-    # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
-    sliding = 0.5 * (v_in + v_out + shaft_speed * inner_radius) + bearing.lever * bearing.pitch_radius * cage_turn
-    friction, by_sliding, by_push = cage_from(
-        bearing.models.downwind.cage, bearing.films, sheet, push, sliding, stage.cage_reach
-    )
-    f = moment.force[j]
-    f[FRICTION], f[PUSH], f[CAGE_SLIDING], f[POCKET_SPEED] = friction, push, sliding, speed
-    give = by_speed + stage.step * by_offset
-    return _Meeting(push, give, by_sliding, by_push, friction, 1.0 - off_axis / bearing.pitch_radius, cage_turn)
-
-
-@jit_inline
-def _write_block(inertia, stations, sheet, met, j, inverse):
-    """Inverse of a roller's block."""
-    spin_in_v = sheet[INNER + SPIN_V] if stations.inner_load[j] > 0.0 else 0.0
-    pull_in_v = sheet[INNER + PULL_V] if stations.inner_load[j] > 0.0 else 0.0
-    spin_out_v = sheet[OUTER + SPIN_V] if stations.outer_load[j] > 0.0 else 0.0
-    pull_out_v = sheet[OUTER + PULL_V] if stations.outer_load[j] > 0.0 else 0.0
-    # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
-    shared, tilted = met.by_sliding, met.by_push * met.give
-    j11 = inertia + pull_in_v + 2.0 * spin_in_v + shared + tilted - 0.5 * met.give
-    j12 = -pull_out_v + 2.0 * spin_out_v + shared - tilted + 0.5 * met.give
-    j21 = -pull_in_v + 2.0 * spin_in_v + shared + tilted + 0.5 * met.give
-    j22 = inertia + pull_out_v + 2.0 * spin_out_v + shared - tilted - 0.5 * met.give
-    determinant = j11 * j22 - j12 * j21
-    inverse[0], inverse[1] = j22 / determinant, -j12 / determinant
-    inverse[2], inverse[3] = -j21 / determinant, j11 / determinant
-
-
-@jit_inline
-def _add_to_border(bearing, stage, stations, met, j, arrow):
-    """What a roller adds to its cage's equations, and how the cage enters its own."""
-    c = bearing.rollers.cage[j]
-    border, rest, row, column = arrow.border[c], arrow.border_rest[c], arrow.row[j], arrow.column[j]
-    lever, by_w = bearing.lever, -met.give
-    rest[0] += met.push * met.arm + met.friction * lever
-    half_push, half_friction = 0.5 * met.give, 0.5 * met.by_push * met.give
-    row[0, 0] = half_push * met.arm + lever * (0.5 * met.by_sliding + half_friction)
-    row[1, 0] = -half_push * met.arm + lever * (0.5 * met.by_sliding - half_friction)
-    friction_by_w = met.by_sliding * lever + met.by_push * by_w
-    column[0, 0], column[1, 0] = 2.0 * friction_by_w - by_w, 2.0 * friction_by_w + by_w
-    border[0, 0] += met.arm * by_w + lever * friction_by_w
-    if bearing.translates:
-        cosine, sine = stations.cosine[j], stations.sine[j]
-        rest[1] -= met.push * sine
-        rest[2] += met.push * cosine
-        by_p = met.give * (sine + stage.step * met.cage_turn * cosine)
-        by_q = met.give * (-cosine + stage.step * met.cage_turn * sine)
-        row[0, 1], row[1, 1] = -sine * half_push, sine * half_push
-        row[0, 2], row[1, 2] = cosine * half_push, -cosine * half_push
-        column[0, 1], column[1, 1] = (2.0 * met.by_push - 1.0) * by_p, (2.0 * met.by_push + 1.0) * by_p
-        column[0, 2], column[1, 2] = (2.0 * met.by_push - 1.0) * by_q, (2.0 * met.by_push + 1.0) * by_q
-        by_turn = met.arm + lever * met.by_push
-        border[0, 1] += by_turn * by_p
-        border[0, 2] += by_turn * by_q
-        for k in range(3):
-            by = by_w if k == 0 else (by_p if k == 1 else by_q)
-            border[1, k] -= sine * by
-            border[2, k] += cosine * by
+def _place_cages(stage, cages, star):
+    """Lag and translations of the cages, which follow from their speeds."""
+    for c in range(cages.shape[0]):
+        cages[c, 1] = star[c, 1] + stage.step * cages[c, 0]
+        cages[c, 4] = star[c, 4] + stage.step * cages[c, 2]
+        cages[c, 5] = star[c, 5] + stage.step * cages[c, 3]
 
 
 @jit_merged
 def _assemble(bearing, stage, moment, star, tractions, arrow):
     """Residuals and derivatives at the present state. Returns the largest residual [N] and the evaluations."""
     values, stations = moment.values, moment.stations
-    for c in range(bearing.cages):
-        values.cages[c, 1] = star.cages[c, 1] + stage.step * values.cages[c, 0]
-        values.cages[c, 4] = star.cages[c, 4] + stage.step * values.cages[c, 2]
-        values.cages[c, 5] = star.cages[c, 5] + stage.step * values.cages[c, 3]
+    _place_cages(stage, values.cages, star.cages)
     _begin_cages(bearing, stage, values.cages, star.cages, arrow)
     evaluations = _raceway_forces(bearing, stage, moment, tractions)
     inertia, worst, finite = bearing.roller_mass / stage.step, 0.0, True
     for j in range(bearing.rollers.row.size):
         sheet, f = tractions.sheets[j], moment.force[j]
-        met = _meet(bearing, stage, moment, star, sheet, j)
+        met = meet(bearing, stage, moment, star, sheet, j)
         turning = 2.0 * (f[SPIN_INNER] + f[SPIN_OUTER] + met.friction)
         driving = met.push - stations.tangential[j] - f[PULL_INNER] + f[PULL_OUTER]
         rest_in = inertia * (values.rollers[j, 0] - star.rollers[j, 0]) + turning - driving
@@ -258,13 +146,27 @@ def _assemble(bearing, stage, moment, star, tractions, arrow):
         worst = max(worst, abs(rest_in), abs(rest_out))
         # A maximum may pass over what is not a number.
         finite = finite and abs(rest_in) + abs(rest_out) < math.inf
-        _write_block(inertia, stations, sheet, met, j, arrow.inverse[j])
-        _add_to_border(bearing, stage, stations, met, j, arrow)
+        write_block(inertia, stations, sheet, met, j, arrow)
+        add_to_border(bearing, stage, stations, met, j, arrow)
     for c in range(bearing.cages):
         for i in range(3 if bearing.translates else 1):
             worst = max(worst, abs(arrow.border_rest[c, i]))
             finite = finite and abs(arrow.border_rest[c, i]) < math.inf
     return worst if finite else math.inf, evaluations
+
+
+@jit_inline
+def _update(values, arrow, size):
+    """Subtract a solution from the unknowns."""
+    rollers, cages = values.rollers, values.cages
+    for j in range(rollers.shape[0]):
+        rollers[j, 0] -= arrow.rest[j, 0]
+        rollers[j, 1] -= arrow.rest[j, 1]
+    for c in range(cages.shape[0]):
+        cages[c, 0] -= arrow.border_rest[c, 0]
+        if size == 3:
+            cages[c, 2] -= arrow.border_rest[c, 1]
+            cages[c, 3] -= arrow.border_rest[c, 2]
 
 
 @jit_merged
@@ -283,11 +185,12 @@ def solve_stage(bearing, stage, moment, space):
     Returns
     -------
     float
-        Largest residual [N]; above the tolerance or not finite where the stage is not solved.
+        Largest residual [N], or what the last update is foreseen to leave of it; above the tolerance or not finite where
+        the stage is not solved.
     """
     tractions, arrow, cage_of = space.tractions, space.arrow, bearing.rollers.cage
     size = 3 if bearing.translates else 1
-    worst = math.inf
+    worst, before = math.inf, math.inf
     tractions.settled[:] = False
     for _ in range(_ITERATIONS):
         worst, evaluations = _assemble(bearing, stage, moment, space.star, tractions, arrow)
@@ -297,13 +200,12 @@ def solve_stage(bearing, stage, moment, space):
         if worst <= stage.tolerance or not worst < math.inf:
             break
         solve(cage_of, size, arrow)
-        rollers, cages = moment.values.rollers, moment.values.cages
-        for j in range(cage_of.size):
-            rollers[j, 0] -= arrow.rest[j, 0]
-            rollers[j, 1] -= arrow.rest[j, 1]
-        for c in range(bearing.cages):
-            cages[c, 0] -= arrow.border_rest[c, 0]
-            if bearing.translates:
-                cages[c, 2] -= arrow.border_rest[c, 1]
-                cages[c, 3] -= arrow.border_rest[c, 2]
+        _update(moment.values, arrow, size)
+        foreseen = worst * max((worst / before) ** 2, _FORESEEABLE)
+        if foreseen <= stage.tolerance:
+            _place_cages(stage, moment.values.cages, space.star.cages)
+            for j in range(cage_of.size):
+                follow_roller(bearing, stage, moment, tractions.sheets[j], j, arrow)
+            return foreseen
+        before = worst
     return worst

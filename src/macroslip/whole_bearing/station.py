@@ -7,10 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit_called
+from macroslip.compiled import jit_called, jit_inline
 from macroslip.ring.orbit import instant
 from macroslip.roller.forces import interference
 from macroslip.roller.play import film_load
+
+#: Relative change of a place up to which the films of a roller with play carry the same. They carry newtons, of which
+#: traction is some hundredths: 1e-4 N, the tolerance of Newton's iteration at the default.
+_REACH = 1e-3
 
 
 class Stations(NamedTuple):
@@ -26,6 +30,8 @@ class Stations(NamedTuple):
         G = F_g,x' + F_d,x' [N], against the orbit.
     inner_speed, outer_speed : ndarray, shape (n,)
         Speed u2 of the rings past the roller's centre [m/s].
+    film : ndarray, shape (n, 4)
+        What films carry beside the rings' load [N], and the interference [m], body force [N] and ring speed [m/s] at which.
     """
 
     cosine: np.ndarray
@@ -36,11 +42,29 @@ class Stations(NamedTuple):
     tangential: np.ndarray
     inner_speed: np.ndarray
     outer_speed: np.ndarray
+    film: np.ndarray
 
 
 def new_stations(count: int) -> Stations:
     """Empty arrays for `count` rollers."""
-    return Stations(*(np.zeros(count) for _ in Stations._fields))
+    names = [name for name in Stations._fields if name != "film"]
+    return Stations(*(np.zeros(count) for _ in names), film=np.full((count, 4), np.nan))
+
+
+@jit_inline
+def _film_load(films, load, place, known):
+    """What films carry beside the load of the rings [N], found anew where the roller's place has changed by `_REACH`.
+
+    The place is interference [m], body force [N] and ring speed [m/s]. Rounding of it is far smaller than what changes.
+    """
+    near = load <= 0.0
+    for k in range(3):
+        near = near and abs(place[k] - known[k + 1]) <= _REACH * abs(known[k + 1])
+    if not near:
+        approach, body, ring_speed = place
+        known[0] = film_load(films, load, approach, body, ring_speed)
+        known[1], known[2], known[3] = place
+    return known[0]
 
 
 @jit_called
@@ -95,10 +119,11 @@ def locate(bearing, motion, interval, time, state, cages, stations):
             outward = (model.centrifugal * orbit * orbit - model.weight_in_plane * y) * model.cos_contact_angle
             outward += model.weight_along_axis * model.sin_contact_angle
             stations.elastic_load[j] = load
-            pressed = load + film_load(bearing.films, load, approach, outward, -orbit * bearing.outer_radius)
+            outer_speed = -orbit * bearing.outer_radius
+            pressed = load + _film_load(bearing.films, load, (approach, outward, outer_speed), stations.film[j])
             stations.inner_load[j] = pressed - min(outward, 0.0)
             stations.outer_load[j] = pressed + max(outward, 0.0)
             stations.tangential[j] = model.weight_in_plane * x + model.drag * orbit * abs(orbit)
             stations.inner_speed[j] = orbit * rollers.inner_radius[j] - ring
-            stations.outer_speed[j] = -orbit * bearing.outer_radius
+            stations.outer_speed[j] = outer_speed
     return speed

@@ -31,7 +31,7 @@ _LOAD_REACH = 0.25
 #: Force of the cage that never matters [N].
 _LIGHT = 1e-7
 #: Change of the load of a pocket full of oil that never matters [N]: its film is bounded by the pocket.
-_FLOATING = 1e-3
+_FLOATING = 0.05
 
 
 def new_sheets(count: int) -> np.ndarray:
