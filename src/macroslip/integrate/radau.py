@@ -9,13 +9,13 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_part
 from macroslip.integrate.booking import Peaks, book, step_powers, write_traces
+from macroslip.integrate.energy_control import energy_error_of
 from macroslip.integrate.first_guess import first_guess
 from macroslip.integrate.held_contact import held_exponent
 from macroslip.integrate.load_zone import EDGE, FIRM, FREE, classify
 from macroslip.integrate.pace import first_pace, next_stretch, paced, shortened
 from macroslip.integrate.path import State, state_at, step_from
 from macroslip.integrate.peak import start_peak
-from macroslip.integrate.radau_step import energy_error
 from macroslip.integrate.root import is_continuous
 from macroslip.integrate.sealed import has_microslip
 from macroslip.integrate.stages import solve_stages
@@ -88,6 +88,9 @@ def integrate_radau(path, slip, stops, classes, record):
     while True:
         next_trace = write_traces(record, path.model, next_trace, state.time, state.at, state.forces, state.slip)
         if state.time >= pace.barrier:
+            if state.time == record.edges[0]:
+                # What the window holds is known as well as if the history began with it.
+                spent = 0.0
             state, pace = next_stretch(path, state, pace, stops, classes, record)
             if pace.next_stop == stops.size:
                 break
@@ -151,7 +154,7 @@ def _halted(limits, record):
 
 @jit_part
 def _attempt(path, state, step, pace, memory, spent, record):
-    """Solve a step and find its error; `spent` is the energy of the steps before it [J]."""
+    """Solve a step and find its error; `spent` is the energy of the steps before it, of those in the window there [J]."""
     held = pace.zone == FIRM and has_microslip(path.model)
     guess = first_guess(path, state, step, pace.zone, memory.exponent)
     stages = solve_stages(path, state, step, guess, held, memory.bend)
@@ -161,14 +164,9 @@ def _attempt(path, state, step, pace, memory, spent, record):
     if not stages.converged or not is_continuous(path, state, step, stages):
         return Attempt(False, stages, found, energy, math.inf)
     slip_off = slip_error_of(path, state, step, stages, pace.zone, record)
-    energy_off = energy_error(
-        step.length,
-        state.powers[0] + state.powers[1] + state.powers[2],
-        found.inner[0] + found.outer[0] + found.cage[0],
-        found.inner[1] + found.outer[1] + found.cage[1],
-        found.inner[2] + found.outer[2] + found.cage[2],
-    )
-    mean_power = (spent + energy) / (step.times[2] - path.motion.time[0])
+    energy_off = energy_error_of(path, state, step, stages, found, pace.zone, record)
+    since = record.edges[0] if state.time >= record.edges[0] else path.motion.time[0]
+    mean_power = (spent + energy) / (step.times[2] - since)
     error = error_ratio(path.limits, slip_off, energy_off, energy, mean_power, step.length, pace.sample_step)
     return Attempt(True, stages, found, energy, error)
 
