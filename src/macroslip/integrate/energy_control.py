@@ -36,7 +36,9 @@ def _kink_error(path, state, step, powers):
     """Error of the energy [J] by kinks of the speed inside a step that spans samples; `powers` are those at four nodes."""
     if step.interval == state.interval:
         return 0.0
-    fastest = max(abs(state.at.ring_speed), abs(step.at1.ring_speed), abs(step.at2.ring_speed), abs(step.at3.ring_speed))
+    fastest = max(
+        abs(state.at.ring_speed), abs(step.at1.ring_speed), abs(step.at2.ring_speed), abs(step.at3.ring_speed)
+    )
     if fastest == 0.0:
         return 0.0
     return KINK_WEIGHT * abs(missed_way(path, state, step)) / fastest * max(powers)
