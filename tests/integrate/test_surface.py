@@ -1,4 +1,4 @@
-"""A step's energy on the places of a raceway, against the overlap of intervals by brute force."""
+"""Energy on the places of a raceway, against the overlap of intervals by brute force."""
 
 import math
 
@@ -12,8 +12,8 @@ WIDTH = 2.0 * math.pi / SECTORS
 
 
 @jit
-def spread_once(surface, interface, way, first, last, powers, energy):
-    spread(surface, interface, way, first, last, powers, energy)
+def spread_once(surface, interface, way, powers, energy):
+    spread(surface, interface, way, powers, energy)
 
 
 @jit
@@ -36,21 +36,21 @@ def test_energy_lies_where_the_roller_passes(interface, start, before, after):
     powers = np.zeros(STATIONS + 2)
     powers[3], powers[10], powers[STATIONS + 1] = -2.0, 6.0, 1.0
     surface = np.zeros((2, SECTORS, STATIONS, 2, 2))
-    ratio, first, last, energy = 0.454, 0.25, 0.75, 8.0
-    spread_once(surface, interface, Way(start, ratio, before, after), first, last, powers, energy)
+    ratio, energy = 0.454, 8.0
+    spread_once(surface, interface, Way(start, ratio, before, after), powers, energy)
     turning = ratio if interface == 1 else ratio - 1.0
-    ends = [start + turning * (before + part * (after - before)) for part in (first, last)]
+    ends = [start + turning * (before + part * (after - before)) for part in (0.0, 1.0)]
     np.testing.assert_allclose(surface.sum(axis=(0, 2, 3, 4)), by_brute_force(*ends, energy), atol=2e-3)
     assert surface.sum() == pytest.approx(energy, rel=1e-12)
     assert surface[1 - interface].sum() == 0.0
-    # A quarter of it where slip is negative, the rest where it is positive, all in the film regime of the step.
+    # A quarter of it where slip is negative, the rest where it is positive, all in the film regime of the powers.
     assert surface[interface, :, 3, 0, 1].sum() == pytest.approx(0.25 * energy)
     assert surface[interface, :, 10, 1, 1].sum() == pytest.approx(0.75 * energy)
 
 
 def test_no_power_takes_no_energy():
     surface = np.zeros((2, SECTORS, STATIONS, 2, 2))
-    spread_once(surface, 0, Way(0.0, 0.45, 0.0, 1.0), 0.0, 1.0, np.zeros(STATIONS + 2), 5.0)
+    spread_once(surface, 0, Way(0.0, 0.45, 0.0, 1.0), np.zeros(STATIONS + 2), 5.0)
     assert surface.sum() == 0.0
 
 

@@ -39,7 +39,8 @@ def test_results_are_those_of_the_laws(looked_up, by_laws):
     for name in ("mechanism_energy", "asperity_energy", "station_energy"):
         scale = float(by_laws[name].sel(row="downwind").max())
         assert float(abs(looked_up[name] - by_laws[name]).sel(row="downwind").max()) < 2e-4 * scale, name
-    np.testing.assert_allclose(looked_up.min_spin_ratio, by_laws.min_spin_ratio, rtol=2e-4)
+    # Spin is good to 1e-4 of pure rolling at the default tolerance in either run, whose steps are not the same.
+    np.testing.assert_allclose(looked_up.min_spin_ratio, by_laws.min_spin_ratio, rtol=0.0, atol=2e-4)
 
 
 @pytest.mark.parametrize(

@@ -9,9 +9,10 @@ from scipy.optimize import brentq
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.bearing import geometry
 from macroslip.ring.orbit import Instant
-from macroslip.roller.films import NoFilms, cage_film, carried, film_load, raceway_film
+from macroslip.roller.films import NoFilms, cage_film, raceway_film
 from macroslip.roller.forces import INNER, OUTER, Station, net_force, slip_forces, station
 from macroslip.roller.model import roller_model
+from macroslip.roller.play import carried, film_load
 from macroslip.rolling.light_contact import light_contact, pocket_contact
 
 pytestmark = pytest.mark.slow

@@ -8,11 +8,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from macroslip.mechanisms import Laws
-from macroslip.roller import plane_build, raceway_build, table_store
+from macroslip.roller import play_build, raceway_build, table_store
 from macroslip.roller.contact_force import cage_force, friction_power, raceway_force
-from macroslip.roller.films import cage_film, film_load, raceway_film
+from macroslip.roller.films import cage_film, raceway_film
 from macroslip.roller.forces import Station, slip_forces
 from macroslip.roller.model import roller_model
+from macroslip.roller.play import carried, film_load
 from macroslip.roller.raceway_table import no_raceway_table, table_force
 from macroslip.roller.table_box import LARGEST_ERROR, TableBox, error_summary, table_box
 from macroslip.roller.tables import needs_tables, tabulated
@@ -183,6 +184,32 @@ def test_load_of_films(made, rows, load, play, body, speed):
         assert film_load(films, elastic, approach, body, speed) == pytest.approx(expected, rel=1e-3, abs=1e-12)
 
 
+@given(load=st.floats(-1.9, 3.2).map(lambda x: 10.0**x), speed=st.floats(0.02, 0.42))
+@settings(deadline=None, max_examples=100)
+def test_oil_in_the_pocket(made, rows, load, speed):
+    films, by_laws = made[0]["downwind"].films, rows["downwind"].films
+    for sign in (1.0, -1.0):
+        found, expected = cage_film(films, load, sign * speed), cage_film(by_laws, load, sign * speed)
+        assert (found.sliding, found.shear) == pytest.approx((expected.sliding, expected.shear), rel=1e-4)
+        assert found.power == pytest.approx(expected.power, rel=1e-4)
+        assert found.slope == pytest.approx(expected.slope, rel=5e-3)
+        assert found.by_load == pytest.approx(expected.by_load, rel=5e-3, abs=1e-3 * abs(expected.sliding) / load)
+
+
+def test_idle_rollers_are_in_the_tables(made):
+    """A flooded roller without load turns at a tenth of pure rolling, under the few newtons of its films."""
+    for load in (2.0, 5.0, 20.0, 60.0):
+        for ratio in (0.85, 0.9, 0.95):
+            assert table_force(made[0]["upwind"].outer.table, load, 0.4, ratio * 0.4).known
+
+
+@given(play=st.floats(0.0, 4e-4), body=st.floats(-34.0, 34.0), speed=speeds)
+@settings(deadline=None, max_examples=100)
+def test_what_films_carry_in_their_play(made, rows, play, body, speed):
+    expected = carried(rows["downwind"].films, play, body, -speed)
+    assert carried(made[0]["downwind"].films, play, body, -speed) == pytest.approx(expected, rel=ERROR)
+
+
 def test_no_load_no_friction(made):
     model = made[0]["downwind"]
     for load in (0.0, -3.0):
@@ -228,4 +255,6 @@ def test_stored_tables_are_the_same(made, rows, monkeypatch):
     again, report = tabulated(rows, BOX)
     assert report == made[1]
     np.testing.assert_array_equal(again["upwind"].outer.table.coefficients, made[0]["upwind"].outer.table.coefficients)
-    assert plane_build.faded_load(rows["downwind"].films, rows["downwind"], 0.42) == again["upwind"].films.faded_load
+    model = rows["downwind"]
+    most = play_build.highest_body_force(model, 0.42)
+    assert play_build.faded_load(model.films, most, 0.42) == again["upwind"].films.faded_load

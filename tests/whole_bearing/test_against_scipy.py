@@ -15,7 +15,8 @@ from scipy.integrate import solve_ivp
 from macroslip.bearing.frames import initial_angles
 from macroslip.mechanisms import Laws
 from macroslip.roller.contact import cage_contact, raceway_contact
-from macroslip.roller.films import Films, film_load
+from macroslip.roller.films import Films
+from macroslip.roller.play import film_load
 from macroslip.rolling.light_contact import light_contact, pocket_contact
 from macroslip.whole_bearing.cage import Cage
 from macroslip.whole_bearing.guidance import guide_force

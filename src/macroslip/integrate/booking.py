@@ -7,13 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_part
-from macroslip.integrate.detail import Passage
 from macroslip.integrate.peak import follow_peak, follow_step
-from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.record import add_energy, add_rolling, orbit_at, raise_peak
 from macroslip.integrate.sealed import (
-    book_stage_of,
-    book_step_of,
+    book_mechanisms_of,
     forces_of,
     has_microslip,
     note_state_of,
@@ -21,9 +18,7 @@ from macroslip.integrate.sealed import (
     write_trace_of,
 )
 from macroslip.integrate.stages import between_stages
-from macroslip.integrate.surface import Way
 from macroslip.integrate.tuning import ASTRAY, PEAK_PARTS, RESOLVED, SLIP_SHARE, SNAP
-from macroslip.ring.orbit import instant, interval_of
 from macroslip.roller.forces import magnitude, net_force
 
 
@@ -59,7 +54,7 @@ class Peaks(NamedTuple):
 @jit_part
 def step_powers(model, step, stages):
     """Power at the solved stages of a step, and the energy they add up to."""
-    h = step.length
+    h, weights = step.length, step.weights
     i1, o1, c1 = powers_of(model, step.at1, stages.f1, stages.v1)
     i2, o2, c2 = powers_of(model, step.at2, stages.f2, stages.v2)
     i3, o3, c3 = powers_of(model, step.at3, stages.f3, stages.v3)
@@ -67,9 +62,9 @@ def step_powers(model, step, stages):
         (i1, i2, i3),
         (o1, o2, o3),
         (c1, c2, c3),
-        h * (WEIGHTS[0] * i1 + WEIGHTS[1] * i2 + WEIGHTS[2] * i3),
-        h * (WEIGHTS[0] * o1 + WEIGHTS[1] * o2 + WEIGHTS[2] * o3),
-        h * (WEIGHTS[0] * c1 + WEIGHTS[1] * c2 + WEIGHTS[2] * c3),
+        h * (weights[0] * i1 + weights[1] * i2 + weights[2] * i3),
+        h * (weights[0] * o1 + weights[1] * o2 + weights[2] * o3),
+        h * (weights[0] * c1 + weights[1] * c2 + weights[2] * c3),
     )
 
 
@@ -102,7 +97,7 @@ def book(record, path, state, step, stages, found, peaks, edge):
         top_power = 0.0
     peaks = Peaks(peaks.samples, orbit, top_power)
     _book_peaks(record, path, state, step, stages, found, peaks, edge)
-    _book_details(record, path, step, stages, found, orbit)
+    _book_details(record, path.model, step, stages)
     return Peaks(peaks.samples, orbit, max(top_power, max(found.inner), max(found.outer)))
 
 
@@ -137,33 +132,16 @@ def _may_peak_inside(path, state, stages, peaks):
 
 
 @jit_part
-def _book_details(record, path, step, stages, found, orbit):
-    """Book ranges of the film law at the end of the step, and what curved contacts add."""
-    model, h, at3 = path.model, step.length, step.at3
+def _book_details(record, model, step, stages):
+    """Book ranges of the film law at the end of the step, and energies by mechanism."""
+    h, weights, at3 = step.length, step.weights, step.at3
     note_state_of(record, model, at3, stages.f3, stages.v3, h)
-    add_rolling(record, stages.f1.rolling_power, h * WEIGHTS[0])
-    add_rolling(record, stages.f2.rolling_power, h * WEIGHTS[1])
-    add_rolling(record, stages.f3.rolling_power, h * WEIGHTS[2])
-    book_stage_of(record, model, step.at1, stages.f1, stages.v1, h * WEIGHTS[0])
-    book_stage_of(record, model, step.at2, stages.f2, stages.v2, h * WEIGHTS[1])
-    book_stage_of(record, model, at3, stages.f3, stages.v3, h * WEIGHTS[2])
-    energies = (_stage_energies(h, found.inner), _stage_energies(h, found.outer))
-    book_step_of(record, model, at3, stages.f3, stages.v3, h, Passage(orbit, energies, _way(path, step)))
-
-
-@jit_part
-def _stage_energies(h, power):
-    """What each stage adds to the energy of a step [J]."""
-    return h * WEIGHTS[0] * power[0], h * WEIGHTS[1] * power[1], h * WEIGHTS[2] * power[2]
-
-
-@jit_part
-def _way(path, step):
-    """What the roller passes in a step."""
-    end = instant(path.motion, step.interval, step.times[2])
-    time = step.times[2] - step.length
-    start = instant(path.motion, interval_of(path.motion, time, step.interval), time)
-    return Way(path.start_angle, path.model.orbit_ratio, start.shaft_angle, end.shaft_angle)
+    add_rolling(record, stages.f1.rolling_power, h * weights[0])
+    add_rolling(record, stages.f2.rolling_power, h * weights[1])
+    add_rolling(record, stages.f3.rolling_power, h * weights[2])
+    book_mechanisms_of(record, model, step.at1, stages.f1, stages.v1, h * weights[0])
+    book_mechanisms_of(record, model, step.at2, stages.f2, stages.v2, h * weights[1])
+    book_mechanisms_of(record, model, at3, stages.f3, stages.v3, h * weights[2])
 
 
 @jit_part

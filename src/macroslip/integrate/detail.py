@@ -14,11 +14,9 @@ from macroslip.compiled import jit_part
 from macroslip.contact.flash_temperature import flash_temperature
 from macroslip.film.asperity_load import asperity_share
 from macroslip.film.film_law import film_thickness
-from macroslip.integrate.radau_step import WEIGHTS
 from macroslip.integrate.surface import STATIONS, raise_density, spread
-from macroslip.integrate.tuning import LOOK_EVERY
 from macroslip.reference import tuple_type
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, is_curved, slip_field
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved, slip_field
 from macroslip.roller.films import cage_film
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
@@ -30,51 +28,79 @@ EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_rati
 
 
 class Passage(NamedTuple):
-    """What a step leaves on the raceways.
+    """What a roller has passed since its contacts were looked at last.
 
     Attributes
     ----------
     orbit : int
-        Orbit the step belongs to, or −1.
-    energies : tuple of tuple of float
-        Energy of the step's three stages at the inner and at the outer raceway [J].
+        Orbit it is in, or −1.
     way : Way
-        What the roller passes in the step.
+        What it has passed.
+    span : float
+        Time since then [s].
+    fine : bool
+        Whether to look at the quadrature's error too.
     """
 
     orbit: int
-    energies: Any
     way: Any
+    span: float
+    fine: bool
+
+
+class PowerRule(NamedTuple):
+    """How the power of a raceway contact follows from its forces: P = Δu F + u2 (curvature lag − spin skew).
+
+    Attributes
+    ----------
+    microslip : bool
+        Without it P = |Δu F|.
+    curvature : float
+        [-].
+    spin : float
+        [1/m].
+    """
+
+    microslip: bool
+    curvature: float
+    spin: float
+
+
+def power_rule(contact: Any) -> PowerRule:
+    """The rule of a PlainContact or CurvedContact."""
+    if not (isinstance(contact, CurvedContact) and contact.shape.microslip):
+        return PowerRule(False, 0.0, 0.0)
+    shape = contact.shape
+    return PowerRule(True, shape.curvature_ratio * shape.roller_radius, shape.spin_ratio)
 
 
 @jit_part
-def _mechanism_energies(contact, ring_speed, slip, spin_force, detail, span):
-    """Energy in `span` [s] by sliding of the middle, curvature and contact angle [J]."""
-    if not contact.shape.microslip:
-        return span * slip * spin_force, 0.0, 0.0
-    curvature = contact.shape.curvature_ratio * contact.shape.roller_radius
-    return (
-        span * slip * spin_force,
-        span * ring_speed * curvature * detail.lag,
-        -span * ring_speed * contact.shape.spin_ratio * detail.skew,
-    )
+def raceway_power(rule, slip, ring_speed, force, detail):
+    """Frictional power of a raceway contact (33) [W]."""
+    if not rule.microslip:
+        return abs(slip * force)
+    return slip * force + ring_speed * (rule.curvature * detail.lag - rule.spin * detail.skew)
 
 
 @jit_part
-def _add(energies, parts):
-    energies[0] += parts[0]
-    energies[1] += parts[1]
-    energies[2] += parts[2]
+def _book_mechanisms(energies, rule, slip, ring_speed, force, detail, span):
+    energies[0] += span * slip * force
+    if rule.microslip:
+        energies[1] += span * ring_speed * rule.curvature * detail.lag
+        energies[2] -= span * ring_speed * rule.spin * detail.skew
 
 
 @jit_part
-def _book_stage(record, model, at, forces, slip, span):
-    # Passing a record costs more than this work: a count for every array in it.
+def book_mechanisms(record, rules, at, forces, slip, span):
+    """Book energies by mechanism, and that of asperities, for a state of curved contacts that counts for `span` [s].
+
+    `rules` are the `PowerRule` of inner and outer raceway.
+    """
     energy, rough = record.mechanism_energy, record.asperity_energy
     ring = at.ring_speed
-    _add(energy[0], _mechanism_energies(model.inner, ring, slip, forces.inner, forces.inner_detail, span))
-    _add(energy[1], _mechanism_energies(model.outer, ring, slip, forces.outer, forces.outer_detail, span))
-    _add(energy[2], _mechanism_energies(model.cage, 0.0, slip - ring, forces.cage, forces.cage_detail, span))
+    _book_mechanisms(energy[0], rules[0], slip, ring, forces.inner, forces.inner_detail, span)
+    _book_mechanisms(energy[1], rules[1], slip, ring, forces.outer, forces.outer_detail, span)
+    energy[2, 0] += span * (slip - ring) * forces.cage
     rough[0] += span * forces.inner_detail.asperity_power
     rough[1] += span * forces.outer_detail.asperity_power
     rough[2] += span * forces.cage_detail.asperity_power
@@ -92,40 +118,40 @@ def _raise(record, orbit, interface, flash, density, ratio, film_ratio):
 
 
 @jit_part
-def _spread(record, interface, energies, way):
-    """Spread the step's energies over the stations, and over the places of the raceway that they pass.
+def collect(record, interface, energy):
+    """Keep energy [J] of a raceway until its contact is looked at."""
+    record.station_work[interface, STATIONS] += energy
 
-    Along the roller in proportion to the powers of `station_work`; along the way every stage has the part of it that its
-    weight is. Without any power yet the energy is kept for later, in the place after the powers.
+
+@jit_part
+def _spread(record, interface, way):
+    """Spread what was kept over the stations, and over the places of the raceway that were passed.
+
+    Along the roller it is in proportion to the powers of `station_work`; along the way it is even. Without any power yet
+    it is kept further.
     """
     powers = record.station_work[interface]
-    total = 0.0
+    energy, total = powers[STATIONS], 0.0
     for k in range(STATIONS):
         total += abs(powers[k])
     if total <= 0.0:
-        powers[STATIONS] += energies[0] + energies[1] + energies[2]
         return
-    energy = powers[STATIONS] + energies[0] + energies[1] + energies[2]
     for k in range(STATIONS):
         record.station_energy[interface, k] += energy * abs(powers[k]) / total
-    surface = record.surface_energy
-    spread(surface, interface, way, 0.0, 1.0, powers, powers[STATIONS])
-    spread(surface, interface, way, 0.0, WEIGHTS[0], powers, energies[0])
-    spread(surface, interface, way, WEIGHTS[0], WEIGHTS[0] + WEIGHTS[1], powers, energies[1])
-    spread(surface, interface, way, WEIGHTS[0] + WEIGHTS[1], 1.0, powers, energies[2])
+    spread(record.surface_energy, interface, way, powers, energy)
     powers[STATIONS] = 0.0
 
 
 @jit_part
 def book_raceway(record, passage, interface, contact, load, at, slip):
-    """Spread the step's energies as the power at its end lies along the roller, and raise the extremes.
+    """Spread the energy kept so far as power lies along the roller now, and raise the extremes.
 
-    A step that ends without load spreads them as the last one with load; before that they are kept for the first one.
+    Without load it is spread as power lay when there last was some; before that it is kept.
     """
-    ring_speed, energies, way = at.ring_speed, passage.energies[interface], passage.way
+    ring_speed, way = at.ring_speed, passage.way
     powers = record.station_work[interface]
     if load <= 0.0:
-        _spread(record, interface, energies, way)
+        _spread(record, interface, way)
         return
     entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
     film, _, _ = film_thickness(contact.film, load, entrainment)
@@ -161,7 +187,7 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
         raise_density(record.surface_density, interface, way, k, mean)
         fastest = max(fastest, speed)
     powers[STATIONS + 1] = 1.0 if film >= contact.roughness else 0.0
-    _spread(record, interface, energies, way)
+    _spread(record, interface, way)
     _raise(record, passage.orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 
@@ -199,7 +225,7 @@ def look(record, interface, contact, load, ring_speed, slip, span):
 
 
 @jit_part
-def _book_step(record, model, at, forces, slip, span, passage):
+def _book_passage(record, model, at, forces, slip, passage):
     book_raceway(record, passage, 0, model.inner, at.inner_load, at, slip)
     book_raceway(record, passage, 1, model.outer, at.outer_load, at, slip)
     load = abs(forces.cage_load)
@@ -208,23 +234,13 @@ def _book_step(record, model, at, forces, slip, span, passage):
         # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
         pull = forces.cage - cage_film(model.films, load, surface).sliding
         book_cage(record, passage.orbit, model.cage, load, surface, pull * surface)
-    if record.count[0] % LOOK_EVERY == 0:
-        look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, span)
-        look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, span)
+    if passage.fine:
+        look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, passage.span)
+        look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, passage.span)
 
 
-@jit_part
-def in_stages(energy):
-    """The energy of a step with constant power, in the parts of three stages [J]."""
-    return energy * WEIGHTS[0], energy * WEIGHTS[1], energy * WEIGHTS[2]
-
-
-def book_stage(record, model, at, forces, slip, span):
-    """Book energies by mechanism for a state that counts for `span` [s]."""
-
-
-def book_step(record, model, at, forces, slip, span, passage):
-    """Book stations, places, extremes and now and then the quadrature's error, for a step that ends in this state."""
+def book_passage(record, model, at, forces, slip, passage):
+    """Book stations, places and extremes, and where asked for the quadrature's error, for a passage that ends in a state."""
 
 
 def _is_curved(model) -> bool:
@@ -232,17 +248,8 @@ def _is_curved(model) -> bool:
     return is_curved(tuple_type(model).types[-1])
 
 
-@overload(book_stage)
-def _book_stage_of(record, model, at, forces, slip, span):
+@overload(book_passage)
+def _book_passage_of(record, model, at, forces, slip, passage):
     if _is_curved(model):
-        return lambda record, model, at, forces, slip, span: _book_stage(record, model, at, forces, slip, span)
-    return lambda record, model, at, forces, slip, span: None
-
-
-@overload(book_step)
-def _book_step_of(record, model, at, forces, slip, span, passage):
-    if _is_curved(model):
-        return lambda record, model, at, forces, slip, span, passage: _book_step(
-            record, model, at, forces, slip, span, passage
-        )
-    return lambda record, model, at, forces, slip, span, passage: None
+        return lambda record, model, at, forces, slip, passage: _book_passage(record, model, at, forces, slip, passage)
+    return lambda record, model, at, forces, slip, passage: None

@@ -12,10 +12,10 @@ from numba.extending import overload
 
 from macroslip.compiled import entry, jit
 from macroslip.integrate import sealed as types
-from macroslip.integrate.detail import book_stage, book_step
+from macroslip.integrate.detail import book_passage, power_rule
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
-from macroslip.integrate.measures import note_state, powers, write_trace
-from macroslip.integrate.sealed import PLAIN, Entries, Powers, SealedModel, Value
+from macroslip.integrate.measures import note_state, write_trace
+from macroslip.integrate.sealed import PLAIN, Entries, SealedModel, Value
 from macroslip.reference import Reference, packed, write
 from macroslip.roller.contact_force import CurvedContact, Detail
 from macroslip.roller.forces import SlipForces, slip_forces, station
@@ -59,11 +59,6 @@ def _forces(model, given, result):
     )
 
 
-def _powers(model, given, result):
-    inner, outer, cage = powers(model, given.at, given.forces, given.slip)
-    write(result, Powers(inner, outer, cage))
-
-
 def _rising(model, given, result):
     write(
         result, Value(rising_at(model, given.inner_load, given.outer_load, given.ring_speed, given.entrainment_speed))
@@ -79,14 +74,9 @@ def _note(model, given, record):
     note_state(record, model, state.at, state.forces, state.slip, given.span)
 
 
-def _stage(model, given, record):
+def _passage(model, given, record):
     state = given.state
-    book_stage(record, model, state.at, state.forces, state.slip, given.span)
-
-
-def _step(model, given, record):
-    state = given.held.state
-    book_step(record, model, state.at, state.forces, state.slip, given.held.span, given.passage)
+    book_passage(record, model, state.at, state.forces, state.slip, given.passage)
 
 
 def _trace(model, given, record):
@@ -98,12 +88,10 @@ def _trace(model, given, record):
 _ENTRIES = {
     "station": (_station, types.AT_PLACE, types.STATION),
     "forces": (_forces, types.AT_SLIP, types.FORCES),
-    "powers": (_powers, types.WITH_FORCES, types.POWERS),
     "rising": (_rising, types.LOADS, types.VALUE),
     "relaxation": (_relaxation, types.LOADS, types.VALUE),
     "note": (_note, types.HELD_TYPE, types.RECORD_TYPE),
-    "stage": (_stage, types.HELD_TYPE, types.RECORD_TYPE),
-    "step": (_step, types.PASSED_TYPE, types.RECORD_TYPE),
+    "passage": (_passage, types.PASSED_TYPE, types.RECORD_TYPE),
     "trace": (_trace, types.TRACED_TYPE, types.RECORD_TYPE),
 }
 
@@ -156,6 +144,8 @@ def sealed(model: RollerModel) -> SealedModel:
         **{name: getattr(model, name) for name in _GEOMETRY},
         microslip=slips_everywhere(model.inner),
         curved=isinstance(model.inner, CurvedContact),
+        inner_power=power_rule(model.inner),
+        outer_power=power_rule(model.outer),
         data=data,
         entries=entries,
     )

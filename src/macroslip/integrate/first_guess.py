@@ -5,24 +5,31 @@ from __future__ import annotations
 from macroslip.compiled import jit_part
 from macroslip.integrate.held_contact import held_slip
 from macroslip.integrate.load_zone import EDGE, FIRM
-from macroslip.integrate.radau_step import NODES
+from macroslip.integrate.radau_step import NODES, collocation
 from macroslip.integrate.sealed import has_microslip
-from macroslip.integrate.tuning import GRIPPED
+from macroslip.integrate.tuning import GRIPPED, MOST_AHEAD
 from macroslip.roller.forces import net_force
 
 
 @jit_part
-def first_guess(path, state, step, zone, exponent):
+def first_guess(path, state, step, zone, memory):
     """Slip at the stages [m/s] to start Newton's iteration from.
 
-    That of a roller which drifts under small forces, changed as the forces at the start say; that of one stuck to the
-    cage, which keeps its spin; else the slip before the step; then, for one that follows its loads, what `held_slip`
-    makes of it with `exponent`.
+    Where slip is smooth the polynomial of the step before goes on. Else, that of a roller which drifts under small forces,
+    changed as the forces at the start say; that of one stuck to the cage, which keeps its spin; else the slip before the
+    step; then, for one that follows its loads, what `held_slip` makes of it.
     """
     model, h, slip, forces = path.model, step.length, state.slip, state.forces
     at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
     microslip = has_microslip(model)
     gripped = model.mobility * forces.slope * h
+    if microslip and zone != FIRM and step.length <= MOST_AHEAD * memory.length and gripped < GRIPPED:
+        ratio = step.length / memory.length
+        ahead1, _ = collocation(1.0 + NODES[0] * ratio, memory.s1, memory.s2, memory.s3)
+        ahead2, _ = collocation(1.0 + NODES[1] * ratio, memory.s1, memory.s2, memory.s3)
+        ahead3, _ = collocation(1.0 + ratio, memory.s1, memory.s2, memory.s3)
+        base = slip - at.ring_speed - memory.s3
+        return base + at1.ring_speed + ahead1, base + at2.ring_speed + ahead2, base + at3.ring_speed + ahead3
     v1, v2, v3 = slip, slip, slip
     if gripped < 1.0 and zone != EDGE:
         drift = -model.mobility * net_force(forces)
@@ -35,7 +42,7 @@ def first_guess(path, state, step, zone, exponent):
         v2 = slip + (at2.ring_speed - at.ring_speed)
         v3 = slip + (at3.ring_speed - at.ring_speed)
     if zone == FIRM or (microslip and gripped > GRIPPED and at3.elastic_load > 0.0):
-        v1 = held_slip(microslip, v1, at, at1, exponent)
-        v2 = held_slip(microslip, v2, at, at2, exponent)
-        v3 = held_slip(microslip, v3, at, at3, exponent)
+        v1 = held_slip(microslip, v1, at, at1, memory.exponent)
+        v2 = held_slip(microslip, v2, at, at2, memory.exponent)
+        v3 = held_slip(microslip, v3, at, at3, memory.exponent)
     return v1, v2, v3

@@ -7,12 +7,20 @@ import math
 from macroslip.compiled import jit
 from macroslip.integrate.backward_euler import backward_euler_step
 from macroslip.integrate.booking import write_traces
-from macroslip.integrate.detail import Passage, in_stages
+from macroslip.integrate.detail import Passage, collect
 from macroslip.integrate.explicit_euler import explicit_euler_step
 from macroslip.integrate.record import add_energy, add_rolling, orbit_at, raise_peak
-from macroslip.integrate.sealed import book_stage_of, book_step_of, forces_of, note_state_of, powers_of, station_of
+from macroslip.integrate.sealed import (
+    book_mechanisms_of,
+    book_passage_of,
+    forces_of,
+    note_state_of,
+    powers_of,
+    station_of,
+)
 from macroslip.integrate.status import COMPLETED, IMPOSSIBLE_SLIP, INTERRUPTED, NO_ROOT, NOT_FINITE
 from macroslip.integrate.surface import Way
+from macroslip.integrate.tuning import FINE_LOOKS
 from macroslip.reference import by_reference
 from macroslip.ring.orbit import instant, interval_of
 
@@ -93,13 +101,15 @@ def integrate_fixed_step(path, slip, end, record):
             # Rectangles: the state a step is evaluated at stands for the whole step.
             if rule.implicit:
                 add_rolling(record, forces.rolling_power, span)
-                book_stage_of(record, model, reached, forces, slip, span)
+                book_mechanisms_of(record, model, reached, forces, slip, span)
             else:
                 add_rolling(record, before.rolling_power, span)
-                book_stage_of(record, model, at, before, slip_before, span)
-            parts = (in_stages(span * inner), in_stages(span * outer))
+                book_mechanisms_of(record, model, at, before, slip_before, span)
+            collect(record, 0, span * inner)
+            collect(record, 1, span * outer)
             way = Way(path.start_angle, model.orbit_ratio, turned, instant(motion, interval, after).shaft_angle)
-            book_step_of(record, model, reached, forces, slip, span, Passage(orbit, parts, way))
+            fine = record.count[0] % FINE_LOOKS == 0
+            book_passage_of(record, model, reached, forces, slip, Passage(orbit, way, span, fine))
         time, at = after, reached
         record.count[0] += 1
     record.end[0], record.end[1] = time, slip

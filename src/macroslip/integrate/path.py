@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_part
-from macroslip.integrate.radau_step import NODES
+from macroslip.integrate.radau_step import NODES, WEIGHTS
 from macroslip.integrate.sealed import forces_of, powers_of, station_of
 from macroslip.integrate.tuning import LONGEST_TURN
 from macroslip.ring.orbit import instant, interval_of
@@ -118,7 +118,8 @@ class State(NamedTuple):
 class Step(NamedTuple):
     """A step from a state on: its length [s], 1/(h r²/I_z') [N s/m], and times [s] and stations of its three stages.
 
-    `interval` is the sample interval it ends in.
+    `interval` is the sample interval it ends in, `weights` are those of its stages in the energy, and `held` whether its
+    stages are those of `macroslip.integrate.held_step`: the start, the middle and the end.
     """
 
     length: float
@@ -128,6 +129,8 @@ class Step(NamedTuple):
     at1: Any
     at2: Any
     at3: Any
+    weights: tuple
+    held: bool
 
 
 @jit_part
@@ -153,6 +156,8 @@ def step_from(path, state, length):
         station_of(path.model, path.start_angle, instant(path.motion, k1, t1)),
         station_of(path.model, path.start_angle, instant(path.motion, k2, t2)),
         station_of(path.model, path.start_angle, instant(path.motion, k3, t3)),
+        WEIGHTS,
+        False,
     )
 
 

@@ -12,7 +12,9 @@ from macroslip.integrate.booking import Peaks, book, step_powers, write_traces
 from macroslip.integrate.energy_control import energy_error_of
 from macroslip.integrate.first_guess import first_guess
 from macroslip.integrate.held_contact import held_exponent
+from macroslip.integrate.held_step import follows_loads, held_energy_error, held_step_from, solve_held
 from macroslip.integrate.load_zone import EDGE, FIRM, FREE, classify
+from macroslip.integrate.looks import follow, looked, no_looks, started
 from macroslip.integrate.pace import first_pace, next_stretch, paced, shortened
 from macroslip.integrate.path import State, state_at, step_from
 from macroslip.integrate.peak import start_peak
@@ -26,10 +28,26 @@ from macroslip.reference import by_reference
 
 
 class Memory(NamedTuple):
-    """What steps of a held roller leave to the next: the power of load its slip follows, and how its forces bend [1/N]."""
+    """What a step leaves to the next, for its first guess.
+
+    Attributes
+    ----------
+    exponent : float
+        Power of the load that the slip of a held roller follows.
+    bend : float
+        As in `macroslip.integrate.stages`.
+    length : float
+        Of the last step of three stages [s]; 0 where another has come since.
+    s1, s2, s3 : float
+        The increments of slip by forces at its stages [m/s].
+    """
 
     exponent: float
     bend: float
+    length: float
+    s1: float
+    s2: float
+    s3: float
 
 
 class Attempt(NamedTuple):
@@ -83,8 +101,8 @@ def integrate_radau(path, slip, stops, classes, record):
     record.count[2] += 1
     pace = first_pace(path, state)
     peaks = Peaks(np.empty((2, 4)), -1, 0.0)
-    memory = Memory(LIMIT_EXPONENT, math.inf)
-    spent, next_trace, status = 0.0, 0, COMPLETED
+    memory = Memory(LIMIT_EXPONENT, math.inf, 0.0, 0.0, 0.0, 0.0)
+    spent, next_trace, status, looks = 0.0, 0, COMPLETED, no_looks()
     while True:
         next_trace = write_traces(record, path.model, next_trace, state.time, state.at, state.forces, state.slip)
         if state.time >= pace.barrier:
@@ -109,37 +127,65 @@ def integrate_radau(path, slip, stops, classes, record):
         if length <= 4e-16 * abs(state.time) + 1e-300:
             status = STEP_TOO_SMALL
             break
-        step = step_from(path, state, length)
-        if length > CUSP_PART * path.limits.longest_step:
+        if not pace.failed and follows_loads(path, state, pace.zone, length):
+            step = held_step_from(path, state, length)
+        else:
+            step = step_from(path, state, length)
+        if length > CUSP_PART * path.limits.longest_step and not step.held:
             part = first_cusp(state, pace.zone == FREE, step)
             if part < 1.0:
                 pace = paced(pace, part * length, min(pace.barrier, state.time + part * length), pace.failed)
                 continue
         tried = _attempt(path, state, step, pace, memory, spent, record)
-        memory = Memory(memory.exponent, tried.stages.bend)
+        memory = _with_bend(memory, tried.stages.bend)
         if tried.solved and not math.isfinite(tried.energy):
             status = NOT_FINITE
             break
         factor = step_factor(tried.error)
         if not tried.solved or tried.error > 1.0:
             record.count[1] += 1
-            pace = shortened(
-                path, state, pace, length * max(LEAST_PART, factor) if tried.solved else UNSOLVED_PART * length
-            )
+            pace = _rejected(path, state, pace, step, tried, factor)
             continue
         record.count[0] += 1
         spent += tried.energy
-        if state.time >= record.edges[0]:
-            peaks = book(record, path, state, step, tried.stages, tried.found, peaks, pace.zone == EDGE)
-        record.worst[0] = max(record.worst[0], tried.stages.unbalanced)
         after = _reached(step, tried, pace.barrier if length == left else step.times[2])
-        if pace.zone == FIRM:
-            exponent = held_exponent(state.at, state.slip, after.at, after.slip, memory.exponent)
-            memory = Memory(exponent, memory.bend)
+        if state.time >= record.edges[0]:
+            looks = started(looks, path, state)
+            peaks = book(record, path, state, step, tried.stages, tried.found, peaks, pace.zone == EDGE)
+            energies = (tried.found.inner_energy, tried.found.outer_energy)
+            looks = follow(record, path, after, energies, peaks.orbit, looks)
+        record.worst[0] = max(record.worst[0], tried.stages.unbalanced)
+        memory = _learnt(memory, state, after, step, tried.stages, pace.zone)
         state = after
         pace = paced(pace, length * min(1.0 if pace.failed else GROWTH, factor), pace.barrier, False)
+    if looks.time < state.time:
+        looked(record, path, state, looks.orbit, looks)
     record.end[0], record.end[1] = state.time, state.slip
     return status
+
+
+@jit_part
+def _rejected(path, state, pace, step, tried, factor):
+    """The pace after a step that was not taken."""
+    if step.held:
+        # The same step with three stages.
+        return paced(pace, pace.step, pace.barrier, True)
+    part = max(LEAST_PART, factor) if tried.solved else UNSOLVED_PART
+    return shortened(path, state, pace, part * step.length)
+
+
+@jit_part
+def _learnt(memory, state, after, step, stages, zone):
+    """What an accepted step leaves to the next."""
+    exponent = memory.exponent
+    if zone == FIRM:
+        exponent = held_exponent(state.at, state.slip, after.at, after.slip, exponent)
+    return Memory(exponent, memory.bend, 0.0 if step.held else step.length, stages.s1, stages.s2, stages.s3)
+
+
+@jit_part
+def _with_bend(memory, bend):
+    return Memory(memory.exponent, bend, memory.length, memory.s1, memory.s2, memory.s3)
 
 
 @jit_part
@@ -155,16 +201,24 @@ def _halted(limits, record):
 @jit_part
 def _attempt(path, state, step, pace, memory, spent, record):
     """Solve a step and find its error; `spent` is the energy of the steps before it, of those in the window there [J]."""
-    held = pace.zone == FIRM and has_microslip(path.model)
-    guess = first_guess(path, state, step, pace.zone, memory.exponent)
-    stages = solve_stages(path, state, step, guess, held, memory.bend)
+    if step.held:
+        stages = solve_held(path, state, step, memory.exponent, memory.bend)
+    else:
+        smooth = has_microslip(path.model)
+        guess = first_guess(path, state, step, pace.zone, memory)
+        stages = solve_stages(path, state, step, guess, smooth, memory.bend)
     record.count[2] += stages.evaluations
     found = step_powers(path.model, step, stages)
     energy = found.inner_energy + found.outer_energy + found.cage_energy
     if not stages.converged or not is_continuous(path, state, step, stages):
         return Attempt(False, stages, found, energy, math.inf)
-    slip_off = slip_error_of(path, state, step, stages, pace.zone, record)
-    energy_off = energy_error_of(path, state, step, stages, found, pace.zone, record)
+    if step.held:
+        before = state.powers[0] + state.powers[1] + state.powers[2]
+        after = found.inner[2] + found.outer[2] + found.cage[2]
+        slip_off, energy_off = 0.0, held_energy_error(energy, step.length, before, after)
+    else:
+        slip_off = slip_error_of(path, state, step, stages, pace.zone, record)
+        energy_off = energy_error_of(path, state, step, stages, found, pace.zone, record)
     since = record.edges[0] if state.time >= record.edges[0] else path.motion.time[0]
     mean_power = (spent + energy) / (step.times[2] - since)
     error = error_ratio(path.limits, slip_off, energy_off, energy, mean_power, step.length, pace.sample_step)

@@ -12,14 +12,14 @@ import numpy as np
 from numba import typeof
 from numba.extending import overload
 
-from macroslip.integrate.detail import Passage, book_stage, book_step
+from macroslip.integrate.detail import Passage, PowerRule, book_mechanisms, book_passage, power_rule, raceway_power
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
 from macroslip.integrate.measures import note_state, powers, write_trace
 from macroslip.integrate.record import new_record
 from macroslip.integrate.surface import Way
 from macroslip.reference import Reference, calling
 from macroslip.ring.orbit import Instant
-from macroslip.roller.contact_force import Detail
+from macroslip.roller.contact_force import CurvedContact, Detail
 from macroslip.roller.forces import SlipForces, Station, slip_forces, station
 
 
@@ -28,12 +28,10 @@ class Entries(NamedTuple):
 
     station: int
     forces: int
-    powers: int
     rising: int
     relaxation: int
     note: int
-    stage: int
-    step: int
+    passage: int
     trace: int
 
 
@@ -48,6 +46,8 @@ class SealedModel(NamedTuple):
         Whether a gripped contact slips in most places all the same.
     curved : bool
         Whether contacts have mechanisms and places to book.
+    inner_power, outer_power : PowerRule
+        Of the raceways.
     data : ndarray of uint8
         The roller with its laws.
     entries : Entries
@@ -63,6 +63,8 @@ class SealedModel(NamedTuple):
     outer_radius: float
     microslip: bool
     curved: bool
+    inner_power: PowerRule
+    outer_power: PowerRule
     data: np.ndarray
     entries: Entries
 
@@ -97,9 +99,9 @@ class Held(NamedTuple):
 
 
 class Passed(NamedTuple):
-    """A state at the end of a step, and what the step leaves on the raceways."""
+    """A state, and what the roller has passed."""
 
-    held: Held
+    state: WithForces
     passage: Passage
 
 
@@ -125,35 +127,25 @@ class Value(NamedTuple):
     value: float
 
 
-class Powers(NamedTuple):
-    """Frictional power at inner raceway, outer raceway and cage [W]."""
-
-    inner: float
-    outer: float
-    cage: float
-
-
 #: What a plain contact adds to its force: nothing, and no skew moment is known.
 PLAIN = Detail(0.0, np.nan, 0.0)
 _NO_STATION = Station(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _NO_FORCES = SlipForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), PLAIN, PLAIN, PLAIN)
 _STATE = WithForces(_NO_STATION, _NO_FORCES, 0.0)
 _HELD = Held(_STATE, 0.0)
-_STAGES = (0.0, 0.0, 0.0)
-_PASSED = Passed(_HELD, Passage(0, (_STAGES, _STAGES), Way(0.0, 0.0, 0.0, 0.0)))
+_PASSED = Passed(_STATE, Passage(0, Way(0.0, 0.0, 0.0, 0.0), 0.0, False))
 _RECORD = new_record(np.zeros(1), np.zeros(0), 0.0)
 
 
 RECORD_TYPE = Reference(typeof(_RECORD))
 AT_PLACE = typeof(AtPlace(0.0, Instant(0.0, 0.0, 0.0, 0.0, 0.0)))
-AT_SLIP, WITH_FORCES = typeof(AtSlip(_NO_STATION, 0.0)), typeof(_STATE)
+AT_SLIP = typeof(AtSlip(_NO_STATION, 0.0))
 LOADS, VALUE = typeof(Loads(0.0, 0.0, 0.0, 0.0)), typeof(Value(0.0))
-STATION, FORCES, POWERS = typeof(_NO_STATION), typeof(_NO_FORCES), typeof(Powers(0.0, 0.0, 0.0))
+STATION, FORCES = typeof(_NO_STATION), typeof(_NO_FORCES)
 HELD_TYPE, PASSED_TYPE, TRACED_TYPE = typeof(_HELD), typeof(_PASSED), typeof(Traced(_STATE, 0))
 
 _call_station = calling(AT_PLACE, STATION)
 _call_forces = calling(AT_SLIP, FORCES)
-_call_powers = calling(WITH_FORCES, POWERS)
 _call_value = calling(LOADS, VALUE)
 _call_held = calling(HELD_TYPE, RECORD_TYPE)
 _call_passed = calling(PASSED_TYPE, RECORD_TYPE)
@@ -204,8 +196,10 @@ def powers_of(model, at, forces, slip):
 @overload(powers_of)
 def _powers_of(model, at, forces, slip):
     def implementation(model, at, forces, slip):
-        found = _call_powers(model.entries.powers, model.data.ctypes.data, WithForces(at, forces, slip))
-        return found.inner, found.outer, found.cage
+        ring = at.ring_speed
+        inner = raceway_power(model.inner_power, slip, ring, forces.inner, forces.inner_detail)
+        outer = raceway_power(model.outer_power, slip, ring, forces.outer, forces.outer_detail)
+        return inner, outer, abs(forces.cage * (ring - slip))
 
     return implementation
 
@@ -251,31 +245,32 @@ def _note_state_of(record, model, at, forces, slip, span):
     return implementation
 
 
-def book_stage_of(record, model, at, forces, slip, span):
-    """`macroslip.integrate.detail.book_stage`."""
-    book_stage(record, model, at, forces, slip, span)
+def book_mechanisms_of(record, model, at, forces, slip, span):
+    """`macroslip.integrate.detail.book_mechanisms`, for curved contacts."""
+    if isinstance(model.inner, CurvedContact):
+        book_mechanisms(record, (power_rule(model.inner), power_rule(model.outer)), at, forces, slip, span)
 
 
-@overload(book_stage_of)
-def _book_stage_of(record, model, at, forces, slip, span):
+@overload(book_mechanisms_of)
+def _book_mechanisms_of(record, model, at, forces, slip, span):
     def implementation(record, model, at, forces, slip, span):
         if model.curved:
-            _call_held(model.entries.stage, model.data.ctypes.data, Held(WithForces(at, forces, slip), span), record)
+            book_mechanisms(record, (model.inner_power, model.outer_power), at, forces, slip, span)
 
     return implementation
 
 
-def book_step_of(record, model, at, forces, slip, span, passage):
-    """`macroslip.integrate.detail.book_step`."""
-    book_step(record, model, at, forces, slip, span, passage)
+def book_passage_of(record, model, at, forces, slip, passage):
+    """`macroslip.integrate.detail.book_passage`."""
+    book_passage(record, model, at, forces, slip, passage)
 
 
-@overload(book_step_of)
-def _book_step_of(record, model, at, forces, slip, span, passage):
-    def implementation(record, model, at, forces, slip, span, passage):
+@overload(book_passage_of)
+def _book_passage_of(record, model, at, forces, slip, passage):
+    def implementation(record, model, at, forces, slip, passage):
         if model.curved:
-            given = Passed(Held(WithForces(at, forces, slip), span), passage)
-            _call_passed(model.entries.step, model.data.ctypes.data, given, record)
+            given = Passed(WithForces(at, forces, slip), passage)
+            _call_passed(model.entries.passage, model.data.ctypes.data, given, record)
 
     return implementation
 

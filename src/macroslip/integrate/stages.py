@@ -37,7 +37,7 @@ class Stages(NamedTuple):
     evaluations : int
         Force evaluations it took.
     bend : float
-        How much forces bend along Newton's correction [1/N]; infinite while nothing is known of it.
+        Residual left by Newton's correction over the square of the correction [N s²/m²]; infinite while it is not known.
     """
 
     converged: bool
@@ -64,7 +64,7 @@ def force_tolerance(tolerance, microslip):
 
 
 @jit_part
-def solve_stages(path, state, step, guess, held, bend):
+def solve_stages(path, state, step, guess, smooth, bend):
     """Solve the stage equations from a first guess.
 
     Parameters
@@ -75,10 +75,10 @@ def solve_stages(path, state, step, guess, held, bend):
     step : Step
     guess : tuple of float
         First guess of slip at the stages [m/s].
-    held : bool
-        Whether microslip holds the roller at its balance: then forces bend from step to step in the same way.
+    smooth : bool
+        Whether forces bend from step to step in the same way, as those of a contact with microslip.
     bend : float
-        As the last step left it [1/N].
+        As the last step left it [N s²/m²].
 
     Returns
     -------
@@ -92,7 +92,7 @@ def solve_stages(path, state, step, guess, held, bend):
     d3 = at3.ring_speed - at.ring_speed
     force_part = force_tolerance(path.limits.tolerance, has_microslip(model))
     round_off = 4e-15 * scale * (path.limits.speed_scale + abs(slip))
-    converged, unbalanced, evaluations = False, math.inf, 0
+    converged, unbalanced, evaluations, change, foreseen = False, math.inf, 0, 0.0, math.inf
     f1, f2, f3 = forces, forces, forces
     s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
     for iteration in range(ITERATIONS):
@@ -114,15 +114,16 @@ def solve_stages(path, state, step, guess, held, bend):
         if not math.isfinite(size) or (iteration > 2 and size > 0.9 * unbalanced):
             break
         # Newton's residuals shrink quadratically: the next one is foreseen from the last two, or with a known bend from
-        # the first, and where it is small enough the forces follow to first order, without another evaluation.
+        # the first correction, and where it is small enough the forces follow to first order, without an evaluation.
         if iteration > 0:
             foreseen = size * size / unbalanced
-            if held and iteration == 1:
-                bend = max(size / (unbalanced * unbalanced), FORGET * bend if bend < math.inf else 0.0)
-        else:
-            foreseen = BEND_SAFETY * bend * size * size if held else math.inf
-        unbalanced = size
+            if iteration == 1:
+                bend = max(size / (change * change), FORGET * bend if bend < math.inf else 0.0)
         u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
+        change = max(abs(u1), abs(u2), abs(u3))
+        if iteration == 0:
+            foreseen = BEND_SAFETY * bend * change * change if smooth else math.inf
+        unbalanced = size
         v1 += u1
         v2 += u2
         v3 += u3

@@ -21,7 +21,7 @@ FILM_REGIMES = ("below 1", "1 and above")
 
 
 class Way(NamedTuple):
-    """The way of a roller over a step.
+    """A part of the way of a roller.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Way(NamedTuple):
     orbit_ratio : float
         Orbital speed over shaft speed [-].
     before, after : float
-        The shaft's angle before and after the step [rad].
+        The shaft's angle before and after it [rad].
     """
 
     start_angle: float
@@ -48,15 +48,13 @@ def sector_of(way, interface, part):
 
 
 @jit_part
-def spread(surface, interface, way, first, last, powers, energy):
-    """Give the places a roller passes the energy of a part of its step.
+def spread(surface, interface, way, powers, energy):
+    """Give the places a roller passes the energy of its way, evenly.
 
     Parameters
     ----------
     surface : ndarray, shape (raceways, sectors, stations, signs of slip, film regimes)
         Energies [J].
-    first, last : float
-        Part of the step, evenly over the way from one to the other, of 0 to 1.
     powers : ndarray, shape (stations + 2,)
         Powers along the roller in proportion to which the energy is given [W], with the sign of slip, and in the last
         place which film regime it is.
@@ -68,7 +66,7 @@ def spread(surface, interface, way, first, last, powers, energy):
         total += abs(powers[k])
     if total <= 0.0 or energy == 0.0:
         return
-    start, end = sector_of(way, interface, first), sector_of(way, interface, last)
+    start, end = sector_of(way, interface, 0.0), sector_of(way, interface, 1.0)
     if start > end:
         start, end = end, start
     length = end - start
@@ -84,7 +82,7 @@ def spread(surface, interface, way, first, last, powers, energy):
 
 @jit_part
 def raise_density(largest, interface, way, station, density):
-    """Let the largest power per area of the places a roller passes in its step be at least `density` [W/m²]."""
+    """Let the largest power per area of the places a roller passes be at least `density` [W/m²]."""
     start, end = sector_of(way, interface, 0.0), sector_of(way, interface, 1.0)
     if start > end:
         start, end = end, start

@@ -17,6 +17,7 @@ from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
 from macroslip.roller.contact_force import CurvedContact, PlainContact
 from macroslip.roller.films import Films, NoFilms
 from macroslip.roller.plane_table import no_plane_table
+from macroslip.roller.play_table import no_play_table
 from macroslip.roller.raceway_table import no_raceway_table
 from macroslip.rolling import law as rolling_law
 from macroslip.rolling.gap import GapShape
@@ -239,6 +240,8 @@ def prepare_films(
         pocket_gap=_POCKET_GAP,
         inner_table=no_plane_table(),
         outer_table=no_plane_table(),
+        cage_table=no_plane_table(),
+        play_table=no_play_table(),
         faded_load=math.inf,
         faded_speed=0.0,
     )

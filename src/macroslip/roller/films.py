@@ -1,17 +1,6 @@
-"""The oil around a roller: rolling resistance of its contacts, and what films carry where a roller has play.
+"""The oil around a roller: rolling resistance of its contacts and the shear of the films outside them.
 
 What is here stands beside the traction of the contacts. For `NoFilms` every function compiles to zeros.
-
-A roller with play lies between two films. With q the load of the one that no body force presses on and Q = q + |B| that of
-the other, B the body force, both films and the elastic approach of the contacts fill the play p:
-
-    [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
-
-h the film of the volume flow. As the play vanishes q rises to a load that the films carry without play, q0; a roller that
-the rings press with the load Q_e has q = q0 exp(−Q_e/q0) of it left, so that loads are continuous.
-
-The films are those of a roller whose surface is at rest: u = u2/2. A roller without load turns slowly; that of a roller
-which grips has left its play, where q counts for little.
 """
 
 from __future__ import annotations
@@ -23,15 +12,8 @@ from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.roller.plane_table import PlaneTable, plane_values
-from macroslip.rolling.film import light_film
-from macroslip.rolling.law import LOWEST_SPEED
+from macroslip.roller.play_table import PlayTable
 from macroslip.rolling.light_contact import light_contact, pocket_contact
-from macroslip.rolling.martin import FLOW
-
-#: Part of the elastic load below which what films carry without play is left out: it would count for e^−30 of itself.
-_FADED = 1.0 / 30.0
-#: Bounds of ln q [ln N] and iterations; Newton's takes about four.
-_LOWEST, _HIGHEST, _ITERATIONS = math.log(1e-9), math.log(1e7), 60
 
 
 class NoFilms(NamedTuple):
@@ -48,8 +30,11 @@ class Films(NamedTuple):
         K of both raceway contacts in series [N/m^1.5].
     pocket_gap : float
         Largest gap between roller and spar [m].
-    inner_table, outer_table : PlaneTable
-        Of the oil of the raceway contacts, from `macroslip.roller.tables`; know nothing unless they were made.
+    inner_table, outer_table, cage_table : PlaneTable
+        Of the oil of the raceway contacts and in the pocket, from `macroslip.roller.tables`; know nothing unless they were
+        made.
+    play_table : PlayTable
+        Of what films carry where a roller has play; likewise.
     faded_load, faded_speed : float
         Elastic load [N] from which on films carry nothing beside it, at ring speeds up to this one [m/s].
     """
@@ -61,6 +46,8 @@ class Films(NamedTuple):
     pocket_gap: float
     inner_table: PlaneTable
     outer_table: PlaneTable
+    cage_table: PlaneTable
+    play_table: PlayTable
     faded_load: float
     faded_speed: float
 
@@ -114,88 +101,6 @@ class CageFilm(NamedTuple):
 
 
 @jit_inline
-def log_film(law, table, log_load, log_speed):
-    """Ln of the film h of the volume flow [ln m] and its derivative by ln Q, from a contact's table or its law."""
-    known = plane_values(table, log_load, log_speed)
-    if known.known:
-        return known.value[2], known.by_load[2] * table.load.per_spacing
-    height, slope, _ = light_film(law, log_load, log_speed)
-    return height, slope
-
-
-@jit_inline
-def _excess(films, log_load, body, play, log_speed):
-    """Ln of the films' height over that of the space they have, at q = exp(`log_load`), and its derivative by ln q."""
-    load = math.exp(log_load)
-    inner_load = load - body if body < 0.0 else load
-    outer_load = load + body if body > 0.0 else load
-    inner, inner_slope = log_film(films.inner, films.inner_table, math.log(inner_load), log_speed)
-    outer, outer_slope = log_film(films.outer, films.outer_table, math.log(outer_load), log_speed)
-    inner, outer = math.exp(inner), math.exp(outer)
-    height = inner + outer
-    slope = (inner * inner_slope * load / inner_load + outer * outer_slope * load / outer_load) / height
-    approach = (load / films.stiffness) ** (2.0 / 3.0)
-    space = play + approach
-    return math.log(height / (FLOW * space)), slope - (2.0 / 3.0) * approach / space
-
-
-@jit
-def carried(films, play, body, ring_speed):
-    """Load q [N] of the film on the side that no body force presses on.
-
-    Parameters
-    ----------
-    films : Films
-    play : float
-        p ≥ 0 [m].
-    body : float
-        Body force B along the contact normal [N], positive outward.
-    ring_speed : float
-        u2 [m/s].
-    """
-    log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
-    low, high = _LOWEST, _HIGHEST
-    place = 0.0
-    for _ in range(_ITERATIONS):
-        excess, slope = _excess(films, place, body, play, log_speed)
-        if excess > 0.0:
-            low = place
-        else:
-            high = place
-        following = place - excess / slope if slope < 0.0 else low
-        if not low < following < high:
-            following = 0.5 * (low + high)
-        if abs(following - place) < 1e-12 * (1.0 + abs(place)):
-            place = following
-            break
-        place = following
-    # In proportion to speed where it vanishes.
-    return math.exp(place) * min(1.0, 0.5 * abs(ring_speed) / LOWEST_SPEED)
-
-
-@jit
-def _film_load(films, load, approach, body, ring_speed):
-    if load <= 0.0:
-        return carried(films, -approach, body, ring_speed)
-    if load >= films.faded_load and abs(ring_speed) <= films.faded_speed:
-        return 0.0
-    log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
-    excess, _ = _excess(films, math.log(_FADED * load), body, 0.0, log_speed)
-    if excess <= 0.0:
-        return 0.0
-    most = carried(films, 0.0, body, ring_speed)
-    return most * math.exp(-load / most) if most > 0.0 else 0.0
-
-
-@jit
-def faded(films, load, body, ring_speed):
-    """Whether films carry nothing beside the elastic load [N] of a roller with a body force [N] at u2 [m/s]."""
-    return (
-        _excess(films, math.log(_FADED * load), body, 0.0, math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED)))[0] <= 0.0
-    )
-
-
-@jit_inline
 def _raceway_film(law, table, load, slip, ring_speed):
     if load <= 0.0:
         return RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -239,8 +144,29 @@ def _raceway_film_by_laws(law, part, load, slip, ring_speed):
     )
 
 
-@jit
+@jit_inline
 def _cage_film(films, load, surface_speed):
+    if load > 0.0 and surface_speed != 0.0:
+        mean = 0.5 * surface_speed
+        table = films.cage_table
+        known = plane_values(table, math.log(load), math.log(abs(mean)))
+        if known.known:
+            conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
+            sliding, shear = -conductance * surface_speed, -resistance * mean
+            speeds, loads = table.speed.per_spacing, table.load.per_spacing
+            return CageFilm(
+                sliding,
+                shear,
+                -2.0 * shear * mean,
+                conductance * (1.0 + known.by_speed[0] * speeds)
+                + 0.5 * resistance * (1.0 + known.by_speed[1] * speeds),
+                (sliding * known.by_load[0] + shear * known.by_load[1]) * loads / load,
+            )
+    return _cage_film_by_laws(films, load, surface_speed)
+
+
+@jit
+def _cage_film_by_laws(films, load, surface_speed):
     found = pocket_contact(films.cage, load, surface_speed, 0.0, films.pocket_gap)
     rolling = found.rolling
     slope = found.sliding_slope - 0.5 * (found.sliding_by_speed + rolling.by_speed)
@@ -249,24 +175,6 @@ def _cage_film(films, load, surface_speed):
 
 _NO_RACEWAY = RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _NO_CAGE = CageFilm(0.0, 0.0, 0.0, 0.0, 0.0)
-
-
-def film_load(films, load, approach, body, ring_speed):
-    """Load [N] of films on either raceway, beside elastic load and body force.
-
-    Parameters
-    ----------
-    films : Films or NoFilms
-    load : float
-        Elastic load [N].
-    approach : float
-        Interference [m]; less the play where negative.
-    body : float
-        Body force along the contact normal [N], positive outward.
-    ring_speed : float
-        u2 [m/s].
-    """
-    return _film_load(films, load, approach, body, ring_speed) if isinstance(films, Films) else 0.0
 
 
 def raceway_film(films, raceway, load, slip, ring_speed):
@@ -293,13 +201,6 @@ def cage_film(films, load, surface_speed):
     The sideways push of the pressure is radial there and left out.
     """
     return _cage_film(films, load, surface_speed) if isinstance(films, Films) else _NO_CAGE
-
-
-@overload(film_load)
-def _film_load_of(films, load, approach, body, ring_speed):
-    if films.instance_class is Films:
-        return lambda films, load, approach, body, ring_speed: _film_load(films, load, approach, body, ring_speed)
-    return lambda films, load, approach, body, ring_speed: 0.0
 
 
 @overload(raceway_film)

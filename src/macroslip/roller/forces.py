@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 
 from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.roller.contact_force import cage_force, raceway_force
-from macroslip.roller.films import cage_film, film_load, raceway_film
+from macroslip.roller.films import cage_film, raceway_film
+from macroslip.roller.play import film_load
 
 #: Raceways by number.
 INNER, OUTER = 0, 1

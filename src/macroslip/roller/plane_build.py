@@ -12,9 +12,9 @@ from macroslip.compiled import jit
 from macroslip.contact.spline import axis, axis_middles, axis_nodes, read_only, tensor_coefficients
 from macroslip.reference import by_reference
 from macroslip.roller.contact_force import CurvedContact, cage_force
-from macroslip.roller.films import Films, faded, log_film, raceway_film
-from macroslip.roller.model import RollerModel
+from macroslip.roller.films import Films, cage_film, raceway_film
 from macroslip.roller.plane_table import CHANNELS, PlaneTable, no_plane_table
+from macroslip.roller.play import log_film
 from macroslip.roller.table_box import LARGEST_ERROR, TableBox, error_summary, values_at
 
 #: Distances between nodes of load and speed, and the least load [N].
@@ -46,6 +46,16 @@ def film_values(films, raceway, loads, speeds, values):
         values[n, 1] = math.log(-found.shear)
         law, table = (films.outer, films.outer_table) if raceway else (films.inner, films.inner_table)
         values[n, 2] = log_film(law, table, math.log(loads[n]), math.log(speeds[n]))[0]
+
+
+@jit
+def pocket_values(films, loads, speeds, values):
+    """Write ln of sliding per slip and of rolling resistance per mean speed at Q [N] and mean speed [m/s], shape (states, 2)."""
+    films = by_reference(films)
+    for n in range(loads.size):
+        found = cage_film(films, loads[n], 2.0 * speeds[n])
+        values[n, 0] = math.log(-0.5 * found.sliding / speeds[n])
+        values[n, 1] = math.log(-found.shear / speeds[n])
 
 
 def _plane(tabled: Callable, quantities: int, highest_load: float, box: TableBox) -> PlaneTable:
@@ -86,17 +96,13 @@ def film_table(films: Films, raceway: int, box: TableBox) -> PlaneTable:
     return _plane(tabled, 3, box.highest_load, box)
 
 
-def faded_load(films: Films, model: RollerModel, highest_speed: float) -> float:
-    """Elastic load [N] from which on films carry nothing beside it, at ring speeds up to the highest one [m/s].
+def pocket_table(films: Films, box: TableBox) -> PlaneTable:
+    """The oil in the pocket over ln Q and ln of the mean speed: ln of sliding per slip, of resistance per mean speed."""
 
-    Films grow with speed, and carry more the less the body force presses on one of them.
-    """
-    most = abs(model.weight_in_plane) + abs(model.weight_along_axis)
-    most += model.centrifugal * (highest_speed / model.outer_radius) ** 2
-    found = 1.0
-    while not all(faded(films, found, body, highest_speed) for body in (-most, 0.0, most)):
-        found *= 1.1
-    return found
+    def tabled(table: PlaneTable) -> Callable:
+        return partial(pocket_values, films._replace(cage_table=table))
+
+    return _plane(tabled, 2, box.highest_cage_load, box)
 
 
 def cage_table(contact: CurvedContact, box: TableBox) -> tuple[PlaneTable, np.ndarray]:

@@ -24,8 +24,9 @@ _LOAD_SPACING, _SPEED_SPACING, _RATIO_SPACING = 0.33, 0.055, 0.06
 _STRETCH = 0.6
 #: Least load of a table [N]: the lighter raceway of a free roller carries some newtons of its films.
 _LEAST_LOAD = 0.5
-#: Ratios of slip to ring speed of a table: from a roller that runs a little ahead to one at rest.
-_LEAST_RATIO, _LARGEST_RATIO = -0.02, 1.0
+#: Ratios of slip to ring speed of a table: from a roller that runs a little ahead to beyond one at rest, near which idle
+#: rollers are: next to its ends the splines are less good.
+_LEAST_RATIO, _LARGEST_RATIO = -0.02, 1.4
 #: Load [N] from which on a roller is held, and the largest ratio of slip to speed it then has; measured on the bundled
 #: histories, where rollers above 10 kN slip between −0.006 and 0.001 of the ring's speed.
 _HELD_LOAD, _HELD_RATIO = 20e3, 0.02

@@ -13,7 +13,8 @@ from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.films import Films
 from macroslip.roller.forces import INNER, OUTER
 from macroslip.roller.model import RollerModel
-from macroslip.roller.plane_build import cage_table, faded_load, film_table
+from macroslip.roller.plane_build import cage_table, film_table, pocket_table
+from macroslip.roller.play_build import faded_load, highest_body_force, play_table
 from macroslip.roller.raceway_build import raceway_errors, raceway_table, raceway_values
 from macroslip.roller.raceway_table import CHANNELS, RacewayTable, no_raceway_table
 from macroslip.roller.table_box import TableBox
@@ -64,13 +65,17 @@ def tabulated(models: dict[str, RollerModel], box: TableBox) -> tuple[dict[str, 
     cage, of_cage = cage_table(model.cage, box)
     films = model.films
     if isinstance(films, Films):
+        films = films._replace(inner_table=film_table(films, INNER, box), outer_table=film_table(films, OUTER, box))
+        body = highest_body_force(model, box.highest_speed)
         films = films._replace(
-            inner_table=film_table(films, INNER, box),
-            outer_table=film_table(films, OUTER, box),
-            faded_load=faded_load(films, model, box.highest_speed),
+            cage_table=pocket_table(films, box),
+            play_table=play_table(films, body, box),
+            faded_load=faded_load(films, body, box.highest_speed),
             faded_speed=box.highest_speed,
         )
-    planes = [cage, *((films.inner_table, films.outer_table) if isinstance(films, Films) else ())]
+    planes: list = [cage]
+    if isinstance(films, Films):
+        planes += [films.inner_table, films.outer_table, films.cage_table, films.play_table]
     errors = np.array([of_inner, of_outer, of_cage])
     found = {}
     for row, one in models.items():

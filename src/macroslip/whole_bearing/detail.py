@@ -16,15 +16,13 @@ from macroslip.bearing.frames import ROWS
 from macroslip.compiled import jit_called, jit_merged
 from macroslip.integrate.detail import EXTREMES, Passage, book_cage, book_raceway, look
 from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS, Way
-from macroslip.integrate.tuning import LOOK_EVERY
+from macroslip.integrate.tuning import FINE_LOOKS
 from macroslip.reference import tuple_type
 from macroslip.roller.contact_force import is_curved
 from macroslip.roller.films import cage_film
 from macroslip.whole_bearing.space import CAGE_SLIDING, PUSH
 
 _FULL_TURN = 2.0 * math.pi
-#: The energies of a step's stages come by `collect`.
-_NO_ENERGIES = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 class Details(NamedTuple):
@@ -71,15 +69,6 @@ class _One(NamedTuple):
     station_work: np.ndarray
 
 
-class _Visit(NamedTuple):
-    """The orbit [-] and the way that a roller is booked for, the time since it was booked last [s], and whether to look."""
-
-    orbit: int
-    way: Way
-    span: float
-    fine: bool
-
-
 class _Ring(NamedTuple):
     """Speed of a raceway's surface past the roller's centre [m/s]."""
 
@@ -118,25 +107,25 @@ def _way(details, stations, j, shaft_angle, time):
 
 
 @jit_called
-def _book_contact(one, interface, contact, place, visit):
+def _book_contact(one, interface, contact, place, passage):
     """A raceway contact at its load, ring speed and slip; compiled once for all contacts of the bearing."""
     load, ring_speed, slip = place
-    book_raceway(one, Passage(visit.orbit, _NO_ENERGIES, visit.way), interface, contact, load, _Ring(ring_speed), slip)
-    if visit.fine:
-        look(one, interface, contact, load, ring_speed, slip, visit.span)
+    book_raceway(one, passage, interface, contact, load, _Ring(ring_speed), slip)
+    if passage.fine:
+        look(one, interface, contact, load, ring_speed, slip, passage.span)
 
 
 @jit_merged
-def _book_roller(model, films, one, moment, j, visit):
+def _book_roller(model, films, one, moment, j, passage):
     stations, slips, force = moment.stations, moment.values.rollers[j], moment.force[j]
     inner = (stations.inner_load[j], stations.inner_speed[j], slips[0])
     outer = (stations.outer_load[j], stations.outer_speed[j], slips[1])
-    _book_contact(one, 0, model.inner, inner, visit)
-    _book_contact(one, 1, model.outer, outer, visit)
+    _book_contact(one, 0, model.inner, inner, passage)
+    _book_contact(one, 1, model.outer, outer, passage)
     load, surface = abs(force[PUSH]), -force[CAGE_SLIDING]
     # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
     oil = -surface * cage_film(films, load, surface).sliding
-    book_cage(one, visit.orbit, model.cage, load, surface, moment.powers[j, 2, 0] - oil)
+    book_cage(one, passage.orbit, model.cage, load, surface, moment.powers[j, 2, 0] - oil)
 
 
 @jit_called
@@ -152,13 +141,13 @@ def _book(bearing, moment, due, shaft_angle, time, orbit, details):
         span = time - details.place[j, 2] if details.looks[j] else 0.0
         way = _way(details, moment.stations, j, shaft_angle, time)
         # The first booking follows no time; the second is the first that can be looked at.
-        visit = _Visit(orbit, way, span, details.looks[j] % LOOK_EVERY == 1)
+        passage = Passage(orbit, way, span, details.looks[j] % FINE_LOOKS == 1)
         details.looks[j] += 1
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.
         if row == 0:
-            _book_roller(bearing.models.downwind, bearing.films, one, moment, j, visit)
+            _book_roller(bearing.models.downwind, bearing.films, one, moment, j, passage)
         else:
-            _book_roller(bearing.models.upwind, bearing.films, one, moment, j, visit)
+            _book_roller(bearing.models.upwind, bearing.films, one, moment, j, passage)
 
 
 @jit_merged

@@ -9,8 +9,8 @@ import numpy as np
 
 from macroslip.compiled import jit_called
 from macroslip.ring.orbit import instant
-from macroslip.roller.films import film_load
 from macroslip.roller.forces import interference
+from macroslip.roller.play import film_load
 
 
 class Stations(NamedTuple):

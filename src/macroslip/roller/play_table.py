@@ -1,0 +1,68 @@
+"""What films carry where a roller has play, as a table: the load q depends on play, body force and ring speed.
+
+Cubic splines of ln q, one for a body force that points outward and one for inward, over ln(p + p0), ln(|B| + B0) and
+ln |u2|. A cell in which they miss the law by more than they may is marked; there, as outside the table, it is solved for.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
+from macroslip.traction.spline_cell import channels_in_cell
+
+#: Splines of a table; two are used.
+CHANNELS = 4
+#: Play p0 [m] and force B0 [N] added before the logarithm is taken, since both may be zero.
+LEAST_PLAY, LEAST_FORCE = 1e-6, 1.0
+
+
+class PlayTable(NamedTuple):
+    """Splines over play, body force and ring speed.
+
+    Attributes
+    ----------
+    play, body, speed : Axis
+        Of ln(p + p0), ln(|B| + B0) and ln |u2|.
+    coefficients : ndarray, shape (plays + 2, forces + 2, speeds + 2, 4)
+    good : ndarray of bool, shape of the cells
+        Whether the splines stand in for the law in a cell.
+    """
+
+    play: Axis
+    body: Axis
+    speed: Axis
+    coefficients: np.ndarray
+    good: np.ndarray
+
+
+def no_play_table() -> PlayTable:
+    """A table that knows no state."""
+    return PlayTable(
+        NOWHERE,
+        NOWHERE,
+        NOWHERE,
+        read_only(np.empty((0, 0, 0, CHANNELS))),
+        read_only(np.empty((0, 0, 0), dtype=np.bool_)),
+    )
+
+
+@jit_inline
+def tabled_load(table, play, body, ring_speed):
+    """Load q [N] of the film that no body force presses on, from play p ≥ 0 [m], B [N] and u2 [m/s].
+
+    NaN where the table does not know the state.
+    """
+    if table.play.cells == 0 or ring_speed == 0.0:
+        return math.nan
+    i, t = cell_of(table.play, math.log(play + LEAST_PLAY))
+    k, s = cell_of(table.body, math.log(abs(body) + LEAST_FORCE))
+    j, u = cell_of(table.speed, math.log(abs(ring_speed)))
+    if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
+        return math.nan
+    value, _ = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
+    return math.exp(value[0] if body >= 0.0 else value[1])
