@@ -69,6 +69,7 @@ SPEEDS = {
     "stops for long": (_stop_and_go(16.2, 3.8, -0.2, 0.6), None),
     "stops in the window": (_stop_and_go(13.0, 0.5, -0.1, 1.4), None),
     "turns back": (_reversal(14.3, 4.1, 1.1), None),
+    "turns for a moment in a long rest": (lambda t: 1.5 * ((t < 3.0) | ((t > 11.0) & (t < 11.4))), None),
     "runs down in the window": (lambda t: np.clip(2.0 * (17.0 - t), 0.0, 2.0), 15.9),
 }
 

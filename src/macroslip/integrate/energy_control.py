@@ -7,6 +7,8 @@ same size, and the estimate, one number, may be small by accident.
 
 from __future__ import annotations
 
+import math
+
 from macroslip.compiled import jit_part
 from macroslip.integrate.crossing import cubic
 from macroslip.integrate.load_zone import EDGE, FIRM
@@ -39,9 +41,11 @@ def _kink_error(path, state, step, powers):
     fastest = max(
         abs(state.at.ring_speed), abs(step.at1.ring_speed), abs(step.at2.ring_speed), abs(step.at3.ring_speed)
     )
+    missed = abs(missed_way(path, state, step))
     if fastest == 0.0:
-        return 0.0
-    return KINK_WEIGHT * abs(missed_way(path, state, step)) / fastest * max(powers)
+        # At rest where it is looked at; the shaft may have turned in between.
+        return math.inf if missed > 0.0 else 0.0
+    return KINK_WEIGHT * missed / fastest * max(powers)
 
 
 @jit_part

@@ -51,7 +51,7 @@ KINK_WEIGHT = 7.5
 #: Part of the cage's load at one end of a step that is left at the other where power may have a cusp there; where in the
 #: step power is looked at, and the weight of what the cubic through the stages misses. For (1 - x)^0.6 to (1 - x)^0.9 times
 #: lines, the error is half to once that.
-FALLEN, CUSP_LOOK, CUSP_WEIGHT = 0.1, 0.4, 0.5
+FALLEN, CUSP_LOOK, CUSP_WEIGHT = 0.1, 0.4, 1.0
 #: Weight of the step over the relaxation time at its end by which an error of slip with microslip counts less. Judgement.
 FORGOTTEN = 1.0
 
