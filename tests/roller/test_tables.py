@@ -7,8 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from macroslip.contact import table_store
 from macroslip.mechanisms import Laws
-from macroslip.roller import play_build, raceway_build, table_store
+from macroslip.roller import play_build, raceway_build
 from macroslip.roller.contact_force import cage_force, friction_power, raceway_force
 from macroslip.roller.films import cage_film, raceway_film
 from macroslip.roller.forces import Station, slip_forces

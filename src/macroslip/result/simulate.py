@@ -45,9 +45,9 @@ from macroslip.whole_bearing.run import Times
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Length of a history [s] from which on tables are made. It asks nothing of the rollers chosen, so that a roller's result
-#: does not depend on the others.
-SHORTEST_TABULATED = 60.0
+#: Length of a history [s] from which on tables are made: making them takes as long as the laws of 56 rollers over 80 s. It
+#: asks nothing of the rollers chosen, so that a roller's result does not depend on the others.
+SHORTEST_TABULATED = 120.0
 #: Tolerance of the integrator from which on tables are precise enough: their jumps between cells, and between splines and
 #: laws, are below the force that may stay unbalanced.
 LEAST_TABULATED_TOLERANCE = 2e-5

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.contact.spline import Axis
+from macroslip.contact.table_store import stored, table_key
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.films import Films
 from macroslip.roller.forces import INNER, OUTER
@@ -18,7 +19,6 @@ from macroslip.roller.play_build import faded_load, highest_body_force, play_tab
 from macroslip.roller.raceway_build import raceway_errors, raceway_table, raceway_values
 from macroslip.roller.raceway_table import CHANNELS, RacewayTable, no_raceway_table
 from macroslip.roller.table_box import TableBox
-from macroslip.roller.table_store import stored, table_key
 from macroslip.traction.film_shear_law import FilmShear
 
 

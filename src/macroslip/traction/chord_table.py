@@ -18,6 +18,7 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.contact.spline import tensor_coefficients
+from macroslip.contact.table_store import stored, table_key
 from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity
 from macroslip.traction.rheology import LIMITING_SHEAR, NEWTONIAN
 from macroslip.traction.spline_cell import along_line, in_cell, weights_and_slopes
@@ -60,7 +61,7 @@ class ChordTable(NamedTuple):
 
 @lru_cache(maxsize=16)
 def chord_table(fluid: Fluid) -> ChordTable:
-    """The table of a fluid, computed in a good half second and kept.
+    """The table of a fluid, computed in about a second and kept, by this process and on disk.
 
     Notes
     -----
@@ -77,9 +78,9 @@ def chord_table(fluid: Fluid) -> ChordTable:
     highest = max(math.log(_FASTEST / slowest) + _SLIP_SPACING, _LOWEST_LOG_SLIP + 4.5 * _SLIP_SPACING)
     slips = np.arange(_LOWEST_LOG_SLIP, highest, _SLIP_SPACING)
     pressures = np.maximum(roots**4, _LOWEST_PRESSURE)
-    values = _fill(fluid, pressures, slips, films)
     viscosities = tensor_coefficients(np.array([log_viscosity(fluid, p)[0] for p in pressures]), 1)
-    values = tensor_coefficients(values, 3)
+    grid = pressures, slips, films
+    (values,) = stored(table_key("chord", fluid, *grid), lambda: [tensor_coefficients(_fill(fluid, *grid), 3)])
     return ChordTable(fluid, values, viscosities, float(roots[1]), _SLIP_SPACING, _FILM_SPACING, float(films[0]))
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from macroslip.roller import table_store as store
+from macroslip.contact import table_store as store
 
 
 @pytest.fixture
