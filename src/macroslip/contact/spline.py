@@ -1,6 +1,6 @@
 """Cubic splines on even grids: their axes, and coefficients through given values.
 
-A spline of n nodes along an axis has n + 2 coefficients there; `macroslip.traction.spline_cell` has the values in a cell.
+A spline of n nodes along an axis has n + 2 coefficients there; `macroslip.contact.spline_cell` has the values in a cell.
 
 References
 ----------
@@ -75,6 +75,21 @@ def cell_of(one, coordinate):
         return -1, 0.0
     cell = int(place)
     return cell, place - cell
+
+
+@jit_inline
+def nearest_cell(one, coordinate):
+    """Cell next to a coordinate, the place in it, from 0 to 1, and what of the coordinate lies outside the axis.
+
+    Examples
+    --------
+    >>> nearest_cell(Axis(1.0, 2.0, 4), 1.75), nearest_cell(Axis(1.0, 2.0, 4), 3.5)
+    ((1, 0.5, 0.0), (3, 1.0, 0.5))
+    """
+    place = (coordinate - one.first) * one.per_spacing
+    inside = min(max(place, 0.0), float(one.cells))
+    cell = min(int(inside), one.cells - 1)
+    return cell, inside - cell, (place - inside) / one.per_spacing
 
 
 def spline_coefficients(values: np.ndarray, dimension: int) -> np.ndarray:

@@ -7,17 +7,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
+from macroslip.compiled import depend_on, jit
 from macroslip.contact.interface import Interface
-from macroslip.contact.spline import Axis, axis, axis_middles, axis_nodes, tensor_coefficients
+from macroslip.contact.spline import Axis, axis, axis_middles, axis_nodes, nearest_cell, tensor_coefficients
 from macroslip.contact.spline_cell import channels_in_square
 from macroslip.errors import InputError
-from macroslip.film.film_law import register
+from macroslip.film.film_law import register, register_type
 
 #: Loads [N] and entrainment speeds [m/s] of a table, and the distance of its nodes in their logarithms.
 _LOADS, _SPEEDS, _SPACING = (1e-3, 1e7), (1e-6, 1e2), 0.12
@@ -44,21 +43,11 @@ class TabulatedFilm(NamedTuple):
     coefficients: np.ndarray
 
 
-@jit_inline
-def _place(one, coordinate):
-    """Cell, place in it, and what of the coordinate lies outside the axis."""
-    last = one.first + one.cells / one.per_spacing
-    inside = min(max(coordinate, one.first), last)
-    place = (inside - one.first) * one.per_spacing
-    cell = min(int(place), one.cells - 1)
-    return cell, place - cell, coordinate - inside
-
-
 @jit
 def tabulated_thickness(law, load, entrainment_speed):
     """Film thickness h [m] and its derivatives by entrainment speed [s] and by load [m/N], from the table."""
-    i, t, above = _place(law.load, math.log(load))
-    j, u, faster = _place(law.speed, math.log(entrainment_speed))
+    i, t, above = nearest_cell(law.load, math.log(load))
+    j, u, faster = nearest_cell(law.speed, math.log(entrainment_speed))
     value, by_load, by_speed = channels_in_square(law.coefficients, (i, j), (t, u))  # pyright: ignore[reportCallIssue]
     load_slope, speed_slope = by_load[0] * law.load.per_spacing, by_speed[0] * law.speed.per_spacing
     film = math.exp(value[0] + above * load_slope + faster * speed_slope)
@@ -68,6 +57,9 @@ def tabulated_thickness(law, load, entrainment_speed):
 @jit
 def _anywhere(law, load, entrainment_speed):
     return True
+
+
+register_type(TabulatedFilm, thickness=tabulated_thickness, in_range=_anywhere)
 
 
 def register_function(name: str, film_thickness: Callable, *, reference: str) -> None:
@@ -99,22 +91,26 @@ def register_function(name: str, film_thickness: Callable, *, reference: str) ->
     >>> register_function("square-root", lambda interface, load, speed: 1e-6 * np.sqrt(speed), reference="none")
     >>> film_law.remove("square-root")
     """
+
+    def prepare(interface: Interface) -> TabulatedFilm:
+        return tabulated_film(name, film_thickness, interface)
+
+    # A name belongs to the module that registers it.
+    prepare.__module__ = film_thickness.__module__
+    depend_on(film_thickness)
     register(
-        name,
-        TabulatedFilm,
-        reference=reference,
-        prepare=partial(tabulated_film, name, film_thickness),
-        thickness=tabulated_thickness,
-        in_range=_anywhere,
+        name, TabulatedFilm, reference=reference, prepare=prepare, thickness=tabulated_thickness, in_range=_anywhere
     )
 
 
 def tabulated_film(name: str, film_thickness: Callable, interface: Interface) -> TabulatedFilm:
     """Tabulate a function for an interface; the parameters and errors are those of `register_function`."""
-    load = axis(*np.log(_LOADS), _SPACING)
-    speed = axis(*np.log(_SPEEDS), _SPACING)
+    load = axis(*map(math.log, _LOADS), _SPACING)
+    speed = axis(*map(math.log, _SPEEDS), _SPACING)
     values = np.zeros((load.cells + 1, speed.cells + 1, _CHANNELS))
-    values[..., 0] = np.log(_asked(name, film_thickness, interface, np.exp(axis_nodes(load)), np.exp(axis_nodes(speed))))
+    values[..., 0] = np.log(
+        _asked(name, film_thickness, interface, np.exp(axis_nodes(load)), np.exp(axis_nodes(speed)))
+    )
     table = TabulatedFilm(load, speed, tensor_coefficients(values, 2))
     _check_smoothness(name, film_thickness, interface, table)
     return table

@@ -12,7 +12,7 @@ import numpy as np
 
 from macroslip.compiled import jit_inline
 from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
-from macroslip.traction.spline_cell import channels_in_square
+from macroslip.contact.spline_cell import channels_in_square
 
 #: Splines of a table.
 CHANNELS = 4

@@ -13,7 +13,7 @@ import numpy as np
 
 from macroslip.compiled import jit_inline
 from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
-from macroslip.traction.spline_cell import channels_in_cell
+from macroslip.contact.spline_cell import channels_in_cell
 
 #: Splines of a table; two are used.
 CHANNELS = 4

@@ -18,10 +18,10 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.contact.spline import tensor_coefficients
+from macroslip.contact.spline_cell import along_line, in_cell, weights_and_slopes
 from macroslip.contact.table_store import stored, table_key
 from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity
 from macroslip.traction.rheology import LIMITING_SHEAR, NEWTONIAN
-from macroslip.traction.spline_cell import along_line, in_cell, weights_and_slopes
 
 #: Largest pressure of the table [Pa]; higher ones are treated as this one.
 HIGHEST_PRESSURE = 4e9

@@ -8,7 +8,7 @@ from numba.core.errors import TypingError
 from scipy.interpolate import BSpline, NdBSpline
 
 from macroslip.compiled import jit
-from macroslip.traction.spline_cell import (
+from macroslip.contact.spline_cell import (
     along_line,
     channels_in_cell,
     channels_in_square,
