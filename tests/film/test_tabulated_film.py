@@ -64,7 +64,9 @@ def test_values_and_derivatives(law, inner, load, speed):
         step = 1e-4
         ends = [function(inner, *at(1.0 + sign * step)) for sign in (1.0, -1.0)]
         place = speed if derivative is by_speed else load
-        assert derivative == pytest.approx((ends[0] - ends[1]) / (2.0 * step * place), rel=1e-3, abs=1e-6 * film / place)
+        assert derivative == pytest.approx(
+            (ends[0] - ends[1]) / (2.0 * step * place), rel=1e-3, abs=1e-6 * film / place
+        )
 
 
 @pytest.mark.parametrize(
