@@ -3,7 +3,8 @@
     python -m benchmarks.random_cases --cases 10000 --seed 1 -o random_cases.csv
 
 A case is drawn from its number alone, so that any line of the table can be computed again: `--first NUMBER --cases 1`.
-Energies of rollers have to agree to 1e-3 and peak powers to 2 %, or the case has to say that it failed.
+Energies of rollers have to agree to 1e-3 and peak powers to 2 %, or the case has to say that it failed. Where the whole
+bearing moves, those of its rows.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ from macroslip.case.case import IMPOSED_ORBIT, WHOLE_BEARING, Radau
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, main_bearing_load
 from macroslip.mechanisms import Laws
-from macroslip.roller.model import truncation_load
+from macroslip.ring.motion import ring_motion
+from macroslip.roller.model import highest_load, ring_geometry, roller_model, truncation_load
 
 TIGHT = 1e-6
 #: Allowed relative errors of a roller's energy in the window, and of its peak power in each orbit.
@@ -85,6 +87,15 @@ def _history(random: np.random.Generator, kind: str, heavy: float, speed: float,
     return BearingLoads(t, turn, force, kind)
 
 
+def _borne(loads: BearingLoads, case: Case) -> BearingLoads:
+    """The loads, made smaller by the part needed for no contact to reach the rollers' ends: such a case is refused."""
+    allowed = highest_load(case.bearing, case.oil, case.laws)
+    ring = ring_geometry(case.bearing, roller_model(case.bearing, case.oil, 1, tilt=case.drivetrain.tilt))
+    while (largest := ring_motion(loads, case.bearing, ring, np.inf)[1]) > allowed:
+        loads = replace(loads, force=loads.force * 0.9 * allowed / largest)
+    return loads
+
+
 def _laws(random: np.random.Generator, physical: float) -> Laws:
     if random.random() < physical:
         return Laws.physical() if random.random() < 0.7 else Laws.physical().but(rheology="limiting-shear")
@@ -102,8 +113,6 @@ def random_case(number: int, seed: int = 1, physical: float = 0.1, whole: float 
     lubricant = Lubricant.read(random.choice(Lubricant.catalogue()))
     laws = _laws(random, physical)
     dynamics = WHOLE_BEARING if random.random() < whole else IMPOSED_ORBIT
-    if dynamics == WHOLE_BEARING:
-        laws = laws.but(rolling="none")
     kind = str(random.choice(HISTORIES))
     speed = float(random.choice([-1.0, 1.0], p=[0.1, 0.9]) * random.uniform(4.0, 22.0) * np.pi / 30)
     heavy = truncation_load(bearing, lubricant) * bearing.rollers_per_row * 0.4
@@ -116,7 +125,7 @@ def random_case(number: int, seed: int = 1, physical: float = 0.1, whole: float 
     else:
         loads = _history(random, kind, heavy, speed, period)
     rollers = sorted({int(n) for n in random.integers(0, bearing.rollers_per_row, 2)})
-    return kind, Case(
+    case = Case(
         loads=loads,
         bearing=bearing,
         lubricant=lubricant,
@@ -127,6 +136,7 @@ def random_case(number: int, seed: int = 1, physical: float = 0.1, whole: float 
         drag=bool(random.random() < 0.9),
         rollers="all" if dynamics == WHOLE_BEARING else rollers,
     )
+    return kind, replace(case, loads=_borne(loads, case))
 
 
 def _largest(error: np.ndarray, of: np.ndarray, small: float) -> tuple[float, float]:
@@ -136,6 +146,17 @@ def _largest(error: np.ndarray, of: np.ndarray, small: float) -> tuple[float, fl
     relative = np.abs(error) / np.maximum(np.abs(of), small)
     worst = np.unravel_index(np.nanargmax(relative), relative.shape)
     return float(relative[worst]), float(of[worst])
+
+
+def _judged(result: Any, dynamics: str) -> tuple[np.ndarray, np.ndarray]:
+    """Energies [J] and peak powers [W] that have to agree: of every roller, or of every row where rollers share a cage.
+
+    There gripped rollers push each other through the cage, and which of them touches it is chaotic.
+    """
+    energy, peak = result.energy.sum("interface"), result.peak_power.max("interface")
+    if dynamics == WHOLE_BEARING:
+        energy, peak = energy.sum("roller"), peak.max("roller")
+    return energy.values, peak.values
 
 
 def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -> Outcome:
@@ -160,8 +181,8 @@ def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -
     exact, tight_seconds = timed(tight)
     if bool((exact.status != 0).any()):
         return Outcome(*about, "no reference", *[nothing] * 4, seconds, tight_seconds)
-    energy, reference = (one.energy.sum("interface").values for one in (found, exact))
-    peak, peak_reference = (one.peak_power.max("interface").values for one in (found, exact))
+    energy, peak = _judged(found, case.dynamics)
+    reference, peak_reference = _judged(exact, case.dynamics)
     energy_error, at = _largest(energy - reference, reference, SMALL_ENERGY)
     peak_error, peak_at = _largest(peak - peak_reference, peak_reference, SMALL_POWER)
     wrong = [

@@ -26,10 +26,15 @@ def test_a_difference_is_seen():
 
 
 @pytest.mark.deep
-def test_a_slice():
-    outcomes = [compare(number, physical=0.0) for number in range(60)]
-    assert not [one for one in outcomes if one.verdict.startswith(("failed", "no reference"))]
-    off = [one for one in outcomes if one.verdict.startswith("off")]
-    # What is off has the shaft or the thrust going through zero, and is little.
-    assert len(off) <= 2 and all(one.history in ("stop and go", "shaft reversal", "thrust reversal") for one in off)
-    assert len(list(table(outcomes))) == 2 + len(HISTORIES) + len(off)
+@pytest.mark.parametrize(("physical", "count"), [(0.0, 300), (1.0, 10)])
+def test_a_slice(physical, count):
+    outcomes = [compare(number, physical=physical) for number in range(count)]
+    assert [one for one in outcomes if one.verdict != "agrees"] == []
+    assert len(list(table(outcomes))) == 2 + len(HISTORIES)
+
+
+@pytest.mark.deep
+def test_cases_in_which_the_whole_bearing_moves_end_well():
+    # Rows agree to 1e-3 in two of three; docs/integrator.md has the largest differences.
+    outcomes = [compare(number, physical=0.0, whole=1.0) for number in range(9940, 9946)]
+    assert all(one.verdict.startswith(("agrees", "off")) and one.energy_error < 5e-3 for one in outcomes)

@@ -28,6 +28,10 @@ FILMS = {
     "wrong by speed": "return 1e-6 * u ** 0.7, 1e-6 * u ** 0.7 / u, 0.0",
     "wrong by load": "return 1e-6 * u * load ** -0.1, 1e-6 * load ** -0.1, 0.1e-6 * u * load ** -1.1",
     "not compiled": "return {}[load], 0.0, 0.0",
+    "two numbers": "return 1e-6 * u, 1e-6",
+    "text": "return 'thick', 0.0, 0.0",
+    "nothing": "pass",
+    "endless": "while u > 0.0: load += 1.0\\n    return load, 0.0, 0.0",
     "kinked": "return 1e-6 * max(u, 0.1), (1e-6 if u >= 0.1 else 0.0), 0.0",
 }
 TRACTIONS = {
@@ -41,6 +45,13 @@ TRACTIONS = {
 
 class Film(NamedTuple):
     scale: float
+
+PREPARED = {
+    "prepare raises": lambda interface: interface.no_such_thing,
+    "prepare gives nothing": lambda interface: None,
+    "prepare gives a number": lambda interface: 1.0,
+    "prepare gives text": lambda interface: Film("thick"),
+}
 
 def function(name, arguments, text):
     space = {"math": math, "jit": jit}
@@ -66,11 +77,17 @@ if __name__ == "__main__":
         traction_law.register(name, kind, reference="", prepare=lambda interface, kind=kind: kind(1.0),
                               traction=function("traction", "law, load, h, slip", text),
                               rising_slip=function("rising", "law, load, h", rising))
+    for name, prepare in PREPARED.items():
+        kind = type("Film", (Film,), {})
+        film_law.register(name, kind, reference="", prepare=prepare, in_range=always,
+                          thickness=function("thickness", "law, load, u", "return 1e-6 * u, 1e-6, 0.0"))
+    from macroslip.result import own_laws
     from macroslip.result.own_laws import check_own_laws
     for path in sys.argv[1:]:
         load_laws(path)
     case = Case(loads=BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 0.1))
-    for kind, names in (("film", [*FILMS, "dowson-higginson"]), ("traction", [*TRACTIONS, "isothermal-barus"])):
+    films = [name for name in FILMS if name != "endless"]
+    for kind, names in (("film", [*films, *PREPARED, "dowson-higginson"]), ("traction", [*TRACTIONS, "isothermal-barus"])):
         for name in names:
             laws = Laws.paper().but(**{kind: name})
             try:
@@ -79,6 +96,8 @@ if __name__ == "__main__":
             except InputError as error:
                 said[name] = str(error)
     said["simulated"] = message(film="negative")
+    own_laws._LONGEST = 15.0
+    said["endless"] = message(film="endless")
     print(json.dumps(said))
 """
 
@@ -101,6 +120,14 @@ def said(tmp_path_factory):
         ("nan in part", "the film is nan m"),
         ("wrong by speed", "dh/du is"),
         ("wrong by load", "dh/dQ is"),
+        ("two numbers", "film law 'two numbers': it"),
+        ("text", "film law 'text': it"),
+        ("nothing", "film law 'nothing': it"),
+        ("endless", "film law 'endless' or traction law 'mechanisms': it has given nothing for 15 s"),
+        ("prepare raises", "film law 'prepare raises', inner: AttributeError in prepare"),
+        ("prepare gives nothing", "prepare gives NoneType None. Allowed: a NamedTuple of the law's numbers."),
+        ("prepare gives a number", "prepare gives float 1.0"),
+        ("prepare gives text", "film law 'prepare gives text'"),
         ("not compiled", "film law 'not compiled': it cannot be compiled (TypingError"),
         ("backwards", "Allowed: a finite force with the sign of the slip."),
         ("at rest", "traction is 1 N. Allowed: none without slip."),

@@ -62,7 +62,16 @@ def _of_results(results: Path, title: str | None, weibull: tuple[float, float] |
     if weibull:
         raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
     found = read_results(results)
-    page = results_page(found, title=title or _TITLE)
+    try:
+        page = results_page(found, title=title or _TITLE)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        # A file may have been changed in more ways than are worth a check each.
+        raise InputError(
+            f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})",
+            where=str(results),
+            allowed="what macroslip run wrote, or a selection of it",
+            remedy="Run the case again; if nothing has changed the file since it was written, please report this.",
+        ) from error
     failed = sum(int((one.status != 0).sum()) for one in found.values())
     rollers = sum(int(one.status.size) for one in found.values())
     return page, f"{failed} of {rollers} rollers" if failed else ""

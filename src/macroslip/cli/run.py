@@ -38,12 +38,13 @@ def run(
     checked = read_case(case)
     from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
+    from macroslip.result.stored import to_netcdf
 
     with progress_bar(quiet=quiet) as report:
         progress = report and (lambda done, total: report("rollers", done, total))
         dataset = with_rating(simulate(checked, threads=threads, progress=progress), checked)
     # In memory first: the HDF5 library may bring the whole process down when the disk is full.
-    content = dataset.to_netcdf(engine="h5netcdf")
+    content = to_netcdf(dataset)
     with new_file(output, force=force) as temporary:
         temporary.write_bytes(content)
     if as_json:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from macroslip.contact.interface import Interface
-from macroslip.errors import InputError
+from macroslip.errors import InputError, MacroslipError
 
 
 class LawList:
@@ -62,7 +62,7 @@ class LawList:
         Raises
         ------
         InputError
-            If there is no such law; the message lists those that exist.
+            If there is no such law, with those that exist; or if it cannot be prepared.
         """
         if name not in self._entries:
             raise InputError(
@@ -71,4 +71,15 @@ class LawList:
                 allowed=", ".join([*self._reserved, *self.names()]),
                 remedy="Choose one of these, or register your own first: macroslip.load_laws(path of its file)",
             )
-        return self._entries[name][0](interface)
+        law_of, remedy = f"{self.kind} law '{name}', {interface.name}", "Mend the law's function prepare."
+        try:
+            law = self._entries[name][0](interface)
+        except MacroslipError:
+            raise
+        except Exception as error:
+            reason = " ".join(str(error).split())[:200]
+            raise InputError(f"{type(error).__name__} in prepare ({reason})", where=law_of, remedy=remedy) from error
+        if not (isinstance(law, tuple) and hasattr(law, "_fields")):
+            what = f"prepare gives {type(law).__name__} {law!r:.80}"
+            raise InputError(what, where=law_of, allowed="a NamedTuple of the law's numbers", remedy=remedy)
+        return law

@@ -8,8 +8,8 @@ from macroslip.integrate.tuning import AT_END
 
 
 @jit
-def _cubic(x, g0, g1, g2, g3):
-    """Cubic through the values at 0, c1, c2 and 1."""
+def cubic(x, g0, g1, g2, g3):
+    """Value at x of the cubic through the values at 0, c1, c2 and 1."""
     a, b = NODES[0], NODES[1]
     return (
         g0 * (x - a) * (x - b) * (x - 1.0) / (-a * b)
@@ -50,7 +50,7 @@ def crossing(g0, g1, g2, g3):
         return 1.0
     for _ in range(40):
         middle = 0.5 * (low + high)
-        if _cubic(middle, g0, g1, g2, g3) * below > 0.0:
+        if cubic(middle, g0, g1, g2, g3) * below > 0.0:
             low = middle
         else:
             high = middle

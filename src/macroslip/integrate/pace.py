@@ -11,7 +11,7 @@ from macroslip.compiled import jit_part
 from macroslip.integrate.load_zone import EDGE, FIRM, edge_time
 from macroslip.integrate.path import State
 from macroslip.integrate.sealed import forces_of, has_microslip, powers_of
-from macroslip.integrate.tuning import EDGE_STEP, FIRST_STEP, SETTLED
+from macroslip.integrate.tuning import EDGE_STEP, FIRST_STEP, INERTIA_PART, SETTLED
 from macroslip.ring.orbit import interval_of
 from macroslip.roller.forces import net_force
 
@@ -81,10 +81,14 @@ def next_stretch(path, state, pace, stops, classes, record):
     sample_step = path.motion.time[interval + 1] - path.motion.time[interval]
     jumps = not has_microslip(path.model)
     last, step = interval, pace.step
-    # With microslip the power of a held roller has a kink at every sample.
-    if zone != EDGE and step > 2.0 * sample_step and (jumps or zone != FIRM):
+    # With microslip the power of a held roller has a kink at every sample; without, that of a cage it hardly leans on.
+    kinks = zone == FIRM and (not jumps or _follows_acceleration(state))
+    if zone != EDGE and step > 2.0 * sample_step and not kinks:
         while last < classes.size - 1 and classes[last + 1] == zone and path.motion.time[last + 1] < stops[next_stop]:
             last += 1
+        if zone == FIRM and last > interval and path.motion.time[last + 1] > stops[next_stop]:
+            # The last step before a stop crosses no sample, so that tractions at the stop are those of the instant.
+            last -= 1
     barrier = min(path.motion.time[last + 1], stops[next_stop])
     if jumps and state.at.interference > limits.firm and time == path.motion.time[interval]:
         state = _rebalanced(path, state, record)
@@ -93,6 +97,13 @@ def next_stretch(path, state, pace, stops, classes, record):
         if pace.zone != EDGE:
             step = min(step, EDGE_STEP)
     return state, Pace(step, barrier, zone, next_stop, sample_step, pace.failed)
+
+
+@jit_part
+def _follows_acceleration(state):
+    """Whether the cage's load is tractions rather than weight and drag: those jump with the shaft's acceleration."""
+    load = state.forces.cage_load
+    return abs(load - state.at.tangential) > INERTIA_PART * abs(load)
 
 
 @jit_part

@@ -9,6 +9,7 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_part
 from macroslip.integrate.booking import Peaks, book, step_powers, write_traces
+from macroslip.integrate.energy_control import energy_error_of
 from macroslip.integrate.first_guess import first_guess
 from macroslip.integrate.held_contact import held_exponent
 from macroslip.integrate.held_step import follows_loads, held_energy_error, held_step_from, solve_held
@@ -17,7 +18,6 @@ from macroslip.integrate.looks import follow, looked, no_looks, started
 from macroslip.integrate.pace import first_pace, next_stretch, paced, shortened
 from macroslip.integrate.path import State, state_at, step_from
 from macroslip.integrate.peak import start_peak
-from macroslip.integrate.radau_step import energy_error
 from macroslip.integrate.root import is_continuous
 from macroslip.integrate.sealed import has_microslip
 from macroslip.integrate.stages import solve_stages
@@ -106,6 +106,9 @@ def integrate_radau(path, slip, stops, classes, record):
     while True:
         next_trace = write_traces(record, path.model, next_trace, state.time, state.at, state.forces, state.slip)
         if state.time >= pace.barrier:
+            if state.time == record.edges[0]:
+                # What the window holds is known as well as if the history began with it.
+                spent = 0.0
             state, pace = next_stretch(path, state, pace, stops, classes, record)
             if pace.next_stop == stops.size:
                 break
@@ -197,7 +200,7 @@ def _halted(limits, record):
 
 @jit_part
 def _attempt(path, state, step, pace, memory, spent, record):
-    """Solve a step and find its error; `spent` is the energy of the steps before it [J]."""
+    """Solve a step and find its error; `spent` is the energy of the steps before it, of those in the window there [J]."""
     if step.held:
         stages = solve_held(path, state, step, memory.exponent, memory.bend)
     else:
@@ -209,20 +212,15 @@ def _attempt(path, state, step, pace, memory, spent, record):
     energy = found.inner_energy + found.outer_energy + found.cage_energy
     if not stages.converged or not is_continuous(path, state, step, stages):
         return Attempt(False, stages, found, energy, math.inf)
-    before = state.powers[0] + state.powers[1] + state.powers[2]
-    after = found.inner[2] + found.outer[2] + found.cage[2]
     if step.held:
+        before = state.powers[0] + state.powers[1] + state.powers[2]
+        after = found.inner[2] + found.outer[2] + found.cage[2]
         slip_off, energy_off = 0.0, held_energy_error(energy, step.length, before, after)
     else:
         slip_off = slip_error_of(path, state, step, stages, pace.zone, record)
-        energy_off = energy_error(
-            step.length,
-            before,
-            found.inner[0] + found.outer[0] + found.cage[0],
-            found.inner[1] + found.outer[1] + found.cage[1],
-            after,
-        )
-    mean_power = (spent + energy) / (step.times[2] - path.motion.time[0])
+        energy_off = energy_error_of(path, state, step, stages, found, pace.zone, record)
+    since = record.edges[0] if state.time >= record.edges[0] else path.motion.time[0]
+    mean_power = (spent + energy) / (step.times[2] - since)
     error = error_ratio(path.limits, slip_off, energy_off, energy, mean_power, step.length, pace.sample_step)
     return Attempt(True, stages, found, energy, error)
 

@@ -29,11 +29,13 @@ def first_cusp(state, free, step):
     """Part of a step at which traction first has a cusp because a light contact's load passes through zero; else 1.
 
     At the cage it is foreseen with the traction at the start, whose change is small against the roller's weight. A
-    `free` roller has another where it leans over from one raceway to the other.
+    `free` roller has another where it leans over from one raceway to the other. Where the shaft turns back all friction
+    has one.
     """
     at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
     held = state.forces.cage_load - at.tangential
     part = crossing(at.tangential + held, at1.tangential + held, at2.tangential + held, at3.tangential + held)
+    part = min(part, crossing(at.ring_speed, at1.ring_speed, at2.ring_speed, at3.ring_speed))
     if free:
         part = min(part, crossing(_lean(at), _lean(at1), _lean(at2), _lean(at3)))
     return part
@@ -94,7 +96,7 @@ def error_ratio(limits, slip_off, energy_off, energy, mean_power, h, sample_step
     energy : float
         Dissipated in the step [J].
     mean_power : float
-        Since the start [W].
+        Since the start of the history or, in the window, of that [W].
     h, sample_step : float
         Length of the step and of the loads' sample interval [s].
     """

@@ -28,6 +28,9 @@ AT_END = 0.02
 
 # --- Error ------------------------------------------------------------------------------------------------------------
 
+#: Part of the cage's load that tractions may make up for steps of a held roller to cross samples, at which they jump with
+#: the shaft's acceleration. Judgement: a roller with weight or drag is below it but for the moments in which these vanish.
+INERTIA_PART = 0.1
 #: Parts of the tolerance that a step may spend on slip and on energy. Slip is remembered along a coast and adds up;
 #: errors of energy are of either sign and their estimate is of low order, hence far too large. With these, errors on
 #: the bundled histories stay below half of the tolerance from 2e-4 on.
@@ -42,6 +45,13 @@ SHORT_PART = 0.05
 #: them slip in coasts and peaks converge with the tolerance on all bundled histories; without, not all do.
 DEFECT_NODES = (0.83, 0.4)
 DEFECT_WEIGHT = 0.25
+#: Weight of what a step's quadrature misses of the way as an error of energy. Friction grows with speed to a power of up to
+#: 1.5, and what is missed is the error itself and no bound far above it, as ENERGY_SHARE supposes: five times as much.
+KINK_WEIGHT = 7.5
+#: Part of the cage's load at one end of a step that is left at the other where power may have a cusp there; where in the
+#: step power is looked at, and the weight of what the cubic through the stages misses. For (1 - x)^0.6 to (1 - x)^0.9 times
+#: lines, the error is half to once that.
+FALLEN, CUSP_LOOK, CUSP_WEIGHT = 0.1, 0.4, 1.0
 #: Weight of the step over the relaxation time at its end by which an error of slip with microslip counts less. Judgement.
 FORGOTTEN = 1.0
 

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 
 from macroslip.errors import InputError
 from macroslip.hdf5_file import check_hdf5
+from macroslip.result.stored import REMEDY, check_result
 
 if TYPE_CHECKING:
     import xarray as xr
-
-_REMEDY = "Name files that macroslip run wrote, whole ones; run the case again if need be."
 
 
 def read_results(path: Path) -> dict[str, xr.Dataset]:
@@ -25,7 +24,7 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
     Raises
     ------
     InputError
-        If there is no such path, the folder holds no netCDF file, or a file cannot be read.
+        If there is no such path, the folder holds no netCDF file, or a file cannot be read or holds no result.
     """
     path = Path(path)
     if not path.exists():
@@ -35,7 +34,7 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
         raise InputError(
             "the folder holds no netCDF file", where=str(path), allowed="files that macroslip run wrote (*.nc)"
         )
-    check_hdf5(files, _REMEDY)
+    check_hdf5(files, REMEDY)
     return {file.stem: _read(file) for file in files}
 
 
@@ -44,10 +43,12 @@ def _read(file: Path) -> xr.Dataset:
 
     try:
         # Units of seconds are units, not times of day.
-        return xr.load_dataset(file, engine="h5netcdf", decode_times=False)
+        found = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
     except (OSError, ValueError, KeyError) as error:
         raise InputError(
             f"the file cannot be read as netCDF ({error})",
             where=str(file),
-            remedy=_REMEDY,
+            remedy=REMEDY,
         ) from None
+    check_result(found, str(file))
+    return found

@@ -43,6 +43,7 @@ from macroslip.reproduction.summary import (
     told_statements,
 )
 from macroslip.reproduction.uncertainty_summary import uncertainty_summary
+from macroslip.result.stored import to_netcdf
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -112,7 +113,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: StageRep
         _save(_figures(runs, experiments), folder, report)
         for name, run in runs.items():
             # In memory first: the HDF5 library may bring the whole process down when the disk is full.
-            (folder / f"{of_model('study', name)}.nc").write_bytes(run.study.to_netcdf(engine="h5netcdf"))
+            (folder / f"{of_model('study', name)}.nc").write_bytes(to_netcdf(run.study))
         failed = _failed(runs, experiments)
         total = sum(run.study.status.size for run in runs.values())
         headline = [

@@ -5,6 +5,8 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+import threading
+import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +33,10 @@ _STEP = 1e-4
 _CAGE_SHARE = 0.01
 #: Thinnest and thickest film [m] that a traction law is tried with.
 _THINNEST, _THICKEST = 1e-9, 1e-3
+#: Time [s] that a law may take for one state, with compiling.
+_LONGEST = 120.0
+#: Begin of the last call of a law [s].
+_begun = [0.0]
 
 
 def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float) -> None:
@@ -54,7 +60,29 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
     """
     if speed > 0.0:
         # The grid needs the order of the speed only, so that the cases of a study share what was found.
-        _check(laws, bearing, lubricant, 2.0 ** math.ceil(math.log2(speed)))
+        _in_time(lambda: _check(laws, bearing, lubricant, 2.0 ** math.ceil(math.log2(speed))), laws)
+
+
+def _in_time(check: Callable[[], None], laws: Laws) -> None:
+    """Run a check in a thread that is left alone if a law comes to no end: compiled code hears no interrupt."""
+    problems: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            check()
+        except BaseException as problem:
+            problems.append(problem)
+
+    _begun[0] = time.monotonic()
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    while thread.is_alive():
+        thread.join(0.5)
+        if thread.is_alive() and time.monotonic() - _begun[0] > _LONGEST:
+            what = f"it has given nothing for {_LONGEST:g} s"
+            raise _wrong(what, f"film law '{laws.film}' or traction law '{laws.traction}'", "a function that ends")
+    if problems:
+        raise problems[0]
 
 
 @functools.lru_cache(maxsize=64)
@@ -82,20 +110,21 @@ def _is_own(law: Any) -> bool:
 
 def _check_film(name: str, law: Any, interface: Interface, load: float, entrainment: float) -> None:
     def height(*state: float) -> tuple[float, ...]:
-        return _called(law_of, film_law.film_thickness, law, *state)
+        return _called(law_of, 3, film_law.film_thickness, law, *state)
 
     law_of = f"film law '{name}'"
     where = f"{law_of}, {interface.name}, load {load:.4g} N, entrainment speed {entrainment:.4g} m/s"
     thickness, by_speed, by_load = height(load, entrainment)
     if not (math.isfinite(thickness) and thickness > 0.0):
         raise _wrong(f"the film is {thickness:.4g} m", where, "a finite thickness above zero")
+    _called(law_of, 1, film_law.film_in_range, law, load, entrainment)
     for position, derivative, symbol in ((0, by_load, "dh/dQ"), (1, by_speed, "dh/du")):
         _check_derivative(lambda *state: height(*state)[0], (load, entrainment), position, derivative, symbol, where)
 
 
 def _check_traction(name: str, law: Any, interface: Interface, load: float, height: float, speed: float) -> None:
     def force(*state: float) -> tuple[float, ...]:
-        return _called(law_of, traction_law.patch_traction, law, *state)
+        return _called(law_of, 4, traction_law.patch_traction, law, *state)
 
     law_of = f"traction law '{name}'"
     for slip in _slips(speed):
@@ -110,7 +139,7 @@ def _check_traction(name: str, law: Any, interface: Interface, load: float, heig
         state = load, height, slip
         for position, derivative, symbol in ((0, by_load, "dF/dQ"), (1, by_film, "dF/dh"), (2, by_slip, "dF/dslip")):
             _check_derivative(lambda *state: force(*state)[0], state, position, derivative, symbol, where)
-    rising = _called(law_of, traction_law.rising_slip, law, load, height)
+    (rising,) = _called(law_of, 1, traction_law.rising_slip, law, load, height)
     if not rising >= 0.0:
         where = f"{law_of}, {interface.name}, load {load:.4g} N, film {height:.4g} m"
         raise _wrong(f"rising_slip is {rising:.4g} m/s", where, "a slip of 0 or more")
@@ -143,10 +172,11 @@ def _check_derivative(
         )
 
 
-def _called(law_of: str, function: Callable[..., Any], *arguments: Any) -> Any:
-    """What the law gives, with what goes wrong in it put down to the law."""
+def _called(law_of: str, count: int, function: Callable[..., Any], *arguments: Any) -> tuple[float, ...]:
+    """The `count` numbers that the law gives, with what goes wrong in it put down to the law."""
+    _begun[0] = time.monotonic()
     try:
-        return function(*arguments)
+        found = function(*arguments)
     except NumbaError as error:
         reason = next((line.strip() for line in str(error).splitlines() if line.strip()), "")
         raise _wrong(
@@ -154,6 +184,10 @@ def _called(law_of: str, function: Callable[..., Any], *arguments: Any) -> Any:
         ) from None
     except Exception as error:
         raise _wrong(f"{type(error).__name__} in it ({error})", law_of, "a function that raises nothing") from None
+    numbers = found if isinstance(found, tuple) else (found,)
+    if len(numbers) != count or not all(isinstance(one, (int, float)) for one in numbers):
+        raise _wrong(f"it gives {found!r:.80}", law_of, f"{count} number{'s' if count > 1 else ''}")
+    return numbers
 
 
 def _wrong(what: str, where: str, allowed: str) -> InputError:

@@ -1,0 +1,124 @@
+"""Results as netCDF files: written with a checksum for every block of numbers, and looked through when they are read.
+
+HDF5's Fletcher checksum is verified by every reader of the format: a flipped bit in a number is an error and no number.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.bearing.frames import ROWS
+from macroslip.errors import InputError
+from macroslip.integrate.status import Status
+from macroslip.result.dataset import INTERFACES, VARIABLES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+REMEDY = "Name files that macroslip run wrote, whole ones; run the case again if need be."
+_TRACES = [name for name, (dims, _, _) in VARIABLES.items() if "time" in dims and "raceway" not in dims]
+#: Largest block [bytes] with one checksum; larger variables are divided by the library.
+_LARGEST_BLOCK = 2**26
+
+
+def to_netcdf(result: xr.Dataset) -> bytes:
+    """The content of a netCDF file with a result, with checksums.
+
+    Numbers without dimension and text have none; the format knows of none for them.
+    """
+    encoding: dict[str, dict[str, Any]] = {}
+    for name, variable in result.variables.items():
+        if variable.ndim and variable.size and variable.dtype.kind in "fiu":
+            whole = {"chunksizes": variable.shape} if variable.nbytes <= _LARGEST_BLOCK else {}
+            encoding[str(name)] = {"fletcher32": True, **whole}
+    return bytes(result.to_netcdf(engine="h5netcdf", encoding=encoding))
+
+
+def check_result(result: xr.Dataset, where: str) -> None:
+    """Refuse a dataset that is no result, or not whole, or holds what none can hold.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        As read from a file: of a run, or of a study, which has everything over `case` too.
+    where : str
+        The file.
+
+    Raises
+    ------
+    InputError
+        Naming the variable or attribute.
+    """
+    problem = next(filter(None, (look(result) for look in (_names, _kinds, _labels, _values, _input))), None)
+    if problem:
+        allowed = "what macroslip run wrote, or a selection of it"
+        raise InputError(problem, where=where, allowed=allowed, remedy=REMEDY)
+
+
+def _names(result: xr.Dataset) -> str:
+    """What is missing."""
+    missing = [name for name in ("energy", "status") if name not in result.data_vars]
+    missing += [name for name in ("row", "roller", "interface") if name not in result.dims]
+    if "time" in result.dims:
+        missing += [name for name in ("time", "start_angle", *_TRACES) if name not in result.variables]
+        missing += [name for name in ("window_start", "window_end") if name not in result.attrs]
+    return f"the dataset has no {', no '.join(missing)}" if missing else ""
+
+
+def _kinds(result: xr.Dataset) -> str:
+    """What is no number, or over other dimensions than it should be."""
+    for name, (expected, _, _) in VARIABLES.items():
+        if name not in result:
+            continue
+        found = tuple(dim for dim in result[name].dims if dim != "case")
+        # A selection of one row, say, has lost that dimension everywhere.
+        if found != tuple(dim for dim in expected if dim in result.dims):
+            return f"{name} is over ({', '.join(map(str, found))}), not ({', '.join(expected)})"
+        if result[name].dtype.kind not in "fiu":
+            return f"{name} holds no numbers"
+    for name in ("window_start", "window_end"):
+        if name in result.attrs and not (np.ndim(result.attrs[name]) == 0 and _is_finite(result.attrs[name])):
+            return f"the attribute {name} is no time"
+    return ""
+
+
+def _is_finite(value: Any) -> bool:
+    return isinstance(value, (int, float, np.number)) and bool(np.isfinite(value))
+
+
+def _labels(result: xr.Dataset) -> str:
+    """Coordinates with other labels than they can have."""
+    for name, known in (("row", ROWS), ("interface", INTERFACES)):
+        found = result[name].values.tolist()
+        if not found or len(set(found)) != len(found) or not set(found) <= set(known):
+            return f"{name} is {', '.join(map(str, found))[:80] or 'empty'}, not of {', '.join(known)}"
+    for name in ("roller", "time"):
+        if name in result.dims:
+            values = result[name].values
+            rising = values.dtype.kind in "fiu" and values.size > (name == "time") and bool((np.diff(values) > 0).all())
+            if not (rising and np.isfinite(values).all()):
+                return f"the coordinate {name} does not rise from value to value"
+    return ""
+
+
+def _values(result: xr.Dataset) -> str:
+    """Outcomes that do not exist, and energies that no roller has."""
+    status = result.status.values
+    if not np.isin(status, [int(one) for one in Status]).all():
+        return "status holds numbers without a meaning"
+    energy = result.energy.where(result.status == Status.COMPLETED, 0.0).values
+    if not (np.isfinite(energy) & (energy >= 0.0)).all():
+        return "energy is negative or not finite for a roller that was completed"
+    return ""
+
+
+def _input(result: xr.Dataset) -> str:
+    """An input that cannot be read."""
+    try:
+        good = isinstance(json.loads(result.attrs.get("input", "{}")), dict)
+    except (TypeError, ValueError, RecursionError):
+        good = False
+    return "" if good else "the attribute input holds no case"
