@@ -51,6 +51,17 @@ def axis(first: float, last: float, spacing: float) -> Axis:
     return Axis(float(first), cells / (last - first), cells)
 
 
+def log_axis(bounds: tuple[float, float], spacing: float) -> Axis:
+    """Nodes of a logarithm between two values of its argument.
+
+    Examples
+    --------
+    >>> log_axis((1.0, math.e), 0.1).cells
+    10
+    """
+    return axis(math.log(bounds[0]), math.log(bounds[1]), spacing)
+
+
 def axis_nodes(one: Axis) -> np.ndarray:
     """Coordinates of an axis' nodes."""
     return one.first + np.arange(one.cells + 1) / one.per_spacing

@@ -13,9 +13,10 @@ import numpy as np
 
 from macroslip.compiled import depend_on, jit
 from macroslip.contact.interface import Interface
-from macroslip.contact.spline import Axis, axis, axis_middles, axis_nodes, nearest_cell, tensor_coefficients
+from macroslip.contact.spline import Axis, axis_middles, axis_nodes, log_axis, nearest_cell, tensor_coefficients
 from macroslip.contact.spline_cell import channels_in_square
 from macroslip.errors import InputError
+from macroslip.film.film_law import film_thickness as film_thickness_of
 from macroslip.film.film_law import register, register_type
 
 #: Loads [N] and entrainment speeds [m/s] of a table, and the distance of its nodes in their logarithms.
@@ -105,8 +106,8 @@ def register_function(name: str, film_thickness: Callable, *, reference: str) ->
 
 def tabulated_film(name: str, film_thickness: Callable, interface: Interface) -> TabulatedFilm:
     """Tabulate a function for an interface; the parameters and errors are those of `register_function`."""
-    load = axis(*map(math.log, _LOADS), _SPACING)
-    speed = axis(*map(math.log, _SPEEDS), _SPACING)
+    load = log_axis(_LOADS, _SPACING)
+    speed = log_axis(_SPEEDS, _SPACING)
     values = np.zeros((load.cells + 1, speed.cells + 1, _CHANNELS))
     values[..., 0] = np.log(
         _asked(name, film_thickness, interface, np.exp(axis_nodes(load)), np.exp(axis_nodes(speed)))
@@ -149,7 +150,7 @@ def _check_smoothness(name: str, film_thickness: Callable, interface: Interface,
     loads = loads[(loads > _USUAL_LOADS[0]) & (loads < _USUAL_LOADS[1])]
     speeds = speeds[(speeds > _USUAL_SPEEDS[0]) & (speeds < _USUAL_SPEEDS[1])]
     expected = _asked(name, film_thickness, interface, loads, speeds)
-    found = np.array([[tabulated_thickness(table, load, speed)[0] for speed in speeds] for load in loads])
+    found = np.array([[film_thickness_of(table, load, speed)[0] for speed in speeds] for load in loads])
     off = np.abs(found / expected - 1.0)
     worst = np.unravel_index(np.argmax(off), off.shape)
     if off[worst] > _LARGEST_ERROR:

@@ -15,10 +15,10 @@ from scipy.ndimage import minimum_filter
 
 from macroslip.compiled import depend_on, jit
 from macroslip.contact.interface import Interface
-from macroslip.contact.spline import Axis, axis, axis_nodes, nearest_cell, tensor_coefficients
+from macroslip.contact.spline import Axis, axis_nodes, log_axis, nearest_cell, tensor_coefficients
 from macroslip.contact.spline_cell import channels_in_cell
 from macroslip.errors import InputError
-from macroslip.traction.traction_law import register, register_type
+from macroslip.traction.traction_law import patch_traction, register, register_type
 
 #: Loads [N], films [m] and slips [m/s] of a table, and the distance of its nodes in their logarithms.
 _LOADS, _FILMS, _SLIPS, _SPACING = (1e-3, 1e6), (1e-9, 1e-3), (1e-10, 1e2), 0.3
@@ -119,7 +119,7 @@ def register_function(name: str, traction: Callable, *, reference: str) -> None:
 
 def tabulated(name: str, traction: Callable, interface: Interface) -> TabulatedTraction:
     """Tabulate a function for an interface; the parameters and errors are those of `register_function`."""
-    axes = [axis(*map(math.log, bounds), _SPACING) for bounds in (_LOADS, _FILMS, _SLIPS)]
+    axes = [log_axis(bounds, _SPACING) for bounds in (_LOADS, _FILMS, _SLIPS)]
     grid = np.meshgrid(*(np.exp(axis_nodes(one)) for one in axes), indexing="ij")
     force = _asked(name, traction, interface, grid)
     values = np.zeros((*force.shape, _CHANNELS))
@@ -129,7 +129,7 @@ def tabulated(name: str, traction: Callable, interface: Interface) -> TabulatedT
     slips = np.append(grid[2][0, 0, :-1], np.inf)
     # The node before the one from which on it falls is sure to lie where it rises.
     rising = minimum_filter(np.where(np.isinf(slips[first]), np.inf, slips[np.maximum(first - 1, 0)]), size=3)
-    table = TabulatedTraction(*axes, tensor_coefficients(values, 3), rising)
+    table = TabulatedTraction(axes[0], axes[1], axes[2], tensor_coefficients(values, 3), rising)
     _check_smoothness(name, traction, interface, table)
     return table
 
@@ -162,9 +162,9 @@ def _asked(name: str, traction: Callable, interface: Interface, states: list[np.
 def _check_smoothness(name: str, traction: Callable, interface: Interface, table: TabulatedTraction) -> None:
     """Refuse a function that the table misses at random states."""
     random = np.random.default_rng(1)
-    states = [np.exp(random.uniform(*np.log(bounds), _STATES)) for bounds in _USUAL]
+    states = [np.exp(random.uniform(math.log(low), math.log(high), _STATES)) for low, high in _USUAL]
     expected = _asked(name, traction, interface, states)
-    found = np.array([tabulated_traction(table, *map(float, state))[0] for state in zip(*states, strict=True)])
+    found = np.array([patch_traction(table, *map(float, state))[0] for state in zip(*states, strict=True)])
     off = np.abs(found / expected - 1.0)
     worst = int(np.argmax(off))
     if off[worst] > _LARGEST_ERROR:
