@@ -56,7 +56,7 @@ def test_weights_belong_to_studies(ran, macroslip):
         ("nothing", "nothing: there is no such file or folder"),
         ("empty", "empty: the folder holds no netCDF file"),
         ("broken.nc", "broken.nc: the file cannot be read as netCDF"),
-        ("other.nc", "other: the dataset has no energy"),
+        ("other.nc", "other.nc: the dataset has no energy"),
     ],
 )
 def test_what_is_no_result_gives_one_paragraph(folder, macroslip, place, message):

@@ -124,14 +124,14 @@ def collect(record, interface, energy):
 
 
 @jit_part
-def _spread(record, interface, way):
-    """Spread what was kept over the stations, and over the places of the raceway that were passed.
+def _spread(record, interface, way, part):
+    """Spread a part of what was kept over the stations, and over the places of the raceway that were passed.
 
     Along the roller it is in proportion to the powers of `station_work`; along the way it is even. Without any power yet
     it is kept further.
     """
     powers = record.station_work[interface]
-    energy, total = powers[STATIONS], 0.0
+    energy, total = part * powers[STATIONS], 0.0
     for k in range(STATIONS):
         total += abs(powers[k])
     if total <= 0.0:
@@ -139,20 +139,22 @@ def _spread(record, interface, way):
     for k in range(STATIONS):
         record.station_energy[interface, k] += energy * abs(powers[k]) / total
     spread(record.surface_energy, interface, way, powers, energy)
-    powers[STATIONS] = 0.0
+    powers[STATIONS] -= energy
 
 
 @jit_part
 def book_raceway(record, passage, interface, contact, load, at, slip):
-    """Spread the energy kept so far as power lies along the roller now, and raise the extremes.
+    """Spread the energy kept so far as power lies along the roller, and raise the extremes.
 
-    Without load it is spread as power lay when there last was some; before that it is kept.
+    Half of it as power lay at the last look and half as it lies now. Without load all of it as power lay when there last
+    was some; before that it is kept.
     """
     ring_speed, way = at.ring_speed, passage.way
     powers = record.station_work[interface]
     if load <= 0.0:
-        _spread(record, interface, way)
+        _spread(record, interface, way, 1.0)
         return
+    _spread(record, interface, way, 0.5)
     entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
     film, _, _ = film_thickness(contact.film, load, entrainment)
     share = asperity_share(contact.asperity_load, load, entrainment, film)
@@ -187,7 +189,7 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
         raise_density(record.surface_density, interface, way, k, mean)
         fastest = max(fastest, speed)
     powers[STATIONS + 1] = 1.0 if film >= contact.roughness else 0.0
-    _spread(record, interface, way)
+    _spread(record, interface, way, 1.0)
     _raise(record, passage.orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 
