@@ -10,7 +10,7 @@ PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --dist loadfile --no-
 reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/
 	$(BIN)/macroslip reproduce -o results
 
-test: lint  ## everything that has to hold, about twenty minutes on two processors
+test: lint  ## everything that has to hold, about fourteen minutes on two processors
 	$(PYTEST) $(ARGS)
 
 test-fast: $(VENV)/.ready  ## the loop of development, two minutes
