@@ -25,7 +25,13 @@ settings.load_profile("fixed")
 #: Tests of these files stay with one worker: they compile the same kernels of the whole bearing, of a minute each.
 TOGETHER = re.compile(r"tests/(whole_bearing/|torque/test_rings\.py)")
 #: What takes longest, or compiles what others need.
-FIRST = ("tests/whole_bearing/", "tests/docs/test_pages.py", "tests/torque/test_rings.py", "tests/reproduction/", "tests/docs/")
+FIRST = (
+    "tests/whole_bearing/",
+    "tests/docs/test_pages.py",
+    "tests/torque/test_rings.py",
+    "tests/reproduction/",
+    "tests/docs/",
+)
 
 
 class Scheduling(LoadScopeScheduling):
@@ -35,6 +41,7 @@ class Scheduling(LoadScopeScheduling):
         return TOGETHER.pattern if TOGETHER.match(nodeid) else nodeid.split("::", 1)[0]
 
 
+@pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
     return Scheduling(config, log)
 
