@@ -23,7 +23,7 @@ settings.load_profile("fixed")
 
 
 #: Tests of these files stay with one worker: they compile the same kernels of the whole bearing, of a minute each.
-TOGETHER = re.compile(r"tests/(whole_bearing/|torque/test_rings\.py)")
+TOGETHER = re.compile(r"tests/(whole_bearing/|torque/test_rings\.py|report/test_whole_section\.py)")
 #: What takes longest, or compiles what others need.
 FIRST = (
     "tests/whole_bearing/",

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 #: Registers wrong laws, and prints what a case with each of them says. Laws stay registered as long as a process lives.
