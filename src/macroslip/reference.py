@@ -101,7 +101,7 @@ def _make_readable(name: str) -> None:
 
         return _field_type(reference, name)(reference), generate
 
-    read = intrinsic(field)
+    read: Any = intrinsic(field)
 
     @overload_attribute(Reference, name)
     def _reading(reference):
