@@ -52,14 +52,15 @@ def folder(tmp_path_factory):
         f"loads: {{bearing_file: {folder / 'home' / 'loads.csv'}}}\nrollers: [0]\ntraces: {{step: 50 ms}}\n"
     )
     study = folder / "home" / "study.yaml"
-    study.write_text('case: {rollers: [0]}\nloads: {files: "*.csv", kind: main-bearing}\n')
-    (folder / "home" / "broken.csv").write_text(LOADS[:200] + "\n1,2,3,4\n")
+    study.write_text('case: {rollers: [0]}\nloads: {files: "{what}_{wind_speed:g}.csv", kind: main-bearing}\n')
+    (folder / "home" / "loads_12.csv").write_text(LOADS)
+    (folder / "home" / "broken_14.csv").write_text(LOADS[:200] + "\n1,2,3,4\n")
     commands = {
         ("run", case, "-o", folder / "case.nc"): "0",
         ("report", folder / "case.nc", "-o", folder / "case.html"): "0",
         ("study", study, "-o", folder / "out", "--quiet"): "3",
         ("report", folder / "out", "-o", folder / "study.html"): "3",
-        ("aggregate", folder / "out", "-o", folder / "tables", "--field", "loads"): "0",
+        ("aggregate", folder / "out", "-o", folder / "tables", "--field", "wind_speed"): "0",
     }
     done = ran(folder, json.dumps([[str(word) for word in one] for one in commands]))
     assert "the network was asked for" not in done.stderr
@@ -73,7 +74,8 @@ def test_the_network_is_never_asked_for(folder):
 
 
 def test_nothing_that_is_written_says_where_its_user_keeps_files(folder):
-    written = [folder / "case.nc", folder / "case.html", folder / "study.html", *(folder / "out").rglob("*")]
+    written = [folder / "case.nc", folder / "case.html", folder / "study.html"]
+    written += [path for name in ("out", "tables") for path in (folder / name).rglob("*")]
     files = [path for path in written if path.is_file()]
     assert len(files) > 7
     for path in files:
