@@ -2,8 +2,8 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-# A file of tests stays with one worker, so that what its tests share is computed once; files with slow tests begin.
-PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --dist loadfile --no-loadscope-reorder
+# tests/conftest.py says which tests stay with one worker, and which begin.
+PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --no-loadscope-reorder
 
 .PHONY: reproduce test test-fast test-lowest test-deep lint docs bench clean
 

@@ -4,9 +4,11 @@
 """
 
 import math
+import re
 
 import pytest
 from hypothesis import HealthCheck, settings
+from xdist.scheduler import LoadScopeScheduling
 
 from macroslip import compiled, plugins
 from macroslip.bearing import Bearing
@@ -20,10 +22,39 @@ settings.register_profile("deep", deadline=None, suppress_health_check=[HealthCh
 settings.load_profile("fixed")
 
 
+#: Tests of these files stay with one worker: they compile the same kernels of the whole bearing, of a minute each.
+TOGETHER = re.compile(r"tests/(whole_bearing/|torque/test_rings\.py|report/test_whole_section\.py)")
+#: What takes longest, or compiles what others need.
+FIRST = (
+    "tests/whole_bearing/",
+    "tests/docs/test_pages.py",
+    "tests/torque/test_rings.py",
+    "tests/reproduction/",
+    "tests/docs/",
+)
+
+
+class Scheduling(LoadScopeScheduling):
+    """A file of tests stays with one worker, so that what its tests share is computed once."""
+
+    def _split_scope(self, nodeid):
+        return TOGETHER.pattern if TOGETHER.match(nodeid) else nodeid.split("::", 1)[0]
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    return Scheduling(config, log)
+
+
 def pytest_collection_modifyitems(items):
     """Files with slow tests first, so that no worker begins with one when the others have nothing left to do."""
     slow = {item.path for item in items if item.get_closest_marker("slow")}
-    items.sort(key=lambda item: item.path not in slow)
+
+    def rank(item):
+        place = next((k for k, name in enumerate(FIRST) if item.nodeid.startswith(name)), len(FIRST))
+        return item.path not in slow, place
+
+    items.sort(key=rank)
 
 
 @pytest.fixture(scope="module", autouse=True)

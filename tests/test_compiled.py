@@ -229,6 +229,28 @@ def test_a_law_that_comes_late_moves_kernels_to_a_folder_of_its_own(small):
     assert ask(small, NUMBA_CACHE_DIR=str(small / "kernels"))[1:] == (1, plain)
 
 
+def test_a_kernel_without_laws_stays_where_it_is_when_one_comes(small):
+    kernel = KERNEL.replace("import jit\n", "import jit_lawless as jit\n")
+    (small / "src/macroslip/traction/kernel.py").write_text(kernel, encoding="utf-8")
+    plain = ask(small, NUMBA_CACHE_DIR=str(small / "kernels"))
+    assert plain[:2] == (4.0, 0)
+    before = "from macroslip.traction.kernel"  # the law comes before the kernel is made, or after it
+    for place in (before, "print"):
+        program = ASK.replace(place, LATE_LAW + place)
+        assert ask(small, program, NUMBA_CACHE_DIR=str(small / "kernels")) == (4.0, 1, plain[2])
+
+
+def test_the_integrators_and_the_ring_balance_are_stored_once_for_all_laws():
+    """They are most of what a case under the paper's laws compiles, and know laws by address or not at all."""
+    from macroslip import compiled
+    from macroslip.integrate.fixed_step import integrate_fixed_step
+    from macroslip.integrate.radau import integrate_radau
+    from macroslip.ring.balance import balance_series
+
+    for kernel in (integrate_radau, integrate_fixed_step, balance_series):
+        assert kernel not in compiled._stored and kernel.stats.cache_path
+
+
 def test_elementwise_broadcasts_and_keeps_scalars():
     from macroslip.compiled import elementwise
 

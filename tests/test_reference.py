@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import sys
 from typing import NamedTuple
 
@@ -130,3 +132,26 @@ def test_what_is_not_of_the_expected_type_is_refused():
             lambda data, given, result: write(result, given.x),
             *(Reference(kind) for kind in (_FOUND, _GIVEN, _FOUND)),
         )
+
+
+#: Runs these tests where numba keeps to itself what `infer_getattr` asks for.
+WITHOUT_TEMPLATE = """
+import sys
+import numba.core.typing.templates as templates
+hidden = templates.AttributeTemplate
+del templates.AttributeTemplate
+import macroslip.reference
+assert macroslip.reference.AttributeTemplate is None
+templates.AttributeTemplate = hidden
+import pytest
+sys.exit(pytest.main([sys.argv[1], "-q", "-k", "not interface", "-p", "no:cacheprovider"]))
+"""
+
+
+@pytest.mark.slow
+def test_the_public_interface_alone_will_do(tmp_path):
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT_TEMPLATE, __file__], env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout

@@ -56,9 +56,9 @@ def own_laws() -> list[str]:
 
 
 @contextlib.contextmanager
-def _storing() -> Iterator[Path | None]:
+def _storing(own_laws: list[str] = _own_laws) -> Iterator[Path | None]:
     """Let numba store what is decorated in the block in the folder for these sources and laws, if there is one."""
-    laws = hashlib.sha256("\0".join(sorted(_own_laws)).encode()).hexdigest()[:12] if _own_laws else ""
+    laws = hashlib.sha256("\0".join(sorted(own_laws)).encode()).hexdigest()[:12] if own_laws else ""
     folder, before = kernel_folder(laws), numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(folder or before)
     try:
@@ -74,20 +74,36 @@ _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wra
 
 def _cached(function: Callable, **options: Any) -> Callable:
     with _storing() as folder:
-        if folder is not None:
-            # Numba refuses to store a function that has no file, and one whose folder in ours cannot be written.
-            with contextlib.suppress(RuntimeError):
-                dispatcher = numba.njit(cache=True, **_OPTIONS, **options)(function)
-                stored = getattr(dispatcher, "stats", None)
-                if stored and Path(stored.cache_path).is_relative_to(folder):
-                    _stored.append(dispatcher)
-                    return dispatcher
-    return numba.njit(**_OPTIONS, **options)(function)
+        dispatcher, stored = _in_folder(folder, function, **options)
+    if stored:
+        _stored.append(dispatcher)
+    return dispatcher
+
+
+def _in_folder(folder: Path | None, function: Callable, **options: Any) -> tuple[Callable, bool]:
+    """Compile a function, and say whether it is stored in the folder."""
+    if folder is not None:
+        # Numba refuses to store a function that has no file, and one whose folder in ours cannot be written.
+        with contextlib.suppress(RuntimeError):
+            dispatcher = numba.njit(cache=True, **_OPTIONS, **options)(function)
+            stored = getattr(dispatcher, "stats", None)
+            if stored and Path(stored.cache_path).is_relative_to(folder):
+                return dispatcher, True
+    return numba.njit(**_OPTIONS, **options)(function), False
 
 
 def jit(function: Callable) -> Callable:
     """Compile a scalar physics function on first call; division by zero gives inf or NaN as in NumPy."""
     return _cached(function)
+
+
+def jit_lawless(function: Callable) -> Callable:
+    """Compile a function of whose arguments none holds a law, nor has one for its type.
+
+    What is stored of it serves whatever laws of the user's own there are.
+    """
+    with _storing([]) as folder:
+        return _in_folder(folder, function)[0]
 
 
 def jit_inline(function: Callable) -> Callable:

@@ -7,14 +7,28 @@ once, and the functions it calls read from there what they need.
 
 from __future__ import annotations
 
+import functools
 import hashlib
 from typing import Any
 
 from llvmlite import ir
 from numba import types
 from numba.core.errors import TypingError
-from numba.core.typing.templates import AttributeTemplate
-from numba.extending import infer_getattr, intrinsic, lower_getattr_generic, models, register_jitable, register_model
+from numba.extending import (
+    infer_getattr,
+    intrinsic,
+    lower_getattr_generic,
+    models,
+    overload_attribute,
+    register_jitable,
+    register_model,
+)
+
+try:
+    # What `infer_getattr` asks for; numba.extending has the decorator, but not this.
+    from numba.core.typing.templates import AttributeTemplate
+except ImportError:
+    AttributeTemplate = None
 
 
 class Reference(types.Type):
@@ -31,6 +45,9 @@ class Reference(types.Type):
         # The name becomes part of every symbol; that of a tuple names all fields in it.
         digest = hashlib.sha256(str(target).encode()).hexdigest()[:16]
         super().__init__(f"Reference({target.instance_class.__name__}, {digest})")
+        if AttributeTemplate is None:
+            for name in target.fields:
+                _make_readable(name)
 
     @property
     def instance_class(self) -> type:
@@ -58,25 +75,49 @@ class _ReferenceModel(models.PrimitiveModel):
         super().__init__(manager, kind, manager[kind.target].get_value_type().as_pointer())
 
 
-@infer_getattr
-class _ReferenceAttribute(AttributeTemplate):
-    key = Reference
-
-    def generic_resolve(self, reference: Reference, name: str) -> Any:
-        fields = reference.target.fields
-        if name not in fields:
-            return None
-        kind = reference.target.types[fields.index(name)]
-        return Reference(kind) if _is_bundle(kind) else kind
+def _field_type(reference: Reference, name: str) -> Any:
+    fields = reference.target.fields
+    if name not in fields:
+        return None
+    kind = reference.target.types[fields.index(name)]
+    return Reference(kind) if _is_bundle(kind) else kind
 
 
-@lower_getattr_generic(Reference)
 def _read(context: Any, builder: Any, kind: Reference, address: Any, name: str) -> Any:
     index = kind.target.fields.index(name)
     zero, place = ir.Constant(ir.IntType(32), 0), ir.Constant(ir.IntType(32), index)
     field = builder.gep(address, [zero, place], inbounds=True)
     found = kind.target.types[index]
     return field if _is_bundle(found) else _uncounted(context, builder, found, builder.load(field))
+
+
+@functools.cache
+def _make_readable(name: str) -> None:
+    """Let kernels read a field of this name by what numba calls its high-level interface: each is compiled by itself."""
+
+    def field(typingctx: Any, reference: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            return _read(context, builder, reference, arguments[0], name)
+
+        return _field_type(reference, name)(reference), generate
+
+    read: Any = intrinsic(field)
+
+    @overload_attribute(Reference, name)
+    def _reading(reference):
+        return (lambda reference: read(reference)) if _field_type(reference, name) else None
+
+
+if AttributeTemplate is not None:
+
+    @infer_getattr
+    class _ReferenceAttribute(AttributeTemplate):
+        key = Reference
+
+        def generic_resolve(self, reference: Reference, name: str) -> Any:
+            return _field_type(reference, name)
+
+    lower_getattr_generic(Reference)(_read)
 
 
 def _uncounted(context: Any, builder: Any, kind: Any, value: Any) -> Any:

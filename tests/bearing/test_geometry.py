@@ -11,7 +11,7 @@ from scipy.integrate import tplquad
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.frames import initial_angles
 from macroslip.bearing.inertia import roller_mass, spin_inertia
-from macroslip.bearing.kinematics import orbital_speed, pure_rolling_spin
+from macroslip.bearing.kinematics import orbital_speed
 from macroslip.errors import InputError
 
 
@@ -68,18 +68,16 @@ def test_cage_conforms_alike_in_both_directions(base):
 def test_pure_rolling_has_no_slip_at_either_raceway(shaft_speed, r_in, r):
     r_out = r_in + 2 * r * math.cos(0.2)
     orbit = orbital_speed(shaft_speed, r_in, r_out)
-    spin = pure_rolling_spin(orbit, r_out, r)
+    spin = -orbit * r_out / r  # without slip at the outer raceway, which is at rest
     # Half a dozen roundings of terms up to this size.
     scale = abs(shaft_speed) * r_in + 1e-300
     assert abs(-(shaft_speed - orbit) * r_in - spin * r) <= 1e-15 * scale
-    assert abs(-orbit * r_out - spin * r) <= 1e-15 * scale
 
 
-def test_roller_orbits_with_the_shaft_and_spins_against_it(base):
+def test_roller_orbits_with_the_shaft(base):
     r_in, r_out = geometry.inner_contact_radius(base), geometry.outer_contact_radius(base)
     orbit = orbital_speed(2.0, r_in, r_out)
     assert 0 < orbit < 1.0
-    assert pure_rolling_spin(orbit, r_out, geometry.roller_radius(base)) < -orbit
 
 
 def test_inertia_is_that_of_a_solid_cylinder():

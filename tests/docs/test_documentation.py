@@ -1,10 +1,7 @@
-"""The documentation cannot go stale: its code runs, its links resolve, and it names every key and every variable."""
+"""The documentation cannot go stale: its links resolve, and it names every key and every variable."""
 
-import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -27,123 +24,6 @@ SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
 PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 OURS = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.py"), *EXAMPLES]
-SCRIPTS = [*EXAMPLES, ROOT / "docs" / "drawings.py"]
-#: Makes what the pages name as the user's own files, then runs the code of every page given in a folder of its own, each
-#: block of code in a namespace of its own. Pages share a process, which has imported and compiled what the others need.
-RUNNER = """
-import contextlib, os, pathlib, runpy, shutil, sys, traceback
-from macroslip.cli import app
-
-sample, own_film, *folders = map(pathlib.Path, sys.argv[1:])
-prepared = pathlib.Path("prepared").resolve()
-prepared.mkdir()
-os.chdir(prepared)
-app(["init", "case.yaml"], standalone_mode=False)
-app(["run", "case.yaml", "-o", "case.nc", "--quiet"], standalone_mode=False)
-shutil.copy(sample, "turbine.outb")
-shutil.copy(own_film, "own_film.py")
-for folder in folders:
-    shutil.copytree(prepared, folder, dirs_exist_ok=True)
-    os.chdir(folder)
-    with open("printed.txt", "w", encoding="utf-8") as printed, contextlib.redirect_stdout(printed):
-        try:
-            for block in sorted(folder.glob("block*.py")):
-                runpy.run_path(str(block))
-        except BaseException:
-            pathlib.Path("failure.txt").write_text(traceback.format_exc(), encoding="utf-8")
-        else:
-            pathlib.Path("done.txt").touch()
-"""
-#: This page registers laws, on which all kernels would depend that are compiled after it.
-LAWS = ROOT / "docs" / "laws.md"
-
-
-def python_blocks(page: Path) -> list[str]:
-    """Code of the ```python blocks of a page."""
-    return re.findall(r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-
-
-def python(*arguments: str, folder: Path) -> subprocess.CompletedProcess:
-    environment = os.environ | {"MPLBACKEND": "agg", "PYTHONIOENCODING": "utf-8"}
-    return subprocess.run(
-        [sys.executable, "-W", "error", *arguments],
-        cwd=folder,
-        env=environment,
-        text=True,
-        encoding="utf-8",
-        capture_output=True,
-        timeout=850,
-        check=False,
-    )
-
-
-@pytest.fixture(scope="module")
-def scripts(tmp_path_factory):
-    """Outcome of every example and of the drawings, each run as a user does."""
-
-    def run(path):
-        # The drawings go to a folder of their own, so that a run of the tests changes no file.
-        arguments = {"02_openfast_file.py": [str(SAMPLE)], "drawings.py": [str(tmp_path_factory.mktemp("pictures"))]}
-        return python(str(path), *arguments.get(path.name, []), folder=tmp_path_factory.mktemp(path.stem))
-
-    return {path: run(path) for path in SCRIPTS}
-
-
-@pytest.fixture(scope="module")
-def pages(tmp_path_factory):
-    """What the code of every page prints, or how it fails."""
-    folders = {page: tmp_path_factory.mktemp(page.stem) for page in PAGES if python_blocks(page)}
-    for page, folder in folders.items():
-        for number, code in enumerate(python_blocks(page)):
-            (folder / f"block{number:02}.py").write_text(code, encoding="utf-8")
-    own_film, ended = ROOT / "examples" / "own_film.py", []
-    for these in ([page for page in folders if page != LAWS], [LAWS]):
-        arguments = map(str, (SAMPLE, own_film, *(folders[page] for page in these)))
-        ended.append(python("-c", RUNNER, *arguments, folder=tmp_path_factory.mktemp("pages")))
-
-    def read(folder):
-        if (folder / "done.txt").exists():
-            return (folder / "printed.txt").read_text(encoding="utf-8"), None
-        failure = folder / "failure.txt"
-        return "", failure.read_text(encoding="utf-8") if failure.exists() else [one.stderr for one in ended]
-
-    return {page: read(folder) for page, folder in folders.items()}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
-def test_script_runs_and_says_something(path, scripts):
-    assert scripts[path].returncode == 0, scripts[path].stderr
-    assert 1 <= len(scripts[path].stdout.splitlines()) <= 15
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("page", [page for page in PAGES if python_blocks(page)], ids=lambda page: page.name)
-def test_code_of_page_runs(page, pages):
-    _, failure = pages[page]
-    assert failure is None, failure
-
-
-@pytest.mark.slow
-def test_numbers_that_the_model_page_quotes(pages):
-    printed, _ = pages[ROOT / "docs" / "model.md"]
-    assert re.findall(r"([\d.]+) of the load", printed) == ["0.06", "0.14", "3.30", "47.11"]
-    assert re.findall(r"([\d.]+) W", printed) == ["8.7", "7.1"]
-
-
-NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["physical.md", "physical-study.md"])
-def test_pages_quote_what_their_code_prints(name, pages):
-    page = ROOT / "docs" / name
-    quoted = "".join(re.findall(r"^```text\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE))
-    printed, _ = pages[page]
-    assert re.sub(NUMBER, "#", quoted) == re.sub(NUMBER, "#", printed)
-    for old, new in zip(re.findall(NUMBER, quoted), re.findall(NUMBER, printed), strict=True):
-        last_digit = 10.0 ** -len(old.partition(".")[2])
-        assert float(new) == pytest.approx(float(old), rel=5e-3, abs=1.01 * last_digit)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -276,45 +156,6 @@ def test_page_or_script_names_no_machine(path):
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_says_what_it_is_and_how_to_run_it(path):
     assert re.match(rf'""".+\n(.*\n)*? *python (examples/)?{re.escape(path.name)}', path.read_text(encoding="utf-8"))
-
-
-@pytest.mark.slow
-def test_the_site_builds_without_a_warning_and_asks_no_network(tmp_path):
-    # Without Python's own warnings as errors: Sphinx's extensions warn of each other's versions.
-    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", ROOT / "docs", tmp_path]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    pages = list(tmp_path.glob("*.html"))
-    assert {"index.html", "first-run.html", "search.html", "api.html"} <= {page.name for page in pages}
-    for page in pages:
-        text = page.read_text(encoding="utf-8")
-        assert re.findall(r'<(?:script|link|img)[^>]+(?:src|href)="https?://[^"]*"', text) == [], page.name
-    assert (tmp_path / "searchindex.js").stat().st_size > 10_000
-
-
-NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.name)
-def test_notebook_runs_and_shows_what_is_stored(path):
-    """Every number in the stored output of text comes out again; pictures have tests of their own."""
-    import nbformat
-    from nbclient import NotebookClient
-
-    stored = nbformat.read(path, as_version=4)
-    fresh = nbformat.read(path, as_version=4)
-    NotebookClient(fresh, timeout=600, kernel_name="python3").execute()
-    cells = [cell for cell in stored.cells if cell.cell_type == "code"]
-    again = [cell for cell in fresh.cells if cell.cell_type == "code"]
-    for old, new in zip(cells, again, strict=True):
-        before, after = (
-            [out.data["text/plain"] for out in cell.outputs if "image/png" not in out.get("data", {})]
-            for cell in (old, new)
-        )
-        for left, right in zip(before, after, strict=True):
-            numbers = [[float(one) for one in re.findall(NUMBER, text)] for text in (left, right)]
-            assert numbers[1] == pytest.approx(numbers[0], rel=5e-3, abs=2e-3), left
 
 
 def test_readme_for_a_package_index_has_no_link_into_the_repository():

@@ -139,15 +139,6 @@ def test_cage_energy_stands_beside_the_converged_one(axes):
     assert levels == [0.2, 0.1]
 
 
-def test_marks_of_the_paper_say_so_and_widen_the_axis(axes):
-    axes.plot([12.0, 24.0], [1.1, 1.2])
-    axes.set_yscale("log")
-    draw.mark_level(axes, 5.0, 20.0, "paper: about 10")
-    assert axes.get_ylim()[1] >= 20.0 and axes.get_ylim()[0] <= 1.1
-    draw.mark_wind_speeds(axes, (12.0, 14.0), "paper: highest")
-    assert [text.get_text() for text in axes.texts] == ["paper: about 10", "paper: highest"]
-
-
 def test_cases_of_a_study(axes, result):
     names = xr.DataArray(["a", "b"], dims="case", name="case")
     study = xr.concat([result[["energy"]], 2.0 * result[["energy"]]], names)

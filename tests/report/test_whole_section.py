@@ -15,6 +15,8 @@ from macroslip.report.whole_figures import plot_force_by_position, plot_residual
 from macroslip.report.whole_section import counterpart, is_whole, whole_blocks
 from macroslip.result.orbit_scene import scene
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def case():

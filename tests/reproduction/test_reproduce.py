@@ -335,6 +335,13 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, paper_
     shutil.copytree(paper_studies, tmp_path / "results" / FOLDER)
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
     only(monkeypatch, paper=Laws.paper(), physical=Laws.physical())
+    save = module._save
+
+    def of_the_physical_model(figures, *rest):
+        """Those of the paper's model are drawn in the test above."""
+        save({name: one for name, one in figures.items() if f"{name}_physical" not in figures}, *rest)
+
+    monkeypatch.setattr(module, "_save", of_the_physical_model)
     calls = []
     summary = quick(tmp_path / "results", progress=lambda *call: calls.append(call))
     assert len(summary["headline"]) == 10

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 #: Registers wrong laws, and prints what a case with each of them says. Laws stay registered as long as a process lives.
@@ -96,7 +98,7 @@ if __name__ == "__main__":
             except InputError as error:
                 said[name] = str(error)
     said["simulated"] = message(film="negative")
-    own_laws._LONGEST = 15.0
+    own_laws._LONGEST = 3.0
     said["endless"] = message(film="endless")
     print(json.dumps(said))
 """
@@ -123,7 +125,7 @@ def said(tmp_path_factory):
         ("two numbers", "film law 'two numbers': it"),
         ("text", "film law 'text': it"),
         ("nothing", "film law 'nothing': it"),
-        ("endless", "film law 'endless' or traction law 'mechanisms': it has given nothing for 15 s"),
+        ("endless", "film law 'endless' or traction law 'mechanisms': it has given nothing for 3 s"),
         ("prepare raises", "film law 'prepare raises', inner: AttributeError in prepare"),
         ("prepare gives nothing", "prepare gives NoneType None. Allowed: a NamedTuple of the law's numbers."),
         ("prepare gives a number", "prepare gives float 1.0"),

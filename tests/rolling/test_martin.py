@@ -24,14 +24,13 @@ def test_constants_solve_reynolds_equation():
     rolling = 6.0 * math.sqrt(2.0) * integral(lambda t: (1.0 + t * t) * slope(t, end), end)
     assert rolling == pytest.approx(martin.ROLLING_AT_GAP, rel=1e-9)
     assert integral(lambda t: 1.0 / (1.0 + t * t), end) == pytest.approx(martin.SHEAR, rel=1e-12)
+    # F_R of the load: h0 = 4.895 η u R/w put into the force at the gap.
+    viscosity, speed, radius, per_length = 0.3, 0.7, 0.02, 800.0
+    film = martin.LOAD * viscosity * speed * radius / per_length
+    assert martin.ROLLING * math.sqrt(viscosity * speed * per_length) == pytest.approx(
+        martin.ROLLING_AT_GAP * viscosity * speed * math.sqrt(radius / film), rel=1e-12
+    )
     assert pytest.approx((4.895, 2.0796, 2.0144), abs=5e-5) == (martin.LOAD, martin.ROLLING, martin.SHEAR)
-
-
-def test_force_from_load_and_from_film_agree():
-    load, viscosity, speed, radius = 800.0, 0.3, 0.7, 0.02
-    film = martin.martin_film(load, viscosity, speed, radius)
-    at_gap = martin.ROLLING_AT_GAP * viscosity * speed * math.sqrt(radius / film)
-    assert martin.martin_rolling_force(load, viscosity, speed) == pytest.approx(at_gap, rel=1e-12)
 
 
 def test_free_line_contact_slips_by_1_6_of_the_mean_speed():

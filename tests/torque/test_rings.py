@@ -1,5 +1,7 @@
 """Friction torque on both rings: action and reaction with the rollers between them, and the power of the shaft."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -18,6 +20,7 @@ BEARING = Bearing.read("skf-240-600-bc")
 ORBIT = 2.143 * geometry.inner_contact_radius(BEARING) / (2.0 * BEARING.pitch_radius)
 
 
+@functools.cache
 def of(laws):
     result = simulate(Case(loads=LOADS, laws=laws, traces=TRACES, gravity=False))
     return result.isel(time=0), computed_torque(result).isel(time=0)

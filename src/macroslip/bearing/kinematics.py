@@ -1,4 +1,4 @@
-"""Speeds of a roller that rolls without slip, outer ring at rest.
+"""Speed of a roller that rolls without slip, outer ring at rest.
 
 The axis Z0 points downwind; a positive orbital speed is counter-clockwise about it, and the roller's spin about its own
 axis (which also points downwind) is negative then. Both speeds follow from zero slip at both raceways in (28)-(31) of
@@ -32,29 +32,3 @@ def orbital_speed(shaft_speed: float, inner_contact_radius: float, outer_contact
     0.907969
     """
     return shaft_speed * inner_contact_radius / (inner_contact_radius + outer_contact_radius)
-
-
-def pure_rolling_spin(orbital_speed: float, outer_contact_radius: float, roller_radius: float) -> float:
-    """Spin of a roller in pure rolling on the resting outer raceway, omega_pure = -Omega r~_out/r.
-
-    Parameters
-    ----------
-    orbital_speed : float
-        Speed of the roller's centre about Z0 [rad/s], any sign.
-    outer_contact_radius : float
-        Distance of the outer contact from the bearing axis [m], positive.
-    roller_radius : float
-        Largest roller radius [m], positive.
-
-    Returns
-    -------
-    float
-        Spin about the roller's own axis, relative to the frame that orbits with the roller [rad/s]; its sign is
-        opposite to that of the orbital speed.
-
-    Examples
-    --------
-    >>> round(pure_rolling_spin(0.907969, 0.4070, 0.035), 5)
-    -10.55838
-    """
-    return -orbital_speed * outer_contact_radius / roller_radius

@@ -12,9 +12,10 @@ from typing import Annotated, Any
 
 from macroslip.case.case import BALANCE, DYNAMICS, IMPOSED_ORBIT
 from macroslip.case.parts import BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
-from macroslip.catalogue.forms import Choice, Flag, Form, Quantity, Text, Vector
+from macroslip.catalogue.forms import Choice, Flag, Form, Text
 from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import shown
+from macroslip.catalogue.quantity_forms import Quantity, Vector
 from macroslip.catalogue.section_forms import OrWord, Variants
 from macroslip.catalogue.units import FORCE, MOMENT, SPEED, TEMPERATURE, TIME
 from macroslip.constants import MECHANISMS

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from macroslip.catalogue.forms import Flag, Quantity, Whole
+from macroslip.catalogue.forms import Flag, Whole
 from macroslip.catalogue.input_section import input_section
+from macroslip.catalogue.quantity_forms import Quantity
 from macroslip.catalogue.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
 
 _Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0, name="step")]

@@ -1,6 +1,6 @@
 """Sections of an input file as pydantic classes: the same class checks a section of a file and a call in Python.
 
-`@input_section` makes a frozen dataclass whose fields carry a form (`macroslip.catalogue.forms`) or are sections
+`@input_section` makes a frozen dataclass whose fields carry a form (`forms` and `quantity_forms` here) or are sections
 themselves. To add a key to a file is to add such a field: reader, messages and JSON Schema follow from it.
 """
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit_lawless
 from macroslip.integrate.backward_euler import backward_euler_step
 from macroslip.integrate.booking import write_traces
 from macroslip.integrate.detail import Passage, collect
@@ -25,7 +25,7 @@ from macroslip.reference import by_reference
 from macroslip.ring.orbit import instant, interval_of
 
 
-@jit
+@jit_lawless
 def integrate_fixed_step(path, slip, end, record):
     """Integrate the spin of one roller with explicit or backward Euler.
 

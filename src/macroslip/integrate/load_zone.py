@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_part
+from macroslip.compiled import jit, jit_lawless, jit_part
 from macroslip.integrate.sealed import has_microslip, relaxation_of
 from macroslip.integrate.tuning import FIRM_RATE, FIRM_RATE_MICROSLIP
 from macroslip.ring.orbit import Instant, instant
@@ -21,7 +21,7 @@ from macroslip.roller.forces import interference
 FREE, EDGE, FIRM = 0, 1, 2
 
 
-@jit
+@jit_lawless
 def firm_interference(model, ring_speed):
     """Interference [m] above which a roller is firmly held at raceway speeds up to `ring_speed` [m/s].
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_part
+from macroslip.compiled import jit_lawless, jit_part
 from macroslip.integrate.booking import Peaks, book, step_powers, write_traces
 from macroslip.integrate.energy_control import energy_error_of
 from macroslip.integrate.first_guess import first_guess
@@ -72,7 +72,7 @@ class Attempt(NamedTuple):
     error: float
 
 
-@jit
+@jit_lawless
 def integrate_radau(path, slip, stops, classes, record):
     """Integrate the slip of one roller over the whole history.
 

@@ -7,12 +7,12 @@ root found is the continuous one.
 
 from __future__ import annotations
 
-from macroslip.compiled import jit, jit_part
+from macroslip.compiled import jit_lawless, jit_part
 from macroslip.integrate.sealed import rising_of
 from macroslip.integrate.tuning import HOT_CHANGE, SMALL_CHANGE
 
 
-@jit
+@jit_lawless
 def cold_slip(model, load, speed):
     """Slip [m/s] up to which traction rises at loads up to `load` [N] and raceway speeds up to `speed` [m/s]."""
     # Twice the raceways' speed bounds the slip, and with it the thickest film.

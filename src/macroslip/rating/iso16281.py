@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit_lawless
 
 REDUCTION = 0.83
 """lambda nu: reduction of the load rating for edge stress and uneven load along the roller."""
@@ -81,75 +81,14 @@ def ring_ratings(
     return RingRatings(share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9), share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9))
 
 
-def lamina_loads(
-    load: NDArray[np.float64], semi_axis: NDArray[np.float64], roller_length: float
-) -> NDArray[np.float64]:
-    """Load per length on the laminae of rollers, as the load that spread over the whole length would give it.
-
-    Parameters
-    ----------
-    load : ndarray, shape (...)
-        Roller loads Q [N].
-    semi_axis : ndarray, shape (...)
-        Semi-axis a of the contact ellipse along the roller [m], where Q is not zero.
-    roller_length : float
-        Length L [m].
-
-    Returns
-    -------
-    ndarray, shape (..., LAMINAE/2)
-        w L [N] of the laminae from the middle to one end; the other half is alike. Their mean is Q: where the ellipse
-        would reach beyond the ends, what is left carries all.
-    """
-    count = LAMINAE // 2
-    edges = np.linspace(0.0, 0.5 * roller_length, count + 1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        place = np.minimum(edges / np.where(load > 0.0, semi_axis, np.inf)[..., None], 1.0)
-    # Integral of the parabola to each edge, as a share of the half that lies on the roller.
-    reached = 1.5 * place - 0.5 * place**3
-    share = np.diff(reached, axis=-1)
-    total = reached[..., -1:]
-    return load[..., None] * np.divide(share, total, out=np.full_like(share, 1 / count), where=total > 0.0) * count
-
-
-def ring_damage(load: NDArray[np.float64], rating: float, *, stationary: bool) -> NDArray[np.float64]:
-    """Damage of one ring of one row, (Q_e/Q_c)^(9/2), from the loads of all its rollers.
-
-    Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of one that stands.
-
-    Parameters
-    ----------
-    load : ndarray, shape (..., Z, laminae)
-        Loads of the row's rollers on their laminae, as `lamina_loads` gives them [N]; one lamina for load that is
-        spread evenly.
-    rating : float
-        Q_c of the ring [N]; with laminae divided by `REDUCTION`.
-    stationary : bool
-        Whether the ring stands still relative to the load.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Mean over the laminae, which is the standard's sum with q_c = Q_c (1/n)^(7/9).
-
-    References
-    ----------
-    ISO/TS 16281:2008, section 6.3.1.2.
-
-    Examples
-    --------
-    >>> even = np.full((28, 1), 100e3)
-    >>> round(ring_damage(even, 500e3, stationary=True).item() * 5**4.5, 9)
-    1.0
-    """
-    exponent = 4.5 if stationary else 4.0
-    equivalent = np.mean((load / rating) ** exponent, axis=-2) ** (4.5 / exponent)
-    return np.mean(equivalent, axis=-1)
-
-
-@jit
+@jit_lawless
 def damage_series(load, semi_axis, roller_length, rating, stationary):
-    """Damage of one ring of one row over a history, as `lamina_loads` and `ring_damage` give it, in one loop.
+    """Damage of one ring of one row over a history, (Q_e/Q_c)^(9/2), from the loads of all its rollers.
+
+    Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of one that stands. Along
+    the roller it is the mean over laminae, on each of which a load Q_j counts that spread over the whole length would give
+    what it bears per length: that of Hertz' ellipse, of which what is left carries all where it would reach beyond the ends.
+    The mean is the standard's sum with q_c = Q_c (1/n)^(7/9).
 
     Parameters
     ----------
@@ -173,6 +112,10 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     -----
     The inner loop runs over laminae of rollers of samples, 40 million times for ten minutes; NumPy's powers of the same
     arrays take ten times as long.
+
+    References
+    ----------
+    ISO/TS 16281:2008, section 6.3.1.2.
 
     Examples
     --------
@@ -220,7 +163,7 @@ def reference_life(damage: NDArray[np.float64], axis: int | tuple[int, ...] | No
     Parameters
     ----------
     damage : ndarray
-        From `ring_damage`.
+        From `damage_series`.
     axis : int, tuple of int or None
         Axes of rings and rows to take together; None for all.
 

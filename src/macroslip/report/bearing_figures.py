@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.style import BLACK, BLUE, GREY, INTERFACE, ROW, finish, log_ticks
+from macroslip.report.style import BLACK, GREY, INTERFACE, ROW, finish, log_ticks
 from macroslip.report.wording import told
 
 if TYPE_CHECKING:
@@ -273,29 +273,3 @@ def plot_over_station(axes: Axes, values: xr.DataArray, title: str = "") -> Axes
     units = mean.station.attrs.get("units", "m")
     name = f"{values.name} [{values.attrs.get('units', '–')}]"
     return finish(axes, f"station along the roller [{units}]", name, title)
-
-
-def mark_wind_speeds(axes: Axes, speeds: tuple[float, ...], words: str) -> Axes:
-    """Shade the wind speeds [m/s] at which a statement puts something, and write its words at the foot."""
-    axes.axvspan(min(speeds) - 0.8, max(speeds) + 0.8, color=BLUE, alpha=0.10, linewidth=0.0, zorder=-1)
-    place = axes.get_xaxis_transform()
-    axes.text(min(speeds) - 0.6, 0.02, words, transform=place, va="bottom", fontsize=9, color=BLUE)
-    return axes
-
-
-def mark_level(axes: Axes, low: float, high: float, words: str) -> Axes:
-    """Shade the values between which a statement puts something, extend the axis to them, and write its words there."""
-    axes.axhspan(low, high, color=BLUE, alpha=0.10, linewidth=0.0, zorder=-1)
-    bottom, top = axes.get_ylim()
-    axes.set_ylim(min(bottom, 0.8 * low), max(top, 1.25 * high))
-    axes.text(
-        0.98,
-        (low * high) ** 0.5,
-        words,
-        transform=axes.get_yaxis_transform(),
-        ha="right",
-        va="center",
-        fontsize=9,
-        color=BLUE,
-    )
-    return axes

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.report import orbit_figures
-from macroslip.report.bearing_figures import mark_level
 from macroslip.report.page import Opening
 from macroslip.report.pictures import OPENING_HEIGHT, OPENING_WIDTH, picture
 from macroslip.report.wording import told
 from macroslip.reproduction import mechanism_figures, solver_figures
 from macroslip.reproduction import wind_speed_figures as winds
 from macroslip.reproduction.headline import failure_line
+from macroslip.reproduction.marks import mark_level
 from macroslip.reproduction.statement import AGREES, DIFFERS, PARTLY, UNKNOWN, Statement
 
 if TYPE_CHECKING:

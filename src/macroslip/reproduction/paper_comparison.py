@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.report import orbit_figures
-from macroslip.report.bearing_figures import mark_level, mark_wind_speeds
 from macroslip.report.page import Beside, Block, Paragraph, Pictures, Section
 from macroslip.report.pictures import Picture, picture
 from macroslip.report.wording import told_energy
 from macroslip.reproduction import solver_figures
 from macroslip.reproduction import wind_speed_figures as winds
 from macroslip.reproduction.headline import step_line, tolerance_line
+from macroslip.reproduction.marks import mark_level, mark_wind_speeds
 from macroslip.reproduction.model_run import DETAILED_CASE, STATIC_LOADS
 
 if TYPE_CHECKING:

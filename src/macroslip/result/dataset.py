@@ -21,6 +21,7 @@ from macroslip.integrate.status import Status
 from macroslip.integrate.surface import STATIONS
 from macroslip.loads.source_file import without_folders
 from macroslip.result import surface_maps
+from macroslip.result.variables import INTERFACES, VARIABLES
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.contacts import references
 
@@ -31,88 +32,12 @@ if TYPE_CHECKING:
     from macroslip.case.case import Case
     from macroslip.roller.model import RollerModel
 
-INTERFACES = ("inner", "outer", "cage")
 #: Works every result rests on.
 CITATIONS = (
     "Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing",
     "Johnson, Contact Mechanics, Cambridge University Press (1985), doi:10.1017/CBO9781139171731",
 )
 _RADAU = "Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), doi:10.1007/978-3-642-05221-7"
-
-_ROLLERS = ("row", "roller")
-_INTERFACES = (*_ROLLERS, "interface")
-_ORBITS = (*_ROLLERS, "orbit", "interface")
-_TRACES = (*_ROLLERS, "time")
-#: Dimensions, units and meaning of every variable a result may have, by name, in their order.
-VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
-    "energy": (_INTERFACES, "J", "energy dissipated by friction in the window"),
-    "rolling_energy": (
-        _INTERFACES,
-        "J",
-        "energy dissipated by rolling resistance in the window, apart from the energy of friction",
-    ),
-    "inlet_temperature": ((), "K", "temperature of the oil at the inlets of the contacts"),
-    "orbit_energy": (_ORBITS, "J", "energy dissipated by friction in each complete orbit"),
-    "peak_power": (_ORBITS, "W", "largest frictional power in each complete orbit"),
-    "min_spin_ratio": (
-        _ROLLERS,
-        "1",
-        "smallest ratio of spin to spin in pure rolling in the window, where the shaft turns at a tenth or more of its "
-        "highest speed",
-    ),
-    "outside_film_range": (
-        _INTERFACES,
-        "1",
-        "share of loaded time in which load or speed lay outside the film law's range",
-    ),
-    "status": (_ROLLERS, "1", "outcome of the integration"),
-    **{name: (_ROLLERS, "1", f"number of {name.replace('_', ' ')} of the integrator") for name in COUNTS},
-    "unbalanced_force": (_ROLLERS, "N", "largest force left unbalanced by an accepted implicit step"),
-    "end_time": (_ROLLERS, "s", "time at which the integration ended"),
-    "end_slip": (_ROLLERS, "m/s", "raceway slip at which the integration ended"),
-    # Contacts with microslip or asperities.
-    "mechanism_energy": (
-        (*_INTERFACES, "mechanism"),
-        "J",
-        "energy in the window by what makes surfaces slide: slip of the middle, curvature, contact angle; they add up to "
-        "the energy, and one may be negative",
-    ),
-    "asperity_energy": (_INTERFACES, "J", "part of the energy in the window that asperities dissipate"),
-    "station_energy": (
-        (*_ROLLERS, "raceway", "station"),
-        "J",
-        "energy in the window dissipated at each station along the roller",
-    ),
-    "flash_temperature": (_ORBITS, "K", "largest rise of surface temperature in a contact per orbit"),
-    "power_density": (_ORBITS, "W/m2", "largest frictional power per contact area per orbit"),
-    "slide_roll_ratio": (_ORBITS, "1", "largest local slip over entrainment speed per orbit"),
-    "min_film_ratio": (_ORBITS, "1", "least ratio of film thickness to roughness, Lambda, per orbit"),
-    "quadrature_error": (
-        (*_ROLLERS, "raceway"),
-        "1",
-        "relative error of the film's power by the quadrature in use, from a finer one at states of the run",
-    ),
-    **surface_maps.VARIABLES,
-    # Traces.
-    "spin": (_TRACES, "rad/s", "spin about the roller's axis, relative to the orbiting frame"),
-    "spin_pure": (_TRACES, "rad/s", "spin in pure rolling, relative to the orbiting frame"),
-    "slip": (_TRACES, "m/s", "slip at the middle of either raceway contact, ring less roller"),
-    "roller_load": (_TRACES, "N", "elastic load of the roller, without body forces"),
-    "cage_force": (_TRACES, "N", "normal force of the cage on the roller, positive along the orbit"),
-    "traction": (
-        (*_TRACES, "interface"),
-        "N",
-        "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
-    ),
-    "power": ((*_TRACES, "interface"), "W", "frictional power"),
-    "rolling_power": ((*_TRACES, "interface"), "W", "power of rolling resistance, apart from that of friction"),
-    "film_thickness": ((*_TRACES, "interface"), "m", "central film thickness; NaN without load"),
-    "skew_moment": (
-        (*_TRACES, "raceway"),
-        "N m",
-        "skew moment about the contact normal, positive where traction along +x acts at +z'",
-    ),
-}
 
 
 def to_dataset(
@@ -288,7 +213,7 @@ def roller_coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[s
         "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),
         "orbit_start": ("orbit", edges[:-1], {"units": "s", "long_name": "start of the orbit"}),
         "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
-        "start_angle": (_ROLLERS, angles, about),
+        "start_angle": (("row", "roller"), angles, about),
     }
     return found | _contact_coordinates(case.bearing) if curved else found
 

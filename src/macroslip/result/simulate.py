@@ -25,8 +25,8 @@ from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
 from macroslip.result.own_laws import check_own_laws
+from macroslip.result.simulate_whole import simulate_whole_bearing
 from macroslip.result.thermal_balance import balanced
-from macroslip.result.whole_dataset import simulate_whole_bearing
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.ring.travel import orbit_times

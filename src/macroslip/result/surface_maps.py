@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from macroslip.integrate.record import RollerRecord
 
 _PLACES = ("row", "raceway", "angle", "station")
-#: As `macroslip.result.dataset.VARIABLES`.
+#: As `macroslip.result.variables.VARIABLES`.
 VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "surface_energy": (
         (*_PLACES, "slip_sign", "film_regime"),

@@ -1,4 +1,4 @@
-"""A coupled simulation of the whole bearing, and its result in the same schema as that of an imposed orbit, with more.
+"""The result of a coupled simulation of the whole bearing, in the same schema as that of an imposed orbit, with more.
 
 What is added: `cage` (both, or downwind and upwind), `side` of the pocket (front, rear), `position` on the orbit, and
 `book_time`, at which the books of momentum and energy are closed.
@@ -7,94 +7,28 @@ What is added: `cage` (both, or downwind and upwind), `side` of the pocket (fron
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from macroslip.bearing.frames import ROWS
 from macroslip.integrate.status import Status
-from macroslip.result.dataset import INTERFACES, VARIABLES, input_attributes, roller_coordinates, status_flags
-from macroslip.roller.contact_force import CurvedContact
+from macroslip.result.dataset import input_attributes, roller_coordinates, status_flags
+from macroslip.result.variables import INTERFACES, VARIABLES
 from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
 from macroslip.whole_bearing.ledger import FLOWS, STOCKS
-from macroslip.whole_bearing.model import RowModels, whole_bearing, with_rollers
 from macroslip.whole_bearing.record import CAGE_TRACES, TRACES, BearingRecord
-from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.case.case import Case
     from macroslip.ring.orbit import Motion
-    from macroslip.roller.model import RollerModel
     from macroslip.whole_bearing.model import WholeBearing
 
 #: Sides of a pocket: the spar ahead and the one behind.
 SIDES = ("front", "rear")
 _CITATION = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068"
-
-
-def simulate_whole_bearing(
-    case: Case,
-    models: dict[str, RollerModel],
-    motion: Motion,
-    times: Times,
-    evaluated: Callable,
-    notes: dict[str, Any],
-    drag_power: float,
-) -> xr.Dataset:
-    """Compute orbit and spin of all rollers, and the cages.
-
-    Parameters
-    ----------
-    case : Case
-    models : dict of RollerModel
-        Of both rows.
-    motion : Motion
-        Of the inner ring.
-    times : Times
-        With those of traces as outputs, if any were asked for.
-    evaluated : callable
-        From rollers by row to those that are integrated, by tables say, and the result's attributes on that.
-    notes : dict
-        Attributes of the result on its accuracy, by name.
-    drag_power : float
-        Mean power of the lubricant's drag on all rollers of both rows in the window [W].
-
-    Returns
-    -------
-    xarray.Dataset
-        As `macroslip.result.dataset.to_dataset`, with the variables of the cage.
-    """
-    bearing = whole_bearing(
-        case.bearing, case.oil, case.cage, tilt=case.drivetrain.tilt, gravity=case.gravity, drag=case.drag,
-        laws=case.laws,
-    )  # fmt: skip
-    curved = isinstance(bearing.models[0].inner, CurvedContact)
-    # The oil of these pockets is as wide as their play.
-    models, evaluation = evaluated({row: one._replace(films=bearing.films) for row, one in models.items()})
-    bearing, notes = with_rollers(bearing, RowModels(**models)), {**notes, **evaluation}
-    if case.traces is None:
-        times = times._replace(outputs=np.unique(np.concatenate([motion.time[:1], times.edges, [times.end]])))
-    start, interrupt = pure_rolling(bearing, case.cage), np.zeros(1, dtype=np.int8)
-    # The kernel runs in a thread of its own, so that an interrupt is heard here. It is compiled here, by a run without a
-    # step: an interrupt could not end that in the thread, and it takes minutes.
-    run_whole_bearing(bearing, motion, start, times._replace(outputs=times.outputs[:1]), max_steps=0)
-    with ThreadPoolExecutor(1) as pool:
-        future = pool.submit(
-            run_whole_bearing, bearing, motion, start, times,
-            tolerance=case.integrator.tolerance, max_steps=case.integrator.max_steps, interrupt=interrupt,
-        )  # fmt: skip
-        try:
-            # On Windows an interrupt is noticed only when a wait ends.
-            while not wait([future], timeout=0.5, return_when=FIRST_COMPLETED).done:
-                pass
-            status, record = future.result()
-        except BaseException:
-            interrupt[0] = 1
-            raise
-    return whole_dataset(case, bearing, motion, status, record, notes, curved=curved, drag_power=drag_power)
 
 
 class _Collector:

@@ -13,10 +13,11 @@ from macroslip.case.keys import CaseFile
 from macroslip.catalogue import Record
 from macroslip.catalogue.entry import is_finite_number, read_entry
 from macroslip.catalogue.fields import dimensions
-from macroslip.catalogue.forms import FORM_ONLY, Quantity
+from macroslip.catalogue.forms import FORM_ONLY
 from macroslip.catalogue.input_section import read_value
 from macroslip.catalogue.problems import shown, unknown_key
 from macroslip.catalogue.quantity import NUMBER_PATTERN
+from macroslip.catalogue.quantity_forms import Quantity
 from macroslip.catalogue.section_forms import form_of, keys_of, word_of
 from macroslip.catalogue.source import Place, Source
 from macroslip.catalogue.units import NUMBER

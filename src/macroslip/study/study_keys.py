@@ -14,7 +14,7 @@ from macroslip.catalogue.problems import shown
 from macroslip.catalogue.section_forms import MappingOf, detail_of, details_inside
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
-from macroslip.result.dataset import VARIABLES
+from macroslip.result.variables import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Sample
 from macroslip.study.weights import Weighting

@@ -11,9 +11,10 @@ import numpy as np
 
 from macroslip.catalogue import Record
 from macroslip.catalogue.fields import dimensions
-from macroslip.catalogue.forms import Choice, Quantity, Text, Whole
+from macroslip.catalogue.forms import Choice, Text, Whole
 from macroslip.catalogue.input_section import input_section
 from macroslip.catalogue.problems import unknown_key
+from macroslip.catalogue.quantity_forms import Quantity
 from macroslip.catalogue.section_forms import MappingOf, OrWord
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError

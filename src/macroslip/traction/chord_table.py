@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline, jit_part
+from macroslip.compiled import jit, jit_inline, jit_lawless, jit_part
 from macroslip.contact.spline import tensor_coefficients
 from macroslip.contact.spline_cell import along_line, in_cell, weights_and_slopes
 from macroslip.contact.table_store import stored, table_key
@@ -117,7 +117,7 @@ def _reference(fluid, log_eta, pressure, film_thickness, scale):
     return math.log(characteristic_stress(fluid, pressure))
 
 
-@jit
+@jit_lawless
 def _fill(fluid, pressures, slips, films):
     values = np.empty((pressures.size, films.size, slips.size))
     for i in range(pressures.size):

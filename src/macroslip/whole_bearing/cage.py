@@ -9,8 +9,9 @@ import numpy as np
 
 from macroslip.bearing import geometry
 from macroslip.bearing.frames import ROWS
-from macroslip.catalogue.forms import Choice, Flag, Quantity, Whole
+from macroslip.catalogue.forms import Choice, Flag, Whole
 from macroslip.catalogue.input_section import input_section
+from macroslip.catalogue.quantity_forms import Quantity
 from macroslip.catalogue.units import FORCE, INVERSE_SPEED, LENGTH, MASS, NUMBER
 from macroslip.errors import InputError
 

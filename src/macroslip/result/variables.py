@@ -1,0 +1,82 @@
+"""What a result may hold: its variables with their dimensions, units and meaning."""
+
+from __future__ import annotations
+
+from macroslip.integrate.record import COUNTS
+from macroslip.result import surface_maps
+
+INTERFACES = ("inner", "outer", "cage")
+_ROLLERS = ("row", "roller")
+_INTERFACES = (*_ROLLERS, "interface")
+_ORBITS = (*_ROLLERS, "orbit", "interface")
+_TRACES = (*_ROLLERS, "time")
+#: Dimensions, units and meaning of every variable a result may have, by name, in their order.
+VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "energy": (_INTERFACES, "J", "energy dissipated by friction in the window"),
+    "rolling_energy": (
+        _INTERFACES,
+        "J",
+        "energy dissipated by rolling resistance in the window, apart from the energy of friction",
+    ),
+    "inlet_temperature": ((), "K", "temperature of the oil at the inlets of the contacts"),
+    "orbit_energy": (_ORBITS, "J", "energy dissipated by friction in each complete orbit"),
+    "peak_power": (_ORBITS, "W", "largest frictional power in each complete orbit"),
+    "min_spin_ratio": (
+        _ROLLERS,
+        "1",
+        "smallest ratio of spin to spin in pure rolling in the window, where the shaft turns at a tenth or more of its "
+        "highest speed",
+    ),
+    "outside_film_range": (
+        _INTERFACES,
+        "1",
+        "share of loaded time in which load or speed lay outside the film law's range",
+    ),
+    "status": (_ROLLERS, "1", "outcome of the integration"),
+    **{name: (_ROLLERS, "1", f"number of {name.replace('_', ' ')} of the integrator") for name in COUNTS},
+    "unbalanced_force": (_ROLLERS, "N", "largest force left unbalanced by an accepted implicit step"),
+    "end_time": (_ROLLERS, "s", "time at which the integration ended"),
+    "end_slip": (_ROLLERS, "m/s", "raceway slip at which the integration ended"),
+    # Contacts with microslip or asperities.
+    "mechanism_energy": (
+        (*_INTERFACES, "mechanism"),
+        "J",
+        "energy in the window by what makes surfaces slide: slip of the middle, curvature, contact angle; they add up to "
+        "the energy, and one may be negative",
+    ),
+    "asperity_energy": (_INTERFACES, "J", "part of the energy in the window that asperities dissipate"),
+    "station_energy": (
+        (*_ROLLERS, "raceway", "station"),
+        "J",
+        "energy in the window dissipated at each station along the roller",
+    ),
+    "flash_temperature": (_ORBITS, "K", "largest rise of surface temperature in a contact per orbit"),
+    "power_density": (_ORBITS, "W/m2", "largest frictional power per contact area per orbit"),
+    "slide_roll_ratio": (_ORBITS, "1", "largest local slip over entrainment speed per orbit"),
+    "min_film_ratio": (_ORBITS, "1", "least ratio of film thickness to roughness, Lambda, per orbit"),
+    "quadrature_error": (
+        (*_ROLLERS, "raceway"),
+        "1",
+        "relative error of the film's power by the quadrature in use, from a finer one at states of the run",
+    ),
+    **surface_maps.VARIABLES,
+    # Traces.
+    "spin": (_TRACES, "rad/s", "spin about the roller's axis, relative to the orbiting frame"),
+    "spin_pure": (_TRACES, "rad/s", "spin in pure rolling, relative to the orbiting frame"),
+    "slip": (_TRACES, "m/s", "slip at the middle of either raceway contact, ring less roller"),
+    "roller_load": (_TRACES, "N", "elastic load of the roller, without body forces"),
+    "cage_force": (_TRACES, "N", "normal force of the cage on the roller, positive along the orbit"),
+    "traction": (
+        (*_TRACES, "interface"),
+        "N",
+        "traction on the roller in its spin equation (moment over radius), positive where it drives the spin up",
+    ),
+    "power": ((*_TRACES, "interface"), "W", "frictional power"),
+    "rolling_power": ((*_TRACES, "interface"), "W", "power of rolling resistance, apart from that of friction"),
+    "film_thickness": ((*_TRACES, "interface"), "m", "central film thickness; NaN without load"),
+    "skew_moment": (
+        (*_TRACES, "raceway"),
+        "N m",
+        "skew moment about the contact normal, positive where traction along +x acts at +z'",
+    ),
+}
