@@ -15,7 +15,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant, Traces, simulate
-from macroslip.roller.contact_force import friction_power, raceway_force, slip_field
+from macroslip.roller.contact_force import raceway_force, slip_field
+from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.traction.slip_field import slip_at
 

@@ -31,8 +31,9 @@ from macroslip.mechanisms import Laws
 from macroslip.result.simulate import radau_limits
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion, instant
-from macroslip.roller.contact_force import friction_power, raceway_force, slip_field
+from macroslip.roller.contact_force import raceway_force, slip_field
 from macroslip.roller.forces import slip_forces, station
+from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import ring_geometry, roller_model
 from macroslip.traction.film_shear_law import microslip_traction
 

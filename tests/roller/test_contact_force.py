@@ -14,12 +14,12 @@ from macroslip.roller.contact_force import (
     CurvedContact,
     PlainContact,
     cage_force,
-    friction_power,
     raceway_force,
     slip_field,
 )
 from macroslip.roller.contacts import contact_shape
 from macroslip.roller.forces import Station, slip_forces
+from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.traction.slip_field import slip_at
 

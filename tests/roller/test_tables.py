@@ -11,9 +11,10 @@ from macroslip.contact import table_store
 from macroslip.mechanisms import Laws
 from macroslip.roller import play_build, raceway_build
 from macroslip.roller.contact import raceway_contact
-from macroslip.roller.contact_force import cage_force, friction_power, raceway_force
+from macroslip.roller.contact_force import cage_force, raceway_force
 from macroslip.roller.films import cage_film, raceway_film
 from macroslip.roller.forces import Station, slip_forces
+from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import roller_model
 from macroslip.roller.play import carried, film_load
 from macroslip.roller.raceway_table import no_raceway_table, table_force

@@ -130,6 +130,12 @@ def tensor_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
     return read_only(values)
 
 
+def no_cells(dimensions: int, channels: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients and marks of the cells of a table that knows no state; all its axes are `NOWHERE`."""
+    none = (0,) * dimensions
+    return read_only(np.empty((*none, channels))), read_only(np.empty(none, dtype=np.bool_))
+
+
 def read_only(values: np.ndarray) -> np.ndarray:
     """The same values in C order and not to be written: what kernels take for a table, and threads share."""
     values = np.ascontiguousarray(values)

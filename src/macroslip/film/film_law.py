@@ -57,9 +57,16 @@ def register(
     InputError
         If the name is taken by a law of another module.
     """
+    register_name(name, reference=reference, prepare=prepare, range_notes=range_notes)
+    register_type(law, thickness=thickness, in_range=in_range)
+
+
+def register_name(
+    name: str, *, reference: str, prepare: Callable, range_notes: Callable = lambda interface: []
+) -> None:
+    """Make a law usable by name whose type is registered already; parameters and errors are those of `register`."""
     _laws.add(name, prepare, reference)
     _range_notes[name] = range_notes
-    register_type(law, thickness=thickness, in_range=in_range)
 
 
 def register_type(law: type, *, thickness: Callable, in_range: Callable) -> None:

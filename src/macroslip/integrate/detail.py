@@ -16,7 +16,7 @@ from macroslip.film.asperity_load import asperity_share
 from macroslip.film.film_law import film_thickness
 from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.reference import tuple_type
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved, slip_field
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, is_curved, slip_field
 from macroslip.roller.films import cage_film
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
@@ -46,40 +46,6 @@ class Passage(NamedTuple):
     way: Any
     span: float
     fine: bool
-
-
-class PowerRule(NamedTuple):
-    """How the power of a raceway contact follows from its forces: P = Δu F + u2 (curvature lag − spin skew).
-
-    Attributes
-    ----------
-    microslip : bool
-        Without it P = |Δu F|.
-    curvature : float
-        [-].
-    spin : float
-        [1/m].
-    """
-
-    microslip: bool
-    curvature: float
-    spin: float
-
-
-def power_rule(contact: Any) -> PowerRule:
-    """The rule of a PlainContact or CurvedContact."""
-    if not (isinstance(contact, CurvedContact) and contact.shape.microslip):
-        return PowerRule(False, 0.0, 0.0)
-    shape = contact.shape
-    return PowerRule(True, shape.curvature_ratio * shape.roller_radius, shape.spin_ratio)
-
-
-@jit_part
-def raceway_power(rule, slip, ring_speed, force, detail):
-    """Frictional power of a raceway contact (33) [W]."""
-    if not rule.microslip:
-        return abs(slip * force)
-    return slip * force + ring_speed * (rule.curvature * detail.lag - rule.spin * detail.skew)
 
 
 @jit_part

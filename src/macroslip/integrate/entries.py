@@ -12,13 +12,14 @@ from numba.extending import overload
 
 from macroslip.compiled import entry, jit
 from macroslip.integrate import sealed as types
-from macroslip.integrate.detail import book_passage, power_rule
+from macroslip.integrate.detail import book_passage
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
 from macroslip.integrate.measures import note_state, write_trace
 from macroslip.integrate.sealed import PLAIN, Entries, SealedModel, Value
 from macroslip.reference import Reference, packed, write
 from macroslip.roller.contact_force import CurvedContact, Detail
 from macroslip.roller.forces import SlipForces, slip_forces, station
+from macroslip.roller.friction_power import power_rule
 from macroslip.roller.model import RollerModel
 
 

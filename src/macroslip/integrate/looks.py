@@ -1,7 +1,7 @@
 """When a roller's contacts are looked at station by station: what that costs would otherwise exceed the forces.
 
-Between two looks the energies of the raceways are kept; a look spreads them over the way since the one before, in
-proportion to the power along the roller that it finds, and raises the extremes of the orbit.
+Between two looks the energies of the raceways are kept. A look spreads them over the way since the one before, half of
+them as power lay along the roller at that one and half as it lies now, and raises the extremes of the orbit.
 """
 
 from __future__ import annotations

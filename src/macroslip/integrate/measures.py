@@ -9,7 +9,8 @@ from numba.extending import overload
 
 from macroslip.compiled import jit_part
 from macroslip.film.film_law import film_in_range, film_thickness
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, friction_power
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED
+from macroslip.roller.friction_power import friction_power
 
 
 @jit_part

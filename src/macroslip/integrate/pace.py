@@ -94,7 +94,8 @@ def next_stretch(path, state, pace, stops, classes, record):
         state = _rebalanced(path, state, record)
     if zone == EDGE:
         barrier = edge_time(path.model, path.motion, path.start_angle, interval, time, barrier)
-        if pace.zone != EDGE:
+        # With microslip forces are as smooth there as before, unless rings press on the roller anew.
+        if pace.zone != EDGE and (jumps or pace.zone != FIRM):
             step = min(step, EDGE_STEP)
     return state, Pace(step, barrier, zone, next_stop, sample_step, pace.failed)
 

@@ -23,7 +23,7 @@ from macroslip.integrate.sealed import has_microslip
 from macroslip.integrate.stages import solve_stages
 from macroslip.integrate.status import COMPLETED, INTERRUPTED, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_STEPS
 from macroslip.integrate.step_control import error_ratio, first_cusp, slip_error_of, step_factor
-from macroslip.integrate.tuning import CUSP_PART, GROWTH, LEAST_PART, LIMIT_EXPONENT, UNSOLVED_PART
+from macroslip.integrate.tuning import CUSP_PART, GROWTH, LEAST_PART, LIMIT_EXPONENT, SAFETY, UNSOLVED_PART
 from macroslip.reference import by_reference
 
 
@@ -170,6 +170,9 @@ def _rejected(path, state, pace, step, tried, factor):
     if step.held:
         # The same step with three stages.
         return paced(pace, pace.step, pace.barrier, True)
+    if tried.solved and has_microslip(path.model):
+        # What is too long there is a step over the kink of the loads at a sample, whose error is of second order.
+        factor = SAFETY / math.sqrt(tried.error)
     part = max(LEAST_PART, factor) if tried.solved else UNSOLVED_PART
     return shortened(path, state, pace, part * step.length)
 

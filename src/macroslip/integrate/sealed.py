@@ -12,7 +12,7 @@ import numpy as np
 from numba import typeof
 from numba.extending import overload
 
-from macroslip.integrate.detail import Passage, PowerRule, book_mechanisms, book_passage, power_rule, raceway_power
+from macroslip.integrate.detail import Passage, book_mechanisms, book_passage
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
 from macroslip.integrate.measures import note_state, powers, write_trace
 from macroslip.integrate.record import new_record
@@ -21,6 +21,7 @@ from macroslip.reference import Reference, calling
 from macroslip.ring.orbit import Instant
 from macroslip.roller.contact_force import CurvedContact, Detail
 from macroslip.roller.forces import SlipForces, Station, slip_forces, station
+from macroslip.roller.friction_power import PowerRule, power_rule, raceway_power
 
 
 class Entries(NamedTuple):

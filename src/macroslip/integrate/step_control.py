@@ -76,7 +76,8 @@ def slip_error_of(path, state, step, stages, zone, record):
         least = max(min(state.forces.slope, stages.f1.slope, stages.f2.slope, stages.f3.slope), 0.0)
         slip_off = abs(slip_error(step.scale, least, net_force(state.forces), stages.s1, stages.s2, stages.s3))
     if zone != FIRM:
-        looks = 2 if zone == EDGE else 1
+        # Grip may cease between two stages; with microslip it does so gradually.
+        looks = 2 if zone == EDGE and not microslip else 1
         slip_off = max(slip_off, defect_error(path, state, step, stages, looks))
         record.count[2] += looks
     if microslip:

@@ -15,12 +15,11 @@ from macroslip.roller.contact_force import (
     LOWEST_ENTRAINMENT_SPEED,
     CurvedContact,
     Detail,
-    asperity_power,
     cage_force,
-    friction_power,
     is_curved,
     raceway_force,
 )
+from macroslip.roller.friction_power import asperity_power, friction_power
 from macroslip.roller.raceway_table import table_slopes
 from macroslip.traction.traction_law import patch_traction
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from numba import types
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
@@ -267,37 +266,9 @@ def cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
     return (*contact_force(contact, load, slip, entrainment_speed, entrainment_slope), None)
 
 
-def friction_power(contact, slip, ring_speed, spin_force, detail):
-    """Frictional power of a contact ∫τ v dA [W] (33): |F Δu| where slip does not vary, else with microslip's part."""
-    if detail is None:
-        return abs(spin_force * slip)
-    return _curved_power(contact, slip, ring_speed, spin_force, detail)
-
-
-@jit_inline
-def _curved_power(contact, slip, ring_speed, spin_force, detail):
-    shape = contact.shape
-    if not shape.microslip:
-        return abs(spin_force * slip)
-    curvature = shape.curvature_ratio * shape.roller_radius * detail.lag
-    return slip * spin_force + ring_speed * (curvature - shape.spin_ratio * detail.skew)
-
-
-def asperity_power(detail):
-    """Part of a contact's frictional power that asperities dissipate [W]; zero for a plain contact."""
-    return 0.0 if detail is None else detail.asperity_power
-
-
 def is_curved(contact) -> bool:
     """Whether a contact is curved, from its numba type; for use where a kernel is compiled."""
     return getattr(contact, "instance_class", None) is CurvedContact
-
-
-@overload(asperity_power)
-def _asperity_power(detail):
-    if isinstance(detail, types.NoneType):
-        return lambda detail: 0.0
-    return lambda detail: detail.asperity_power
 
 
 @overload(raceway_force)
@@ -322,12 +293,3 @@ def _cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
         return force, slope, by_load, None
 
     return plain
-
-
-@overload(friction_power)
-def _friction_power(contact, slip, ring_speed, spin_force, detail):
-    if is_curved(contact):
-        return lambda contact, slip, ring_speed, spin_force, detail: _curved_power(
-            contact, slip, ring_speed, spin_force, detail
-        )
-    return lambda contact, slip, ring_speed, spin_force, detail: abs(spin_force * slip)

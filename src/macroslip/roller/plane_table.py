@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
-from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
+from macroslip.contact.spline import NOWHERE, Axis, cell_of, no_cells
 from macroslip.contact.spline_cell import channels_in_square
 
 #: Splines of a table.
@@ -47,9 +47,7 @@ class PlaneValues(NamedTuple):
 
 def no_plane_table() -> PlaneTable:
     """A table that knows no state."""
-    return PlaneTable(
-        NOWHERE, NOWHERE, read_only(np.empty((0, 0, CHANNELS))), read_only(np.empty((0, 0), dtype=np.bool_))
-    )
+    return PlaneTable(NOWHERE, NOWHERE, *no_cells(2, CHANNELS))
 
 
 @jit_inline

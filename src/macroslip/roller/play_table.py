@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
-from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
+from macroslip.contact.spline import NOWHERE, Axis, cell_of, no_cells
 from macroslip.contact.spline_cell import channels_in_cell
 
 #: Splines of a table; two are used.
@@ -42,13 +42,7 @@ class PlayTable(NamedTuple):
 
 def no_play_table() -> PlayTable:
     """A table that knows no state."""
-    return PlayTable(
-        NOWHERE,
-        NOWHERE,
-        NOWHERE,
-        read_only(np.empty((0, 0, 0, CHANNELS))),
-        read_only(np.empty((0, 0, 0), dtype=np.bool_)),
-    )
+    return PlayTable(NOWHERE, NOWHERE, NOWHERE, *no_cells(3, CHANNELS))
 
 
 @jit_inline

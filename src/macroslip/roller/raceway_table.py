@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
-from macroslip.contact.spline import NOWHERE, Axis, cell_of, read_only
+from macroslip.contact.spline import NOWHERE, Axis, cell_of, no_cells
 from macroslip.contact.spline_cell import channels_in_cell
 
 #: Ratio of slip to ring speed by which the third coordinate is scaled.
@@ -92,16 +92,7 @@ class TableSlopes(NamedTuple):
 
 def no_raceway_table() -> RacewayTable:
     """A table that knows no state."""
-    return RacewayTable(
-        NOWHERE,
-        NOWHERE,
-        NOWHERE,
-        0.0,
-        0.0,
-        1.0,
-        read_only(np.empty((0, 0, 0, CHANNELS))),
-        read_only(np.empty((0, 0, 0), dtype=np.bool_)),
-    )
+    return RacewayTable(NOWHERE, NOWHERE, NOWHERE, 0.0, 0.0, 1.0, *no_cells(3, CHANNELS))
 
 
 @jit_inline
@@ -123,34 +114,6 @@ def _cell_of_state(table, load, ring_speed, slip):
 
 
 @jit_inline
-def table_force(table, load, ring_speed, slip):
-    """Look a state up: Q > 0 [N], u2 [m/s] and Δu [m/s].
-
-    Returns
-    -------
-    TableForce
-        Zeros where the table does not know the state.
-    """
-    cell, places, root, size = _cell_of_state(table, load, ring_speed, slip)
-    if cell[0] < 0:
-        return TableForce(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    value, _, _, by_ratio = channels_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
-    sign = math.copysign(1.0, ring_speed)
-    pull_scale = sign * load
-    lag_scale = pull_scale * root * root
-    by_slip = table.ratio.per_spacing / (SLIP_RATIO * size * ring_speed)
-    return TableForce(
-        True,
-        pull_scale * value[0],
-        lag_scale * value[1],
-        sign * table.side * load * root * value[2],
-        load * root * root * abs(ring_speed) * value[3],
-        pull_scale * by_ratio[0] * by_slip,
-        lag_scale * by_ratio[1] * by_slip,
-    )
-
-
-@jit_inline
 def _grown(scale, power, value, by_coordinate, by_load):
     """Derivative by load of scale · Q · value, where scale · Q goes with the load to `power`."""
     return scale * (value * power + by_coordinate * by_load)
@@ -158,7 +121,7 @@ def _grown(scale, power, value, by_coordinate, by_load):
 
 @jit_inline
 def table_slopes(table, load, ring_speed, slip):
-    """Look a state up with all derivatives; parameters as for `table_force`.
+    """Look a state up with all derivatives: Q > 0 [N], u2 [m/s] and Δu [m/s].
 
     Returns
     -------
@@ -193,3 +156,17 @@ def table_slopes(table, load, ring_speed, slip):
         (pull * third[0] * by_slip, lag * third[1] * by_slip, skew * third[2] * by_slip),
         load * root * root * abs(ring_speed) * value[3],
     )
+
+
+@jit_inline
+def table_force(table, load, ring_speed, slip):
+    """Look a state up; parameters as for `table_slopes`, of which this is a part.
+
+    Returns
+    -------
+    TableForce
+        Zeros where the table does not know the state.
+    """
+    found = table_slopes(table, load, ring_speed, slip)
+    (pull, lag, skew), (pull_slope, lag_slope, _) = found.value, found.by_slip
+    return TableForce(found.known, pull, lag, skew, found.asperity_power, pull_slope, lag_slope)

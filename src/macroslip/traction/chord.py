@@ -112,13 +112,28 @@ def chord_stress(fluid, pressure, film_thickness, slip):
     >>> round(chord_stress(full, 1e9, 5e-7, 1.0) / (0.04 * 1e9 * math.pi / 4), 4)
     0.9999
     """
-    total = 0.0
+    viscosities, limits = along_chord(fluid, pressure)
+    return stress_along(fluid, viscosities, limits, film_thickness, slip)
+
+
+@jit
+def along_chord(fluid, pressure):
+    """Viscosity [Pa s] and limiting or Eyring stress [Pa] at the nodes of a chord whose largest pressure is given [Pa]."""
+    viscosities, limits = np.empty(_COSINES.size), np.empty(_COSINES.size)
     for node in range(_COSINES.size):
         local = pressure * _COSINES[node]
-        log_eta, _ = log_viscosity(fluid, local)
-        viscous = math.exp(log_eta) * slip / film_thickness
-        limit = characteristic_stress(fluid, local)
-        stress, _, _ = heated_shear(fluid.rheology, viscous, limit, fluid.heating * film_thickness * slip)
+        viscosities[node] = math.exp(log_viscosity(fluid, local)[0])
+        limits[node] = characteristic_stress(fluid, local)
+    return viscosities, limits
+
+
+@jit
+def stress_along(fluid, viscosities, limits, film_thickness, slip):
+    """Mean stress q [Pa] of a chord whose nodes have these viscosities [Pa s] and limiting or Eyring stresses [Pa]."""
+    total = 0.0
+    rate, heat = slip / film_thickness, fluid.heating * film_thickness * slip
+    for node in range(_COSINES.size):
+        stress, _, _ = heated_shear(fluid.rheology, viscosities[node] * rate, limits[node], heat)
         total += _WEIGHTS[node] * stress
     return total
 

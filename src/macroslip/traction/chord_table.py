@@ -20,8 +20,15 @@ from macroslip.compiled import jit, jit_inline, jit_part
 from macroslip.contact.spline import tensor_coefficients
 from macroslip.contact.spline_cell import along_line, in_cell, weights_and_slopes
 from macroslip.contact.table_store import stored, table_key
-from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, chord_stress, log_viscosity
-from macroslip.traction.rheology import LIMITING_SHEAR, NEWTONIAN
+from macroslip.traction.chord import (
+    Fluid,
+    along_chord,
+    characteristic_slip,
+    characteristic_stress,
+    log_viscosity,
+    stress_along,
+)
+from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, NEWTONIAN
 
 #: Largest pressure of the table [Pa]; higher ones are treated as this one.
 HIGHEST_PRESSURE = 4e9
@@ -30,7 +37,19 @@ _THINNEST, _THICKEST = 2e-8, 4e-4
 _FASTEST = 5.0
 # A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip already.
 _LOWEST_LOG_SLIP = -12.0
-_PRESSURES, _SLIP_SPACING, _FILM_SPACING = 80, 0.3, 0.35
+
+
+class _Grid(NamedTuple):
+    """Number of pressures, and spacing of slips and films in their logarithms."""
+
+    pressures: int
+    slip_spacing: float
+    film_spacing: float
+
+
+#: Eyring's stress has no corner at a limit: with a third of the nodes, interpolated stress is off by a tenth of what that of
+#: limiting shear is.
+_GRIDS = {NEWTONIAN: _Grid(80, 0.3, 0.35), LIMITING_SHEAR: _Grid(80, 0.3, 0.35), EYRING: _Grid(56, 0.45, 0.5)}
 
 
 class ChordTable(NamedTuple):
@@ -61,27 +80,29 @@ class ChordTable(NamedTuple):
 
 @lru_cache(maxsize=16)
 def chord_table(fluid: Fluid) -> ChordTable:
-    """The table of a fluid, computed in about a second and kept, by this process and on disk.
+    """The table of a fluid, computed in half a second to two seconds and kept, by this process and on disk.
 
     Notes
     -----
-    With Roelands' viscosity the relative error of the interpolated stress is below 1e-3 (in 99 of 100 places 1e-4) up to
-    2 GPa and 0.05 m/s in films of 0.1 to 2 µm, and from 1 kPa to 30 MPa in any film. Where a contact above 1 GPa skids at 0.4 m/s
-    and limited stress gives way to heating it reaches 1 %, in less than one place in a hundred; with Barus' viscosity,
-    4 %. In films beyond 10 µm under more than 30 MPa or slips beyond 0.6 m/s it may be
-    several per cent. The limiting stress itself is never exceeded.
+    With limiting shear and Roelands' viscosity the relative error of the interpolated stress is below 1e-3 (in 99 of 100
+    places 1e-4) up to 2 GPa and 0.05 m/s in films of 0.1 to 2 µm, and from 1 kPa to 30 MPa in any film. Where a contact
+    above 1 GPa skids at 0.4 m/s and limited stress gives way to heating it reaches 1 %, in less than one place in a hundred;
+    with Barus' viscosity, 4 %. In films beyond 10 µm under more than 30 MPa or slips beyond 0.6 m/s it may be several per
+    cent. With Eyring's law it is 5e-4 at most (3e-5) up to 0.05 m/s, and 2e-3 beyond, for viscosities of 0.05 to 1.5 Pa s.
+    The limiting stress itself is never exceeded.
     """
-    roots = np.linspace(0.0, HIGHEST_PRESSURE**0.25, _PRESSURES)
-    films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + _FILM_SPACING, _FILM_SPACING)
+    count, slip_spacing, film_spacing = _GRIDS[fluid.rheology]
+    roots = np.linspace(0.0, HIGHEST_PRESSURE**0.25, count)
+    films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + film_spacing, film_spacing)
     slowest = min(_slip_scale(fluid, p, math.exp(films[0])) for p in np.maximum(roots**4, _LOWEST_PRESSURE)[1:])
     # A spline needs five nodes, even where stress is proportional to slip all through: Newtonian, without heating.
-    highest = max(math.log(_FASTEST / slowest) + _SLIP_SPACING, _LOWEST_LOG_SLIP + 4.5 * _SLIP_SPACING)
-    slips = np.arange(_LOWEST_LOG_SLIP, highest, _SLIP_SPACING)
+    highest = max(math.log(_FASTEST / slowest) + slip_spacing, _LOWEST_LOG_SLIP + 4.5 * slip_spacing)
+    slips = np.arange(_LOWEST_LOG_SLIP, highest, slip_spacing)
     pressures = np.maximum(roots**4, _LOWEST_PRESSURE)
     viscosities = tensor_coefficients(np.array([log_viscosity(fluid, p)[0] for p in pressures]), 1)
     grid = pressures, slips, films
     (values,) = stored(table_key("chord", fluid, *grid), lambda: [tensor_coefficients(_fill(fluid, *grid), 3)])
-    return ChordTable(fluid, values, viscosities, float(roots[1]), _SLIP_SPACING, _FILM_SPACING, float(films[0]))
+    return ChordTable(fluid, values, viscosities, float(roots[1]), slip_spacing, film_spacing, float(films[0]))
 
 
 def _slip_scale(fluid: Fluid, pressure: float, film_thickness: float) -> float:
@@ -101,12 +122,13 @@ def _fill(fluid, pressures, slips, films):
     values = np.empty((pressures.size, films.size, slips.size))
     for i in range(pressures.size):
         log_eta, _ = log_viscosity(fluid, pressures[i])
+        viscosities, limits = along_chord(fluid, pressures[i])
         for k in range(films.size):
             film = math.exp(films[k])
             scale = characteristic_slip(fluid, log_eta, pressures[i], film)
             reference = _reference(fluid, log_eta, pressures[i], film, scale)
             for j in range(slips.size):
-                stress = chord_stress(fluid, pressures[i], film, scale * math.exp(slips[j]))
+                stress = stress_along(fluid, viscosities, limits, film, scale * math.exp(slips[j]))
                 values[i, k, j] = math.log(stress) - reference
     return values
 

@@ -119,6 +119,6 @@ def _heating_parameter(rheology, viscous_stress, characteristic_stress, heat, po
         change = abs(following - c)
         c = following
         # Newton's next change would be of the order of this one squared.
-        if change <= 1e-8 * c:
+        if change <= 1e-6 * c:
             break
     return c

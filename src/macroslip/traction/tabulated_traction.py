@@ -13,19 +13,27 @@ from typing import NamedTuple
 import numpy as np
 from scipy.ndimage import minimum_filter
 
-from macroslip.compiled import depend_on, jit
+from macroslip.compiled import jit
 from macroslip.contact.interface import Interface
-from macroslip.contact.spline import Axis, axis_nodes, log_axis, nearest_cell, tensor_coefficients
+from macroslip.contact.spline import Axis, nearest_cell
 from macroslip.contact.spline_cell import channels_in_cell
-from macroslip.errors import InputError
-from macroslip.traction.traction_law import patch_traction, register, register_type
+from macroslip.contact.tabulated_function import Coordinate, Function, Kind, prepared_once, splines
+from macroslip.traction.traction_law import register_name, register_type
 
-#: Loads [N], films [m] and slips [m/s] of a table, and the distance of its nodes in their logarithms.
-_LOADS, _FILMS, _SLIPS, _SPACING = (1e-3, 1e6), (1e-9, 1e-3), (1e-10, 1e2), 0.3
-#: Relative error at random states beyond which a function is refused, and the states where contacts of a bearing are.
-_LARGEST_ERROR = 1e-2
-_USUAL = ((1.0, 2e5), (3e-8, 1e-5), (1e-7, 1.0))
-_STATES, _CHANNELS = 3000, 4
+_KIND = Kind(
+    "traction law",
+    "a force",
+    "force",
+    "N",
+    (
+        Coordinate("a load", "load", "N", 1e-3, 1e6),
+        Coordinate("a film", "film", "m", 1e-9, 1e-3),
+        Coordinate("a slip", "slip", "m/s", 1e-10, 1e2),
+    ),
+    spacing=0.3,
+)
+#: Loads [N], films [m] and slips [m/s] of contacts of a bearing, and how many random states among them are compared.
+_USUAL, _STATES = ((1.0, 2e5), (3e-8, 1e-5), (1e-7, 1.0)), 3000
 
 
 class TabulatedTraction(NamedTuple):
@@ -100,79 +108,22 @@ def register_function(name: str, traction: Callable, *, reference: str) -> None:
     >>> register_function("couette", lambda interface, load, film, slip: 1e-4 * slip / film, reference="none")
     >>> traction_law.remove("couette")
     """
-
-    def prepare(interface: Interface) -> TabulatedTraction:
-        return tabulated(name, traction, interface)
-
-    # A name belongs to the module that registers it.
-    prepare.__module__ = traction.__module__
-    depend_on(traction)
-    register(
-        name,
-        TabulatedTraction,
-        reference=reference,
-        prepare=prepare,
-        traction=tabulated_traction,
-        rising_slip=_rising_slip,
-    )
+    prepare = prepared_once(traction, lambda interface: tabulated(name, traction, interface))
+    register_name(name, reference=reference, prepare=prepare)
 
 
 def tabulated(name: str, traction: Callable, interface: Interface) -> TabulatedTraction:
     """Tabulate a function for an interface; the parameters and errors are those of `register_function`."""
-    axes = [log_axis(bounds, _SPACING) for bounds in (_LOADS, _FILMS, _SLIPS)]
-    grid = np.meshgrid(*(np.exp(axis_nodes(one)) for one in axes), indexing="ij")
-    force = _asked(name, traction, interface, grid)
-    values = np.zeros((*force.shape, _CHANNELS))
-    values[..., 0] = np.log(force / grid[2])
+    law = Function(_KIND, name, traction, interface)
+    (_, _, slip), force = law.at_nodes()
+    coefficients = splines(force / slip)
     falls = np.diff(force, axis=2) <= 0.0
     first = np.where(falls.any(axis=2), falls.argmax(axis=2), force.shape[2] - 1)
-    slips = np.append(grid[2][0, 0, :-1], np.inf)
+    slips = np.append(slip[0, 0, :-1], np.inf)
     # The node before the one from which on it falls is sure to lie where it rises.
     rising = minimum_filter(np.where(np.isinf(slips[first]), np.inf, slips[np.maximum(first - 1, 0)]), size=3)
-    table = TabulatedTraction(axes[0], axes[1], axes[2], tensor_coefficients(values, 3), rising)
-    _check_smoothness(name, traction, interface, table)
-    return table
-
-
-def _asked(name: str, traction: Callable, interface: Interface, states: list[np.ndarray]) -> np.ndarray:
-    """Force [N] at states of load, film and slip."""
-    found = np.asarray(traction(interface, *states), dtype=float)
-    where = f"traction law {name}, {interface.name}"
-    if found.shape != states[0].shape:
-        raise InputError(
-            f"for arrays of shape {states[0].shape} the function returns one of shape {found.shape}",
-            where=where,
-            allowed="a force for every load, film and slip",
-            remedy="Let the function work on arrays element by element, as NumPy's functions do.",
-        )
-    wrong = ~(np.isfinite(found) & (found > 0.0))
-    if wrong.any():
-        load, film, slip = (float(one[wrong][0]) for one in states)
-        raise InputError(
-            f"at a load of {load:.4g} N, a film of {film:.4g} m and a slip of {slip:.4g} m/s the force is "
-            f"{float(found[wrong][0]):.4g} N",
-            where=where,
-            allowed=f"a positive number from {_LOADS[0]:g} to {_LOADS[1]:g} N, {_FILMS[0]:g} to {_FILMS[1]:g} m and "
-            f"{_SLIPS[0]:g} to {_SLIPS[1]:g} m/s",
-            remedy="Mend the function, or let it go on smoothly beyond the range of its formula.",
-        )
-    return found
-
-
-def _check_smoothness(name: str, traction: Callable, interface: Interface, table: TabulatedTraction) -> None:
-    """Refuse a function that the table misses at random states."""
     random = np.random.default_rng(1)
     states = [np.exp(random.uniform(math.log(low), math.log(high), _STATES)) for low, high in _USUAL]
-    expected = _asked(name, traction, interface, states)
-    found = np.array([patch_traction(table, *map(float, state))[0] for state in zip(*states, strict=True)])
-    off = np.abs(found / expected - 1.0)
-    worst = int(np.argmax(off))
-    if off[worst] > _LARGEST_ERROR:
-        load, film, slip = (one[worst] for one in states)
-        raise InputError(
-            f"the table of the function misses it by {100.0 * off[worst]:.2g} % at {load:.4g} N, {film:.4g} m and "
-            f"{slip:.4g} m/s",
-            where=f"traction law {name}, {interface.name}",
-            allowed=f"a function without jumps, that a spline follows within {100.0 * _LARGEST_ERROR:g} %",
-            remedy="Smooth the function there, or write the law with its derivatives (docs/laws.md).",
-        )
+    law.check(coefficients, states, law.at(states) / states[2])
+    by_load, by_film, by_slip = _KIND.axes()
+    return TabulatedTraction(by_load, by_film, by_slip, coefficients, rising)

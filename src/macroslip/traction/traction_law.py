@@ -50,8 +50,13 @@ def register(
     InputError
         If the name is taken by a law of another module.
     """
-    _laws.add(name, prepare, reference)
+    register_name(name, reference=reference, prepare=prepare)
     register_type(law, traction=traction, rising_slip=rising_slip)
+
+
+def register_name(name: str, *, reference: str, prepare: Callable) -> None:
+    """Make a law usable by name whose type is registered already; parameters and errors are those of `register`."""
+    _laws.add(name, prepare, reference)
 
 
 def register_type(
