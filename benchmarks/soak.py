@@ -240,7 +240,7 @@ def looked_through(folder: Path, out: Path, seen: int, check: int) -> tuple[int,
     ]
     if damaged:
         problems.append(f"{len(damaged)} results do not have their checksum")
-    return len(sound), problems + _computed_again(folder, out, runs, check)
+    return len(sound), problems + (_computed_again(folder, out, runs, check) if check else [])
 
 
 def _computed_again(folder: Path, out: Path, done: set[str], check: int) -> list[str]:
