@@ -87,6 +87,11 @@ def _limits(summary: dict[str, Any]) -> None:
         _line("total time over evaluations alone", factor, targets["overhead_factor"], share, least=False),
         _line("simulated over CPU time, default tolerance", speed["factor"], targets["real_time_factor"], errors),
     ]
+    tables = summary["tables"]
+    for row in ("downwind", "upwind"):
+        note = f"median {number(tables[row]['median'])} of 21 histories" if not summary["quick"] else "one history"
+        name = f"physical model by tables, {row}, slowest"
+        rows.append(_line(name, tables[row]["least"], targets["tables_real_time_factor"], note))
     if threads is not None:
         both = f"rollers alone {threads['rollers']:.3g}; the machine itself, by hashing, {threads['hashing']:.3g}"
         rows.append(_line("two threads over one, simulate()", threads["simulate"], targets["thread_speedup"], both))

@@ -16,7 +16,7 @@ from macroslip.integrate.path import Limits
 from macroslip.integrate.sealed import SealedModel
 from macroslip.loads import HubLoads, bundled_cases, main_bearing_load
 from macroslip.mechanisms import Laws
-from macroslip.result.simulate import radau_limits
+from macroslip.result.simulate import evaluated_models, radau_limits
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.roller.model import RollerModel, highest_load, ring_geometry, roller_model
@@ -78,15 +78,25 @@ def fixed_histories(*, quick: bool) -> list[History]:
     return found
 
 
-def long_histories(*, quick: bool) -> list[History]:
+def long_histories(*, quick: bool, laws: Laws = Laws.paper(), tables: bool = False) -> list[History]:
     """All 21 cases over their 600 s, one roller of each row; in the quick run the one case of the comparison."""
     names = bundled_cases()
     chosen = [(number, name) for number, name in enumerate(names) if not quick or name in QUICK[0]]
-    return [history for number, name in chosen for history in histories_of(name, None, None, [7 * number % 28])]
+    return [
+        history
+        for number, name in chosen
+        for history in histories_of(name, None, None, [7 * number % 28], laws, tables=tables)
+    ]
 
 
 def histories_of(
-    name: str, start: float | None, end: float | None, rollers: Sequence[int], laws: Laws = Laws.paper()
+    name: str,
+    start: float | None,
+    end: float | None,
+    rollers: Sequence[int],
+    laws: Laws = Laws.paper(),
+    *,
+    tables: bool = False,
 ) -> list[History]:
     """Some rollers of each row under part of a bundled case.
 
@@ -100,6 +110,8 @@ def histories_of(
         Numbers in the row.
     laws : Laws
         Mechanisms in the contacts.
+    tables : bool
+        Whether contacts are looked up in tables, as `simulate` would; else their laws are asked.
 
     Returns
     -------
@@ -120,6 +132,8 @@ def histories_of(
         loads, bearing, ring_geometry(bearing, models["downwind"]), highest_load(bearing, lubricant, laws)
     )
     limits = radau_limits(case, motion, models["downwind"], largest)
+    if tables:
+        models, _ = evaluated_models(case, models, motion, largest)
     found = []
     length = motion.time[-1] - motion.time[0]
     for row in ROWS:

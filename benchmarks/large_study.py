@@ -26,7 +26,7 @@ from macroslip.files import write_durably
 from macroslip.study.journal import Journal
 from macroslip.study.outcome import Outcome
 from macroslip.study.session import _manifest
-from macroslip.study.store import CASES, JOURNAL, case_path, checksum, layout, to_bytes, write_manifest
+from macroslip.study.store import CASES, JOURNAL, SUMMARY, case_path, checksum, layout, to_bytes, write_manifest
 from macroslip.study.study import Study
 from macroslip.study.study_file import study_of
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
@@ -103,7 +103,13 @@ def aggregate_it(directory: Path) -> None:
     write_tables(found, directory.parent / "tables", "parquet")
 
 
-STEPS = {"open": open_it, "aggregate": aggregate_it}
+def open_unfinished(directory: Path) -> None:
+    """Open a study whose session has not ended, so that there is no summary yet: from the journal."""
+    (directory / SUMMARY).unlink()
+    open_it(directory)
+
+
+STEPS = {"open": open_it, "aggregate": aggregate_it, "open without a summary": open_unfinished}
 
 
 def main(arguments: list[str] | None = None) -> None:

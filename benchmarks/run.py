@@ -17,6 +17,7 @@ from benchmarks.mechanisms import mechanism_costs
 from benchmarks.outcome import ASKED
 from benchmarks.rivals import INSTALL
 from benchmarks.scaling import linearity, real_time, two_threads
+from benchmarks.tables import speed_by_tables
 from benchmarks.verify import AGREEMENT, verify
 from macroslip.case.parts import Radau
 from macroslip.errors import InputError
@@ -32,6 +33,7 @@ TARGETS = {
     "real_time_factor": 20_000.0,
     "thread_speedup": 1.8,
     "physical_real_time_factor": 1_000.0,
+    "tables_real_time_factor": 20_000.0,
 }
 
 
@@ -84,6 +86,9 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
         costs = mechanism_costs(
             tolerance, quick=quick, report=lambda done, total: report("cost of mechanisms", done, total)
         )
+        tables = speed_by_tables(
+            tolerance, quick=quick, report=lambda done, total: report("physical model by tables", done, total)
+        )
         report("reference", 0, 1)
         histories = fixed_histories(quick=quick)
         references = [own.reference(history) for history in histories]
@@ -103,6 +108,7 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
             "threads": threads,
             "linearity": growth,
             "mechanisms": costs,
+            "tables": tables,
         }
         _draw(folder, results, histories, {key: one["title"] for key, one in summary["methods"].items()})
         (folder / SUMMARY).write_text(json.dumps(finite(summary), indent=1) + "\n", encoding="utf-8")

@@ -24,6 +24,10 @@ def test_a_pipe_is_no_file_to_replace(tmp_path):
     with pytest.raises(InputError, match="a pipe, a socket or a device"):
         files.check_new_file(tmp_path / "pipe", force=True)
     assert (tmp_path / "pipe").is_fifo()
+    with pytest.raises(InputError, match="pipe: it is a pipe, .* Allowed: a file. Name another."):
+        files.check_regular(tmp_path / "pipe", "Name another.")
+    for name in ("absent", "", "a\0b"):  # their reader has words for these
+        files.check_regular(tmp_path / name, "Name another.")
 
 
 def test_a_zero_byte_in_a_name_is_refused_in_words(tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import shutil
+import stat
 import uuid
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -14,6 +15,8 @@ from macroslip.errors import InputError
 
 #: End of the names of files under way; what bears it was never finished.
 UNFINISHED = ".part"
+#: What is wrong with a path that is neither a file nor a folder.
+SPECIAL = "it is a pipe, a socket or a device, not a file"
 
 
 def write_durably(path: Path, content: bytes) -> None:
@@ -72,6 +75,53 @@ def flush_folder(folder: Path) -> None:
         os.close(descriptor)
 
 
+def is_special(path: Path) -> bool:
+    """Whether a path leads to a pipe, a socket or a device, of which a reader would wait for ever or see no end.
+
+    Raises
+    ------
+    OSError, ValueError
+        If there is nothing, or nothing can have this name.
+    """
+    kind = path.stat().st_mode
+    return not (stat.S_ISREG(kind) or stat.S_ISDIR(kind))
+
+
+def check_regular(path: Path, remedy: str) -> None:
+    """Refuse a pipe, a socket or a device in the place of a file, before it is opened.
+
+    What is not there, and a folder, pass: their reader has words for them.
+
+    Parameters
+    ----------
+    path : Path
+        Anything that somebody has named, or that lies where a file should.
+    remedy : str
+        What to do about it.
+
+    Raises
+    ------
+    InputError
+    """
+    special = False
+    with contextlib.suppress(OSError, ValueError):
+        special = is_special(path)
+    if special:
+        raise InputError(SPECIAL, where=str(path), allowed="a file", remedy=remedy)
+
+
+def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
+    """Refuse to replace a file that the output is made from, by whatever name; those that do not exist are passed over.
+
+    Raises
+    ------
+    InputError
+    """
+    if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
+        what = "this is a file that the output is made from"
+        raise InputError(what, where=str(path), remedy="Choose another name; it would be lost.")
+
+
 def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> None:
     """Refuse a file that cannot be made, before anything is computed for it.
 
@@ -92,14 +142,10 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
     """
     folder, where = path.parent, str(path)
     check_no_zero_byte(where)
-    if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
-        what = "this is a file that the output is made from"
-        raise InputError(what, where=where, remedy="Choose another name; it would be lost.")
+    check_not_input(path, inputs)
     if path.is_dir():
         raise InputError("this is a folder", where=where, allowed="a file", remedy="Add the name of a file to it.")
-    if path.exists() and not path.is_file():
-        what = "this is a pipe, a socket or a device"
-        raise InputError(what, where=where, allowed="a file", remedy="Choose another name.")
+    check_regular(path, "Choose another name.")
     if path.exists() and not force:
         raise InputError("the file exists", where=where, remedy="Choose another name, or replace it with --force.")
     if not folder.is_dir():

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from macroslip.errors import InputError
+from macroslip.files import check_regular
 
 _ALLOWED = "a Python file that registers film or traction laws, as macroslip init --example laws writes"
 
@@ -61,6 +62,7 @@ file that registers film or traction laws, as macroslip init --example laws writ
     from macroslip.traction import traction_law as traction_law
 
     path = Path(path)
+    check_regular(path, "Name a Python file.")
     try:
         text = path.read_bytes()
     except OSError as error:

@@ -45,6 +45,17 @@ def test_the_folder_of_a_study(folder, macroslip):
     assert macroslip("study", "study.yaml", "-o", "out", "--resume", "--quiet").code == 0, "the page is in no way"
 
 
+def test_no_file_of_a_study_becomes_its_page(folder, macroslip):
+    text = "case: {rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A]}\n"
+    (folder / "study.yaml").write_text(text, encoding="utf-8")
+    assert macroslip("study", "study.yaml", "-o", "out", "--quiet").code == 0
+    before = {path: path.read_bytes() for path in (folder / "out").rglob("*") if path.is_file()}
+    for path in before:
+        done = macroslip("report", "out", "-o", path, "--force")
+        assert done.code == 2 and "a file that the output is made from" in done.err
+    assert {path: path.read_bytes() for path in (folder / "out").rglob("*") if path.is_file()} == before
+
+
 def test_weights_belong_to_studies(ran, macroslip):
     done = macroslip("report", "out", "--weibull", 9, 2)
     assert done.code == 2 and "--weibull is given for results that are no study" in done.err

@@ -47,6 +47,10 @@ def test_from_a_study_file_to_tables(study, macroslip):
     assert "energy of a roller in 25 years" in done.out and "written: tables/lifetime.csv" in done.out
     (study / "p.csv").write_text("bin,probability\n14,0.2\n")
     assert macroslip("aggregate", "out", "-o", "tables", "--probabilities", "p.csv", "--format", "parquet").code == 0
+    (study / "p.csv").rename(study / "bins.csv")
+    done = macroslip("aggregate", "out", "-o", ".", "--probabilities", "bins.csv")
+    assert done.code == 2 and "bins.csv: this is a file that the output is made from" in done.err
+    assert not (study / "cases.csv").exists()
     assert pq.read_table("tables/bins.parquet")["probability"].to_pylist() == [0.2, 0.2]
 
 

@@ -1,13 +1,16 @@
 """The folder of a study with random damage, read as `aggregate` and `report` read it."""
 
+import os
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.large_study import study, write_study
+from macroslip import InputError
 from macroslip.study.export import tables
 from macroslip.study.reader import open_study, stored_results
-from macroslip.study.store import JOURNAL, MANIFEST, RUNS
+from macroslip.study.store import JOURNAL, MANIFEST, RUNS, SUMMARY
 from macroslip.study.weights import Weibull
 from tests.fuzz.mutations import damaged
 from tests.fuzz.oracle import app_of, ends_well, examples
@@ -23,7 +26,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def contents(folder):
     (result,) = (folder / "study" / "cases").rglob("*.nc")
-    names = [MANIFEST, RUNS, JOURNAL, str(result.relative_to(folder / "study"))]
+    names = [MANIFEST, RUNS, JOURNAL, SUMMARY, str(result.relative_to(folder / "study"))]
     return {name: (folder / "study" / name).read_bytes() for name in names}
 
 
@@ -56,4 +59,20 @@ def test_damaged(folder, contents, data):
     name = data.draw(st.sampled_from(sorted(contents)))
     content = data.draw(damaged(contents[name], binary=name not in (MANIFEST, JOURNAL)))
     _with(folder, contents, **{name: content})
+    if name == JOURNAL and data.draw(st.booleans()):  # otherwise the summary is read in its place
+        (folder / "study" / SUMMARY).unlink()
     _ends_well(folder)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are a thing of Unix")
+@pytest.mark.timeout(60)
+def test_a_pipe_in_place_of_any_file(folder, contents):
+    for name in [*contents, "lock"]:
+        _with(folder, contents)
+        (folder / "study" / name).unlink(missing_ok=True)
+        os.mkfifo(folder / "study" / name)
+        try:
+            with pytest.raises(InputError, match="it is a pipe, a socket or a device"):
+                open_study(folder / "study")
+        finally:
+            (folder / "study" / name).unlink()

@@ -1,11 +1,16 @@
 """Laws of one's own that break their contract are refused before the first step, those of the examples are not."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from numba import njit
+from numba.core.errors import NumbaError
+
+from macroslip.result.own_laws import _reason
 
 pytestmark = pytest.mark.slow
 
@@ -149,3 +154,21 @@ def test_a_sound_law_is_not(said, law):
 
 def test_a_simulation_looks_before_its_first_step(said):
     assert said["simulated"] == said["negative"] != ""
+
+
+def test_the_compilers_pages_become_two_lines():
+    @njit
+    def stumbles(x):
+        return x + nowhere  # noqa: F821
+
+    @njit
+    def mixed(x):
+        return "a" + x
+
+    for function, words in (
+        (stumbles, "NameError: name 'nowhere' is not defined"),
+        (mixed, r"No implementation of .*: >>> add\(Literal\[str\]\(a\), float64\); test_own_laws.py, line \d+"),
+    ):
+        with pytest.raises(NumbaError) as found:
+            function(1.0)
+        assert re.fullmatch(words, _reason(found.value))

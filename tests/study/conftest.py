@@ -99,7 +99,7 @@ def counted(monkeypatch):
 
 def _journal(directory):
     """The sound records of a folder's journal."""
-    return [record for _, record in records(Path(directory) / JOURNAL) if record is not None]
+    return [record for record in records(Path(directory) / JOURNAL) if record is not None]
 
 
 def _done(directory):

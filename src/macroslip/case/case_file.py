@@ -143,7 +143,7 @@ class CaseBuilder:
         names, path = kind.catalogue(), self.folder / name
         if name in names:
             return kind.read(name)
-        if not path.is_file():
+        if not path.exists():
             close = get_close_matches(name, names, n=1)
             raise InputError(
                 f"{shown(name)} is neither in the catalogue nor a file",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import stat
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +14,7 @@ from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.events import AliasEvent, CollectionEndEvent, CollectionStartEvent, ScalarEvent
 
 from macroslip.errors import InputError
+from macroslip.files import SPECIAL, is_special
 
 # A bearing file has 6 kB, 250 nodes and 2 levels. Some thousand nodes parse in a second; YAML without bounds can
 # describe a file of any size in a few lines.
@@ -105,18 +105,16 @@ def read_text(path: Path, what: str, *, where: str = "", allowed: str = "", reme
         return InputError(f"{what} ({reason})", where=where, allowed=allowed, remedy=remedy)
 
     try:
-        kind = path.stat().st_mode
-        regular = stat.S_ISREG(kind) or stat.S_ISDIR(kind)  # the system has its own words for a folder
-        content = b""
-        if regular:
+        special, content = is_special(path), b""
+        if not special:  # the system has its own words for a folder
             with path.open("rb") as file:
                 content = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise unreadable(error.strerror or str(error)) from None
     except ValueError:  # a NUL, or what UTF-8 cannot write
         raise unreadable("no file can have this name") from None
-    if not regular:
-        raise unreadable("it is a pipe, a socket or a device, not a file")
+    if special:
+        raise unreadable(SPECIAL)
     if len(content) > MOST_BYTES:
         raise InputError(
             "the file is too long",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from macroslip.errors import InputError
+from macroslip.files import check_not_input, check_regular
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -47,6 +48,8 @@ def aggregate(
         raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
     study = open_study(directory)
     found = tables(study, _weights(weibull, probabilities), years=years, field=field, width=width, by=by or ())
+    for name in found:
+        check_not_input(output / f"{name}.{form}", [probabilities] if probabilities else [])
     written = write_tables(found, output, form)
     if as_json:
         from macroslip.cli.printing import print_json
@@ -73,6 +76,7 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
         return None
     import pandas as pd
 
+    check_regular(probabilities, "Name a CSV table.")
     try:
         given = pd.read_csv(probabilities)
         return Given(dict(zip(given["bin"].astype(float), given["probability"].astype(float), strict=True)))

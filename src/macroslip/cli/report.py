@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -43,7 +44,7 @@ def report(
         output = (results if results.is_dir() else results.parent) / PAGE
     make = _of_study if is_study(results) else _of_results
     if results.exists():
-        check_new_file(output, force=force, inputs=[results] if results.is_file() else results.glob("*.nc"))
+        check_new_file(output, force=force, inputs=_inputs(results, output))
     page, failed = make(results, title, weibull)
     with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8")
@@ -52,6 +53,19 @@ def report(
     if failed:
         tell(f"failed: {failed}; the page says which.")
         raise typer.Exit(ROLLERS_FAILED)
+
+
+def _inputs(results: Path, output: Path) -> Iterable[Path]:
+    """Files that the page is made from, as far as the output could be one of them."""
+    from macroslip.report.study_page import is_study
+    from macroslip.study.store import CASES, parts
+
+    if not results.is_dir():
+        return [results]
+    if not is_study(results):
+        return results.glob("*.nc")
+    stored = (results / CASES).resolve() in output.resolve().parents
+    return [*parts(results), *([output] if stored else [])]
 
 
 def _of_results(results: Path, title: str | None, weibull: tuple[float, float] | None) -> tuple[str, str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,6 +11,7 @@ import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
 from macroslip.cli.progress import progress_bar
+from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
@@ -40,7 +43,7 @@ def run(
     from macroslip.result.simulate import simulate
     from macroslip.result.stored import to_netcdf
 
-    with progress_bar(quiet=quiet) as report:
+    with progress_bar(quiet=quiet) as report, _named(case, checked.loads.source):
         progress = report and (lambda done, total: report("rollers", done, total))
         dataset = with_rating(simulate(checked, threads=threads, progress=progress), checked)
     # In memory first: the HDF5 library may bring the whole process down when the disk is full.
@@ -56,6 +59,21 @@ def run(
         typer.echo(f"written: {output}")
     if _tell_failures(dataset):
         raise typer.Exit(ROLLERS_FAILED)
+
+
+@contextmanager
+def _named(case: Path, loads: str) -> Iterator[None]:
+    """Name the case file, and the key of its loads, in what is found wrong while it is computed."""
+    try:
+        yield
+    except InputError as problem:
+        place = f"loads, {problem.where}" if problem.where.startswith(loads) else problem.where
+        where = f"{case}, {place}" if place else str(case)
+        raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
+    except MemoryError:
+        what = "the computer has not enough memory for this case"
+        remedy = "Use shorter loads, fewer rollers or no traces."
+        raise InputError(what, where=f"{case}, loads, rollers or traces", remedy=remedy) from None
 
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from macroslip.errors import InputError
+from macroslip.files import check_regular
 
 #: What to do about a file that no reader can make sense of.
 DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it holds."
@@ -26,6 +27,7 @@ def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: 
         What to do about an extension that is not among `kinds`.
     """
     path = Path(path)
+    check_regular(path, "Name a file with loads.")
     if not path.is_file():
         what = "is a folder, not a file" if path.is_dir() else "no such file"
         raise InputError(what, where=str(path), remedy=f"Check the path; the current folder is {Path.cwd()}.")

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from macroslip.errors import InputError
+from macroslip.files import check_regular
 from macroslip.hdf5_file import check_hdf5
 from macroslip.result.stored import REMEDY, check_result
 
@@ -34,6 +35,8 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
         raise InputError(
             "the folder holds no netCDF file", where=str(path), allowed="files that macroslip run wrote (*.nc)"
         )
+    for file in files:
+        check_regular(file, REMEDY)
     check_hdf5(files, REMEDY)
     return {file.stem: _read(file) for file in files}
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+import re
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,6 +37,8 @@ _CAGE_SHARE = 0.01
 _THINNEST, _THICKEST = 1e-9, 1e-3
 #: Time [s] that a law may take for one state, with compiling.
 _LONGEST = 120.0
+#: Lines of the compiler's messages that say nothing.
+_FAILED = "Failed in nopython mode pipeline"
 #: Begin of the last call of a law [s].
 _begun = [0.0]
 
@@ -178,9 +182,8 @@ def _called(law_of: str, count: int, function: Callable[..., Any], *arguments: A
     try:
         found = function(*arguments)
     except NumbaError as error:
-        reason = next((line.strip() for line in str(error).splitlines() if line.strip()), "")
         raise _wrong(
-            f"it cannot be compiled ({type(error).__name__}: {reason})", law_of, "what numba compiles"
+            f"it cannot be compiled ({type(error).__name__}: {_reason(error)})", law_of, "what numba compiles"
         ) from None
     except Exception as error:
         raise _wrong(f"{type(error).__name__} in it ({error})", law_of, "a function that raises nothing") from None
@@ -188,6 +191,15 @@ def _called(law_of: str, count: int, function: Callable[..., Any], *arguments: A
     if len(numbers) != count or not all(isinstance(one, (int, float)) for one in numbers):
         raise _wrong(f"it gives {found!r:.80}", law_of, f"{count} number{'s' if count > 1 else ''}")
     return numbers
+
+
+def _reason(error: NumbaError) -> str:
+    """What the compiler stumbled over, and the line of the law: of pages of text, two lines."""
+    text = str(error)
+    lines = [line.strip() for line in text.splitlines() if line.strip() and not line.startswith(_FAILED)]
+    reason = " ".join(lines[: 2 if lines[:1] and lines[0].endswith(":") else 1])
+    places = re.findall(r'File "([^"]+)", line (\d+)', text)
+    return f"{reason}; {Path(places[-1][0]).name}, line {places[-1][1]}" if places else reason
 
 
 def _wrong(what: str, where: str, allowed: str) -> InputError:

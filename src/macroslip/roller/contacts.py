@@ -10,6 +10,7 @@ from macroslip.constants import MECHANISMS
 from macroslip.contact.flash_temperature import effusivity
 from macroslip.contact.hertz import series_stiffness
 from macroslip.contact.shape import ContactShape, common_contour_radius, slipless
+from macroslip.errors import InputError
 from macroslip.film import asperity_load
 from macroslip.film import film_law as film_law
 from macroslip.film.correction import INLET_HEATING_REFERENCE, prepare_film
@@ -24,8 +25,8 @@ from macroslip.rolling.gap import GapShape
 from macroslip.traction import traction_law as traction_law
 from macroslip.traction.asperity_friction import AsperityFriction
 from macroslip.traction.barus_crook import prepare as prepare_barus_crook
-from macroslip.traction.chord import Fluid
-from macroslip.traction.chord_table import chord_table
+from macroslip.traction.chord import Fluid, log_viscosity
+from macroslip.traction.chord_table import HIGHEST_PRESSURE, chord_table
 from macroslip.traction.film_shear_law import FilmShear
 from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, RHEOLOGIES
 
@@ -38,6 +39,8 @@ if TYPE_CHECKING:
 #: Slip [m/s] from which on asperities slide fully. Junctions of about a micrometre that cross a contact 1 mm wide at
 #: 0.4 m/s are there at some 0.1 mm/s; an engineering estimate.
 _FULL_SLIP = 1e-4
+#: Largest logarithm of viscosity [Pa s] at which slip and stress are numbers still.
+_HIGHEST_LOG_VISCOSITY = 600.0
 #: Pressure by which Barus' exponent is scaled [Pa]; any will do.
 _BARUS_PRESSURE = 1e8
 #: Largest gap between a roller and the spar that pushes it [m]: half of a diametral clearance of 0.5 mm, an engineering
@@ -82,7 +85,7 @@ def fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
     Raises
     ------
     InputError
-        If its viscosity is too low for Roelands' law.
+        If its viscosity is too low for Roelands' law, or rises beyond all numbers with pressure.
     """
     if laws.viscosity == "roelands":
         index = roelands_index(lubricant.viscosity, lubricant.pressure_viscosity)
@@ -96,7 +99,7 @@ def fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
     elif rheology == EYRING:
         characteristic = lubricant.eyring_stress
     heating = lubricant.temperature_viscosity / (8.0 * lubricant.thermal_conductivity) if laws.heating else 0.0
-    return Fluid(
+    found = Fluid(
         rheology=rheology,
         viscosity=lubricant.viscosity,
         exponent=exponent,
@@ -105,6 +108,16 @@ def fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
         characteristic=characteristic,
         heating=heating,
     )
+    highest, _ = log_viscosity(found, HIGHEST_PRESSURE)
+    if highest > _HIGHEST_LOG_VISCOSITY:
+        raise InputError(
+            f"viscosity rises to 1e{highest / math.log(10.0):.0f} Pa s at {HIGHEST_PRESSURE / 1e9:g} GPa, "
+            f"with a pressure-viscosity coefficient of {1e9 * lubricant.pressure_viscosity:g} 1/GPa",
+            where="lubricant, pressure_viscosity",
+            allowed=f"up to 1e{_HIGHEST_LOG_VISCOSITY / math.log(10.0):.0f} Pa s; oils have 10 to 50 1/GPa",
+            remedy="Look at the number and its unit.",
+        )
+    return found
 
 
 def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, microslip: bool) -> ContactShape:

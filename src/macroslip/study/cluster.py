@@ -7,6 +7,7 @@ bounded memory. Where cases are short and workers many, several runs travel toge
 from __future__ import annotations
 
 import asyncio
+import atexit
 import importlib.util
 import logging
 import math
@@ -62,7 +63,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
         Called with a line that the user should know.
     """
     import dask
-    from distributed import Client, LocalCluster
+    from distributed import Client
 
     # What matters of Dask's own messages is told by the study itself.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
@@ -70,16 +71,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
     with dask.config.set({"distributed.worker.profile.enabled": False}):
         if scheduler is None:
             with (
-                LocalCluster(
-                    n_workers=workers,
-                    threads_per_worker=1,
-                    processes=True,
-                    host=LOOPBACK,
-                    dashboard_address=f"{LOOPBACK}:0",
-                    worker_dashboard_address=f"{LOOPBACK}:0",
-                    security=True,
-                    silence_logs=logging.CRITICAL,
-                ) as local,
+                _started_here(workers) as local,
                 # Not Dask's default: that is the user's own, and whatever they compute meanwhile would come here.
                 Client(local, set_as_default=False) as client,
             ):
@@ -92,6 +84,28 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
             raise MacroslipError(_GONE) from None
         with client:
             yield Dask(client, note)
+
+
+def _started_here(workers: int | None) -> Any:
+    """A cluster of processes of this machine."""
+    from distributed import LocalCluster
+    from distributed.deploy.spec import close_clusters
+
+    try:
+        return LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            host=LOOPBACK,
+            dashboard_address=f"{LOOPBACK}:0",
+            worker_dashboard_address=f"{LOOPBACK}:0",
+            security=True,
+            silence_logs=logging.CRITICAL,
+        )
+    except KeyboardInterrupt:
+        # When the process ends Dask would stumble over workers that have not started yet; they end with it anyway.
+        atexit.unregister(close_clusters)
+        raise
 
 
 def look_for(scheduler: str) -> None:

@@ -32,25 +32,15 @@ def decode(line: bytes) -> dict[str, Any] | None:
     return json.loads(text)
 
 
-def records(path: Path) -> Iterator[tuple[int, dict[str, Any] | None]]:
-    """Yield the position [bytes] and the record of every line, None where it is damaged; nothing without a file."""
+def records(path: Path) -> Iterator[dict[str, Any] | None]:
+    """Yield the record of every line, None where it is damaged; nothing without a file."""
     try:
         file = path.open("rb")
     except FileNotFoundError:
         return
     with file:
-        position = 0
         for line in file:
-            yield position, decode(line)
-            position += len(line)
-
-
-def record_at(path: Path, positions: Iterable[int]) -> Iterator[dict[str, Any] | None]:
-    """Yield the records at positions that `records` gave, without holding the others."""
-    with path.open("rb") as file:
-        for position in positions:
-            file.seek(position)
-            yield decode(file.readline())
+            yield decode(line)
 
 
 class Journal:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from macroslip.errors import InputError
+from macroslip.files import check_regular
 from macroslip.loads import bundled_cases
 from macroslip.study.pattern import Pattern
 from macroslip.study.safe_text import safe_text
@@ -157,6 +158,7 @@ def _from_table(path: Path) -> list[Load]:
     import pyarrow.parquet
 
     where = str(path)
+    check_regular(path, "Name a table, .csv or .parquet.")
     try:
         if path.suffix.lower() == ".csv":
             table = pa.csv.read_csv(path)

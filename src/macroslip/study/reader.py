@@ -17,10 +17,9 @@ from xarray.core import indexing
 
 from macroslip.bearing.frames import ROWS
 from macroslip.files import reading
-from macroslip.study.outcome import Outcome
+from macroslip.study.recorded import Recorded, recorded, texts
 from macroslip.study.store import REMEDY, RUNS, read_manifest, read_result
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.tables import Latest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,15 +27,6 @@ if TYPE_CHECKING:
 #: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so samples are counted.
 _RAGGED = {"orbit": "orbit", "time": "sample"}
 _LABELLED = ("roller",)
-
-
-@dataclass(frozen=True)
-class _Result:
-    """Where one result is, and how it lies in the whole; None for a run without one."""
-
-    key: str
-    checksum: str
-    rollers: tuple[int, ...]
 
 
 def open_study(directory: str | PathLike[str]) -> xr.Dataset:
@@ -76,19 +66,17 @@ def _opened(directory: Path) -> xr.Dataset:
 
     manifest, _ = read_manifest(directory)
     runs = pq.read_table(directory / RUNS, page_checksum_verification=True)
-    found = list(Latest(directory).of(runs["run"].to_pylist()))
-    coordinates: dict[str, Any] = {
-        "run": ("case", np.array(runs["run"].to_pylist(), dtype=object), _about("1", "name of the run"))
-    }
+    names = runs["run"].to_pylist()
+    found = recorded(directory, names)
+    coordinates: dict[str, Any] = {"run": ("case", np.array(names, dtype=object), _about("1", "name of the run"))}
     for name, (units, meaning) in manifest["labels"].items():
         coordinates[name] = ("case", _column(runs[name]), _about(units, meaning))
-    for name, empty in (("outcome", str(Outcome.MISSING)), ("reason", ""), ("key", "")):
-        texts = [empty if record is None else record.get(name, "") for record in found]
-        coordinates[name] = ("case", np.array(texts, dtype=object), _about("1", f"{name} of the run"))
+    for name in ("outcome", "reason", "key"):
+        coordinates[name] = ("case", found.texts[name], _about("1", f"{name} of the run"))
     details, more, attributes = _details(directory, found)
     return xr.Dataset(
         _summary(found) | details,
-        {"case": ("case", np.arange(len(found)), _about("1", "number of the run in its study")), "row": list(ROWS)}
+        {"case": ("case", np.arange(len(names)), _about("1", "number of the run in its study")), "row": list(ROWS)}
         | coordinates
         | more,
         {
@@ -124,9 +112,9 @@ def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dat
     with reading(directory, REMEDY):
         read_manifest(directory)
         runs = pq.read_table(directory / RUNS, columns=["run"])["run"].to_pylist()
-    for number, record in enumerate(Latest(directory).of(runs)):
-        if record and "detail" in record:
-            yield number, read_result(directory, record["key"], record["detail"])
+    found = recorded(directory, runs)
+    for number in np.flatnonzero(found.stored):
+        yield int(number), read_result(directory, found.texts["key"][number], found.texts["detail"][number])
 
 
 def _about(units: str, long_name: str) -> dict[str, str]:
@@ -137,49 +125,41 @@ def _column(column: Any) -> np.ndarray:
     """A label of all runs: text as objects, numbers as they are, with NaN where there is none."""
     import pyarrow as pa
 
-    if pa.types.is_string(column.type) or (pa.types.is_boolean(column.type) and column.null_count):
+    if pa.types.is_boolean(column.type) and column.null_count:
         return np.array(["" if value is None else str(value) for value in column.to_pylist()], dtype=object)
-    return column.to_numpy()
+    return texts(column) if pa.types.is_string(column.type) else column.to_numpy()
 
 
-def _summary(found: list[dict[str, Any] | None]) -> dict[str, Any]:
-    values = [(record or {}).get("values", {}) for record in found]
-    nothing = [float("nan")] * len(ROWS)
+def _summary(found: Recorded) -> dict[str, Any]:
     return {
         name: (
             ("case", "row"),
-            np.array([one.get(name, nothing) for one in values], dtype=float).reshape(-1, len(ROWS)),
+            np.stack([found.numbers[f"{name}_{row}"] for row in ROWS], axis=1),
             _about(*about),
         )
         for name, about in ROW_VARIABLES.items()
-    } | {
-        name: ("case", np.array([one.get(name, np.nan) for one in values], dtype=float), _about(*about))
-        for name, about in CASE_VARIABLES.items()
-    }
+    } | {name: ("case", found.numbers[name], _about(*about)) for name, about in CASE_VARIABLES.items()}
 
 
-def _details(
-    directory: Path, found: list[dict[str, Any] | None]
-) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+def _details(directory: Path, found: Recorded) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """Variables, coordinates and attributes of the results, opened as far as is needed to know what there is."""
     import xarray as xr
 
-    stored = {number: record for number, record in enumerate(found) if record and "detail" in record}
-    if not stored:
+    if not found.stored.any():
         return {}, {}, {}
-    kinds = {record["layout"]["variables"]: record for record in stored.values()}
-    examples = [read_result(directory, record["key"], record["detail"]) for record in kinds.values()]
-    numbers = {number: _rollers(record["layout"]) for number, record in stored.items()}
-    rollers = tuple(sorted(set().union(*set(numbers.values()))))
+    layouts, kinds = found.layouts()
+    keys, checksums = found.texts["key"], found.texts["detail"]
+    # The last result of each kind shows what variables there are.
+    last = {one["variables"]: np.flatnonzero(kinds == kind)[-1] for kind, one in enumerate(layouts)}
+    examples = [read_result(directory, keys[number], checksums[number]) for number in last.values()]
+    numbers = [_rollers(one) for one in layouts]
+    rollers = tuple(sorted(set().union(*numbers)))
     sizes: dict[str, int] = {}
-    for layout in (record["layout"] for record in stored.values()):
+    for layout in layouts:
         for name, size in layout["sizes"].items():
             sizes[name] = max(size, sizes.get(name, 0))
     sizes["roller"] = len(rollers)
-    cases = [
-        _Result(stored[n]["key"], stored[n]["detail"], numbers[n]) if n in stored else None for n in range(len(found))
-    ]
-    shared = _Shared(uuid.uuid4().hex, directory, tuple(cases), rollers, sizes)
+    shared = _Shared(uuid.uuid4().hex, directory, keys, checksums, numbers, kinds, rollers, sizes)
     variables, coordinates = {}, {}
     for name, one in {name: one for example in examples for name, one in example.variables.items()}.items():
         is_coordinate = any(name in example.coords for example in examples)
@@ -208,7 +188,10 @@ class _Shared:
 
     opened: str
     directory: Path
-    cases: tuple[_Result | None, ...]
+    keys: np.ndarray
+    checksums: np.ndarray
+    layouts: list[tuple[int, ...]]  # numbers of the rollers
+    kinds: np.ndarray  # which of the layouts a run has, -1 without a result
     rollers: tuple[int, ...]
     sizes: Mapping[str, int]
 
@@ -218,7 +201,7 @@ class _Stacked(BackendArray):
 
     def __init__(self, shared: _Shared, name: str, dims: tuple[str, ...]):
         self._shared, self._name, self._dims = shared, name, dims
-        self.shape = (len(shared.cases), *(shared.sizes[dim] for dim in dims))
+        self.shape = (len(shared.keys), *(shared.sizes[dim] for dim in dims))
         self.dtype = np.dtype(float)
 
     def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
@@ -234,13 +217,14 @@ class _Stacked(BackendArray):
 
     def _part(self, number: int, inner: tuple[Any, ...]) -> np.ndarray:
         whole = np.full(self.shape[1:], np.nan)
-        result = self._shared.cases[number]
-        if result is not None:
-            variables = _read(self._shared.opened, self._shared.directory, result.key, result.checksum).variables
+        shared = self._shared
+        if shared.kinds[number] >= 0:
+            rollers = shared.layouts[shared.kinds[number]]
+            variables = _read(shared.opened, shared.directory, shared.keys[number], shared.checksums[number]).variables
             if self._name in variables:
                 values = variables[self._name].transpose(*self._dims).values
                 places = [
-                    np.searchsorted(self._shared.rollers, result.rollers) if dim in _LABELLED else np.arange(size)
+                    np.searchsorted(shared.rollers, rollers) if dim in _LABELLED else np.arange(size)
                     for dim, size in zip(self._dims, values.shape, strict=True)
                 ]
                 whole[np.ix_(*places)] = values

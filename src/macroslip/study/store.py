@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from macroslip.errors import InputError
-from macroslip.files import UNFINISHED, write_durably
+from macroslip.files import UNFINISHED, check_regular, write_durably
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -117,6 +117,7 @@ def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:
     """
     path = case_path(directory, key)
     remedy = "Compute it again: macroslip study STUDY.yaml -o DIR --resume"
+    check_regular(path, remedy)
     try:
         content = path.read_bytes()
     except OSError as error:
@@ -142,11 +143,12 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
         If the folder holds no study, or one of another format.
     """
     path = directory / MANIFEST
+    check_parts(directory)
     try:
         content = path.read_bytes()
         manifest = json.loads(content)
         found = manifest["format"]
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         remedy = "Name a folder that macroslip study has written."
         raise InputError("there is no study in this folder", where=str(directory), remedy=remedy) from None
     except (OSError, ValueError, KeyError, TypeError) as error:
@@ -159,6 +161,22 @@ def read_manifest(directory: Path) -> tuple[dict[str, Any], str]:
             remedy="It was written by another version of macroslip; use that one, or another folder.",
         )
     return manifest, checksum(content)
+
+
+def parts(directory: Path) -> list[Path]:
+    """The files at the top of a study's folder, whether they are there or not."""
+    return [directory / name for name in sorted(OURS - {CASES, BALANCE_RUNS})]
+
+
+def check_parts(directory: Path) -> None:
+    """Refuse a folder in which a pipe, a socket or a device has the name of a file of the study.
+
+    Raises
+    ------
+    InputError
+    """
+    for path in parts(directory):
+        check_regular(path, "Remove it.")
 
 
 def check_folder(directory: Path, *, resume: bool) -> None:
@@ -174,6 +192,7 @@ def check_folder(directory: Path, *, resume: bool) -> None:
         return
     if not directory.is_dir():
         raise InputError("it is not a folder", where=where, remedy="Name a folder, new or empty.")
+    check_parts(directory)
     names = {path.name for path in directory.iterdir()}
     if names & {MANIFEST, JOURNAL}:
         if not resume:

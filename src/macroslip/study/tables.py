@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from macroslip.bearing.frames import ROWS
 from macroslip.files import flush, flush_folder, unfinished
-from macroslip.study.journal import record_at, records
+from macroslip.study.journal import records
 from macroslip.study.outcome import Outcome
+from macroslip.study.recorded import STATE, TEXTS, journal_state, of_journal
 from macroslip.study.store import JOURNAL, RUNS, SUMMARY
 from macroslip.study.study import TEMPERATURE, Study
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
@@ -19,10 +20,14 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 _BATCH = 5000
+#: Runs that lie together in a table; 50 numbers of each make some 40 MB.
+_ROW_GROUP = 100_000
 
 
 def write_runs(directory: Path, study: Study) -> None:
     """Write `runs.parquet`: one line a run, with its name and labels; a label that a run lacks is empty."""
+    import pyarrow as pa
+
     names = list(study.labels)
     kinds = _kinds(study)
 
@@ -31,49 +36,30 @@ def write_runs(directory: Path, study: Study) -> None:
         return {"run": run.name} | {name: _as(kinds[name], labels.get(name)) for name in names}
 
     schema = _schema({"run": str} | kinds, {name: units for name, (units, _) in study.labels.items()})
-    _write(directory / RUNS, schema, (line(run) for run in study.runs()))
+    batches = _batched((line(run) for run in study.runs()), _BATCH)
+    _write(directory / RUNS, schema, (pa.Table.from_pylist(list(batch), schema=schema) for batch in batches))
 
 
 def write_summary(directory: Path, study: Study) -> None:
     """Write `summary.parquet`: `runs.parquet` with how each run ended and its numbers, `_downwind` and `_upwind`."""
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
+    state = journal_state(directory / JOURNAL)
+    runs = pq.read_table(directory / RUNS)
+    found = of_journal(directory / JOURNAL, runs["run"].to_pylist())
     numbers = {f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in ROWS}
     numbers |= {name: units for name, (units, _) in CASE_VARIABLES.items()}
-    units = {name: units for name, (units, _) in study.labels.items()} | numbers
-    kinds = {"run": str} | _kinds(study) | {"outcome": str, "reason": str, "key": str, "detail": str}
-    schema = _schema(kinds | dict.fromkeys(numbers, float), units)
-    latest = Latest(directory)
-
-    def lines() -> Iterator[dict[str, Any]]:
-        with pq.ParquetFile(directory / RUNS) as runs:
-            for batch in runs.iter_batches(_BATCH):
-                rows = batch.to_pylist()
-                for row, record in zip(rows, latest.of(row["run"] for row in rows), strict=True):
-                    yield row | flat(record)
-
-    _write(directory / SUMMARY, schema, lines())
-
-
-def flat(record: dict[str, Any] | None) -> dict[str, Any]:
-    """What the summary has of a record of the journal; None: the run was not done."""
-    if record is None:
-        return {"outcome": str(Outcome.MISSING), "reason": "", "key": "", "detail": ""}
-    values = record.get("values", {})
-    return {
-        **{name: record.get(name, "") for name in ("outcome", "reason", "key", "detail")},
-        **{
-            f"{name}_{row}": value
-            for name in ROW_VARIABLES
-            if name in values
-            for row, value in zip(ROWS, values[name], strict=True)
-        },
-        **{name: values[name] for name in CASE_VARIABLES if name in values},
-    }
+    schema = _schema(dict.fromkeys(TEXTS, str) | dict.fromkeys(numbers, float), numbers)
+    # What a run does not have is empty in the table, NaN in a dataset.
+    columns = {**found.texts, **found.numbers}
+    arrays = [pa.array(columns[field.name], field.type, from_pandas=True) for field in schema]
+    schema = pa.schema([*runs.schema, *schema], metadata={STATE: state})
+    _write(directory / SUMMARY, schema, [pa.table([*runs.columns, *arrays], schema=schema)])
 
 
 class Latest:
-    """The latest record of every run in a journal, found by positions so that a million need little memory.
+    """The latest result of every run in a journal.
 
     Parameters
     ----------
@@ -91,47 +77,25 @@ class Latest:
     """
 
     def __init__(self, directory: Path):
-        self._path = directory / JOURNAL
         self.damaged = 0
         self.stored: dict[bytes, bytes] = {}
         self.keys: dict[bytes, bytes] = {}
-        self._results: dict[bytes, int] = {}
-        self._failures: dict[bytes, int] = {}
-        for position, record in records(self._path):
+        for record in records(directory / JOURNAL):
             if record is None:
                 self.damaged += 1
             else:
-                self._take(position, record)
+                self.learn(record)
 
-    def _take(self, position: int, record: dict[str, Any]) -> None:
+    def learn(self, record: dict[str, Any]) -> None:
+        """Take note of a record."""
         run, key = bytes.fromhex(record["run"]), bytes.fromhex(record.get("key", ""))
         if "outcome" in record and not Outcome(record["outcome"]).stored:
-            self._failures[run] = position
             self.keys.pop(run, None)
             return
         if "detail" in record:
-            self.stored[key], self._results[key] = bytes.fromhex(record["detail"]), position
+            self.stored[key] = bytes.fromhex(record["detail"])
         # Otherwise the record says that this run has the result of another one.
-        self._failures.pop(run, None)
         self.keys[run] = key
-
-    def learn(self, result: dict[str, Any]) -> None:
-        """Take note of a result that has just been recorded."""
-        if result.get("detail") and result.get("key"):
-            key = bytes.fromhex(result["key"])
-            self.stored[key] = bytes.fromhex(result["detail"])
-            self.keys[bytes.fromhex(result["run"])] = key
-
-    def of(self, runs: Iterable[str]) -> Iterator[dict[str, Any] | None]:
-        """The record of each run, by name; None where there is none."""
-        for some in _batched(runs, _BATCH):
-            places = [self._place(bytes.fromhex(run)) for run in some]
-            wanted = sorted(set(places) - {None})
-            found = dict(zip(wanted, record_at(self._path, wanted), strict=True)) if wanted else {}
-            yield from (found.get(place) for place in places)
-
-    def _place(self, run: bytes) -> int | None:
-        return self._failures[run] if run in self._failures else self._results.get(self.keys.get(run, b""))
 
 
 def _batched(items: Iterable[Any], size: int) -> Iterator[tuple[Any, ...]]:
@@ -173,17 +137,16 @@ def _schema(kinds: dict[str, type], units: dict[str, str]) -> pa.Schema:
     )
 
 
-def _write(path: Path, schema: pa.Schema, rows: Iterator[dict[str, Any]]) -> None:
+def _write(path: Path, schema: pa.Schema, tables: Iterable[pa.Table]) -> None:
     """Write a table piece by piece; it takes its name when it is whole and on the disk."""
-    import pyarrow as pa
     import pyarrow.parquet as pq
 
     temporary = unfinished(path)
     try:
         with temporary.open("wb") as file:
             with pq.ParquetWriter(file, schema, compression="zstd", write_page_checksum=True) as writer:
-                for batch in _batched(rows, _BATCH):
-                    writer.write_table(pa.Table.from_pylist(list(batch), schema=schema))
+                for table in tables:
+                    writer.write_table(table, row_group_size=_ROW_GROUP)
             file.flush()
             flush(file.fileno())
         temporary.replace(path)

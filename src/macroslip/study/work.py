@@ -11,7 +11,7 @@ from typing import Any
 
 from macroslip.case.case import Case
 from macroslip.errors import InputError, MacroslipError
-from macroslip.files import write_durably
+from macroslip.files import is_special, write_durably
 from macroslip.loads import BearingLoads, HubLoads, main_bearing_load
 from macroslip.loads.source_file import without_folders
 from macroslip.study.build import read_loads, template
@@ -140,7 +140,7 @@ def _loads(session: str, source: str, path: str, cut: tuple[tuple[str, float], .
 
 def _stored(path: Path) -> bytes | None:
     try:
-        return path.read_bytes()
+        return None if is_special(path) else path.read_bytes()
     except OSError:
         return None
 

@@ -22,8 +22,6 @@ from macroslip.roller.contact_force import is_curved
 from macroslip.roller.films import cage_film
 from macroslip.whole_bearing.space import CAGE_SLIDING, PUSH
 
-_FULL_TURN = 2.0 * math.pi
-
 
 class Details(NamedTuple):
     """Details of all rollers, as those of a `macroslip.integrate.record.RollerRecord`.
@@ -94,12 +92,10 @@ def new_details(count: int, orbits: int) -> Details:
 @jit_merged
 def _way(details, stations, j, shaft_angle, time):
     """The way of roller `j` since it was booked last, with the actual speed of its orbit."""
-    place = details.place[j]
-    angle = math.atan2(stations.sine[j], stations.cosine[j])
+    place, after = details.place[j], stations.angle[j]
     if math.isnan(place[0]):
-        place[0], place[1] = angle, shaft_angle
+        place[0], place[1] = after, shaft_angle
     before, shaft_before = place[0], place[1]
-    after = before + (angle - before + math.pi) % _FULL_TURN - math.pi
     turned = shaft_angle - shaft_before
     ratio = (after - before) / turned if turned != 0.0 else 0.0
     place[0], place[1], place[2] = after, shaft_angle, time

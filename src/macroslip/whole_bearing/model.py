@@ -28,14 +28,15 @@ class Rollers(NamedTuple):
     ----------
     row, cage : ndarray of int, shape (n,)
         Index of the roller's row and of its cage.
-    cosine, sine : ndarray, shape (n,)
-        Of its pocket's angle at the first sample.
+    angle, cosine, sine : ndarray, shape (n,)
+        Of its pocket at the first sample [rad], with its cosine and sine.
     inner_radius : ndarray, shape (n,)
         Effective r~_in [m], see `macroslip.whole_bearing.cage.inner_radii`.
     """
 
     row: np.ndarray
     cage: np.ndarray
+    angle: np.ndarray
     cosine: np.ndarray
     sine: np.ndarray
     inner_radius: np.ndarray
@@ -142,6 +143,7 @@ def whole_bearing(
         rollers=Rollers(
             row=row,
             cage=row if cages == 2 else np.zeros_like(row),
+            angle=angles,
             cosine=np.cos(angles),
             sine=np.sin(angles),
             inner_radius=inner_radii(bearing, cage.diameter_deviations(count).ravel()),

@@ -215,7 +215,7 @@ def book_stage(moment, span, orbit, record):
             record.impulse[j, side] += span * abs(push)
             record.push_time[j, side] += span
             record.largest_push[j, side] = max(record.largest_push[j, side], abs(push))
-            place = int((np.arctan2(stations.sine[j], stations.cosine[j]) / (2.0 * np.pi)) % 1.0 * 72.0) % 72
+            place = int((stations.angle[j] / (2.0 * np.pi)) % 1.0 * 72.0) % 72
             record.largest_by_position[j, place] = max(record.largest_by_position[j, place], abs(push))
 
 

@@ -22,8 +22,8 @@ class Stations(NamedTuple):
 
     Attributes
     ----------
-    cosine, sine : ndarray, shape (n,)
-        Of the pocket's angle θ.
+    angle, cosine, sine : ndarray, shape (n,)
+        The pocket's angle θ [rad], not wound back to one turn, with its cosine and sine.
     inner_load, outer_load, elastic_load : ndarray, shape (n,)
         Normal loads with body forces and the rings' load alone [N].
     tangential : ndarray, shape (n,)
@@ -34,6 +34,7 @@ class Stations(NamedTuple):
         What films carry beside the rings' load [N], and the interference [m], body force [N] and ring speed [m/s] at which.
     """
 
+    angle: np.ndarray
     cosine: np.ndarray
     sine: np.ndarray
     inner_load: np.ndarray
@@ -108,7 +109,7 @@ def locate(bearing, motion, interval, time, state, cages, stations):
             model = bearing.bodies[rollers.row[j]]
             cosine = rollers.cosine[j] * turn_cosine - rollers.sine[j] * turn_sine
             sine = rollers.sine[j] * turn_cosine + rollers.cosine[j] * turn_sine
-            stations.cosine[j], stations.sine[j] = cosine, sine
+            stations.angle[j], stations.cosine[j], stations.sine[j] = rollers.angle[j] + turn, cosine, sine
             ahead = (state[j, 2] - a * sine + b * cosine) / pitch
             half = 1.0 - 0.5 * ahead * ahead
             x, y = cosine * half - sine * ahead, sine * half + cosine * ahead

@@ -1,0 +1,316 @@
+"""A study on a Dask cluster whose workers are killed again and again: whether memory grows or anything is lost.
+
+    python -m benchmarks.soak --minutes 60
+
+A scheduler, two workers and `macroslip study` run as a user starts them, on the loopback interface. Once a period one
+of the workers gets SIGKILL, in turn; its nanny starts another. In the end the study is interrupted. Then every record
+of the journal must have its result with the right checksum, every run exactly one record, no run may have failed, and
+a sample of the cases computed again here must agree to the last bit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from macroslip import open_study, run_study
+from macroslip.loads import bundled_cases
+from macroslip.study.journal import records
+from macroslip.study.store import JOURNAL, case_path, checksum
+from macroslip.study.study_file import study_of
+
+#: Time between looks at the memory [s].
+_LOOK = 5.0
+#: Longest time until something that was started answers, and until the study has ended once it is interrupted [s].
+_ANSWER, _END = 120.0, 120.0
+#: More runs than an hour is enough for.
+_RUNS = 200_000
+WORKERS = 2
+
+
+class Sample(NamedTuple):
+    """What was seen at one moment: time since the first result [s], resident memory [bytes], runs that are done."""
+
+    time: float
+    scheduler: int
+    study: int
+    worker: int
+    runs: int
+    kills: int
+
+
+class Found(NamedTuple):
+    """What a soak ended with."""
+
+    samples: list[Sample]
+    kills: int
+    recorded: int
+    problems: list[str]
+
+
+def content(runs: int = _RUNS) -> dict[str, Any]:
+    """A study of ten seconds of the bundled loads: the paper's laws for all rollers, those of `physical` for a few."""
+    tilts = [round(2.0 + 1e-4 * number, 4) for number in range(-(-runs // (2 * len(bundled_cases()))))]
+    return {
+        "case": {"loads": {"start": "100 s", "end": "110 s"}},
+        "loads": {"bundled": ["all"]},
+        "models": {"paper": {}, "physical": {"laws.model": "physical", "rollers": [0, 14]}},
+        "variations": {"grid": {"drivetrain.tilt": {"values": tilts, "unit": "deg"}}},
+    }
+
+
+@contextmanager
+def started(folder: Path, name: str, *command: str) -> Iterator[subprocess.Popen]:
+    """A Python process with its output in a file, for the length of the block."""
+    with (folder / f"{name}.log").open("w", encoding="utf-8") as log:
+        process = subprocess.Popen(
+            [sys.executable, *command], stdout=log, stderr=log, cwd=folder, preexec_fn=_hear_interrupts
+        )
+    try:
+        yield process
+    finally:
+        _end(process)
+
+
+def _hear_interrupts() -> None:
+    """Undo what a shell does to commands in the background, whose children would not hear Ctrl-C either."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def _end(process: subprocess.Popen) -> None:
+    """End a process with all that it has started."""
+    import psutil
+
+    try:
+        family = [psutil.Process(process.pid), *psutil.Process(process.pid).children(recursive=True)]
+    except psutil.NoSuchProcess:
+        family = []
+    for one in family:
+        try:
+            one.kill()
+        except psutil.NoSuchProcess:
+            continue
+    process.wait()
+
+
+def soak(folder: Path, seconds: float, every: float, check: int) -> Found:
+    """Run the study for a time, kill its workers, and look at what is left.
+
+    Parameters
+    ----------
+    folder : Path
+        For the study and the logs.
+    seconds : float
+        From the first result on.
+    every : float
+        Time between kills [s].
+    check : int
+        Number of cases that are computed again.
+    """
+    (folder / "study.yaml").write_text(json.dumps(content()), encoding="utf-8")
+    dask, common = "distributed.cli.dask_", ("--host", "127.0.0.1", "--no-dashboard")
+    scheduler_file, out = folder / "scheduler.json", folder / "out"
+    with started(
+        folder, "scheduler", "-m", f"{dask}scheduler", "--port", "0", "--scheduler-file", str(scheduler_file), *common
+    ) as scheduler:
+        address = json.loads(_waited_for(scheduler_file, "}"))["address"]
+        workers = ("-m", f"{dask}worker", address, "--nworkers", str(WORKERS), "--nthreads", "1", *common)
+        command = ("-c", "from macroslip.cli import main; main()", "study", str(folder / "study.yaml"))
+        with (
+            started(folder, "workers", *workers) as nannies,
+            started(folder, "study", *command, "-o", str(out), "--scheduler", address) as study,
+        ):
+            samples, kills, problems = _watched(out, scheduler, nannies, study, seconds, every)
+            study.send_signal(signal.SIGINT)
+            try:
+                if study.wait(_END) != 130:
+                    problems.append(f"the interrupted study ended with exit code {study.returncode}")
+            except subprocess.TimeoutExpired:
+                problems.append(f"the interrupted study had not ended after {_END:g} s")
+    recorded, wrong = looked_through(folder, out, samples[-1].runs if samples else 0, check)
+    return Found(samples, kills, recorded, problems + wrong)
+
+
+def _waited_for(path: Path, end: str) -> str:
+    until = time.monotonic() + _ANSWER
+    while not path.exists() or not path.read_text(encoding="utf-8").rstrip().endswith(end):
+        if time.monotonic() > until:
+            raise TimeoutError(f"{path} is not there after {_ANSWER:g} s")
+        time.sleep(0.1)
+    return path.read_text(encoding="utf-8")
+
+
+def _watched(
+    out: Path, scheduler: subprocess.Popen, nannies: subprocess.Popen, study: subprocess.Popen, seconds: float,
+    every: float,
+) -> tuple[list[Sample], int, list[str]]:  # fmt: skip
+    """Look at the memory from the first result on, and kill a worker once a period."""
+    import psutil
+
+    samples: list[Sample] = []
+    kills, lines, position = 0, 0, 0
+    begun, killed = None, 0.0
+    limit = time.monotonic() + seconds + _ANSWER
+    while begun is None or time.monotonic() < begun + seconds:
+        if study.poll() is not None or scheduler.poll() is not None or nannies.poll() is not None:
+            return samples, kills, ["a process that should run to the end has ended; its log has the reason"]
+        if begun is None and time.monotonic() > limit:
+            return samples, kills, ["no result came"]
+        more, position = _new_lines(out / JOURNAL, position)
+        lines += more
+        if begun is None and lines:
+            begun = killed = time.monotonic()
+        workers = _workers(nannies)
+        if begun is not None:
+            memory = [psutil.Process(process.pid).memory_info().rss for process in (scheduler, study)]
+            largest = max((_resident(one) for one in workers), default=0)
+            samples.append(Sample(time.monotonic() - begun, *memory, largest, lines, kills))
+            if time.monotonic() - killed >= every and len(workers) == WORKERS:
+                workers[kills % WORKERS].kill()
+                killed, kills = time.monotonic(), kills + 1
+        time.sleep(min(_LOOK, every / 4.0))
+    return samples, kills, []
+
+
+def _new_lines(path: Path, position: int) -> tuple[int, int]:
+    """Lines that were written to a file since a position, and the position of its end."""
+    if not path.exists():
+        return 0, position
+    with path.open("rb") as file:
+        file.seek(position)
+        more = file.read()
+    return more.count(b"\n"), position + len(more)
+
+
+def _workers(nannies: subprocess.Popen) -> list[Any]:
+    """The processes of the workers below their nannies."""
+    import psutil
+
+    found = []
+    for child in psutil.Process(nannies.pid).children(recursive=True):
+        try:
+            if "spawn_main" in " ".join(child.cmdline()) and child.status() != psutil.STATUS_ZOMBIE:
+                found.append(child)
+        except psutil.NoSuchProcess:
+            continue
+    return sorted(found, key=lambda child: child.pid)
+
+
+def _resident(process: Any) -> int:
+    import psutil
+
+    try:
+        return process.memory_info().rss
+    except psutil.NoSuchProcess:
+        return 0
+
+
+def looked_through(folder: Path, out: Path, seen: int, check: int) -> tuple[int, list[str]]:
+    """Number of recorded runs, and what is wrong with them; `seen` records were counted while the study ran."""
+    problems = []
+    found = list(records(out / JOURNAL))
+    sound = [record for record in found if record is not None]
+    if len(sound) != len(found):
+        problems.append(f"{len(found) - len(sound)} lines of the journal are damaged")
+    if len(sound) < seen:
+        problems.append(f"{seen} records were seen, {len(sound)} are left")
+    runs = {record["run"] for record in sound}
+    if len(runs) != len(sound):
+        problems.append(f"{len(sound) - len(runs)} runs were computed more than once")
+    failed = [record for record in sound if record["outcome"] != "completed"]
+    if failed:
+        problems.append(f"{len(failed)} runs failed: {failed[0]['reason']}")
+    damaged = [
+        record
+        for record in sound
+        if "detail" in record and checksum(case_path(out, record["key"]).read_bytes()) != record["detail"]
+    ]
+    if damaged:
+        problems.append(f"{len(damaged)} results do not have their checksum")
+    return len(sound), problems + (_computed_again(folder, out, runs, check) if check else [])
+
+
+def _computed_again(folder: Path, out: Path, done: set[str], check: int) -> list[str]:
+    """Compute some of the load histories and parameters in this process, and compare every number."""
+    study = open_study(out)
+    chosen = random.Random(1).sample(sorted(done), min(check, len(done)))
+    cases = study.isel(case=np.isin(study.run.values, chosen))
+    problems = []
+    for number in range(cases.sizes["case"]):
+        stored = cases.isel(case=number)
+        alone = content(1)
+        alone["loads"] = {"bundled": [stored.loads.item()]}
+        alone["models"] = {stored.model.item(): alone["models"][stored.model.item()]}
+        alone["variations"]["grid"]["drivetrain.tilt"]["values"] = [float(stored["drivetrain.tilt"])]
+        with tempfile.TemporaryDirectory(dir=folder) as name:
+            run_study(study_of(alone), Path(name) / "out", threads=1)
+            computed = open_study(Path(name) / "out").isel(case=0).load()
+        same = all(
+            np.array_equal(
+                stored[variable].sel(roller=computed.roller).values, computed[variable].values, equal_nan=True
+            )
+            for variable in ("energy", "orbit_energy", "peak_power", "end_slip")
+        )
+        if not same or stored.key.item() != computed.key.item():
+            problems.append(f"run {stored.run.item()} differs from what is computed here")
+    return problems
+
+
+def table(found: Found, parts: int = 12) -> Iterator[str]:
+    """Lines of a table over the time, and what was found wrong."""
+    yield f"{'min':>6}{'runs':>9}{'kills':>7}{'scheduler MB':>14}{'study MB':>10}{'largest worker MB':>19}"
+    last = found.samples[-1].time
+    marks = [
+        found.samples[0],
+        *(min(found.samples, key=lambda s: abs(s.time - last * k / parts)) for k in range(1, parts + 1)),
+    ]
+    for one in marks:
+        sizes = [f"{size / 1e6:.1f}" for size in (one.scheduler, one.study, one.worker)]
+        yield f"{one.time / 60:>6.1f}{one.runs:>9}{one.kills:>7}{sizes[0]:>14}{sizes[1]:>10}{sizes[2]:>19}"
+    yield f"{found.recorded} runs recorded, {found.kills} workers killed"
+    yield from (found.problems or ["every record has its result, every run one record, those computed again agree"])
+
+
+def growth(samples: list[Sample], name: str) -> float:
+    """Growth of the memory of one process from the first to the second half of the time, medians [bytes]."""
+    sizes = [getattr(one, name) for one in samples]
+    half = len(sizes) // 2
+    return float(np.median(sizes[half:]) - np.median(sizes[:half]))
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Soak, print the table, and end with exit code 1 if anything is wrong."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--every", type=float, default=60.0, help="time between kills [s]")
+    parser.add_argument("--check", type=int, default=200, help="number of cases computed again in the end")
+    parser.add_argument("-o", "--output", type=Path, help="file for all samples, as JSON")
+    given = parser.parse_args(arguments)
+    with tempfile.TemporaryDirectory() as name:
+        found = soak(Path(name), 60.0 * given.minutes, given.every, given.check)
+        if given.output:
+            text = json.dumps({**found._asdict(), "samples": [one._asdict() for one in found.samples]})
+            given.output.write_text(text, encoding="utf-8")
+        if found.problems:
+            for log in sorted(Path(name).glob("*.log")):
+                sys.stderr.write(f"{log.name}:\n{log.read_text(encoding='utf-8')[-2000:]}\n")
+    print("\n".join(table(found)) if found.samples else "\n".join(found.problems))
+    sys.exit(bool(found.problems))
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("PYTHONUNBUFFERED", "1")
+    main()

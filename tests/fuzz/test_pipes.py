@@ -1,0 +1,32 @@
+"""A pipe in place of any file that a command is given: refused at once, never waited for."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+COMMANDS = {
+    "case": ("run", "pipe", "-o", "out.nc"),
+    "loads of a case": ("run", "case.yaml", "-o", "out.nc"),
+    "laws": ("run", "fine.yaml", "-o", "out.nc", "--laws", "pipe"),
+    "result": ("report", "pipe", "-o", "page.html"),
+    "study": ("study", "pipe", "-o", "out"),
+    "table of a study": ("study", "study.yaml", "-o", "out"),
+    "bearing": ("bearing", "show", "pipe"),
+    "lubricant": ("lubricant", "show", "pipe"),
+}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are a thing of Unix")
+@pytest.mark.parametrize("name", COMMANDS)
+def test_refused(tmp_path, name):
+    for pipe in ("pipe", "pipe.csv"):
+        os.mkfifo(tmp_path / pipe)
+    (tmp_path / "fine.yaml").write_text("loads: {bundled: 14B}\n", encoding="utf-8")
+    (tmp_path / "case.yaml").write_text("loads: {file: pipe.csv}\n", encoding="utf-8")
+    (tmp_path / "study.yaml").write_text("loads: {table: pipe.csv}\n", encoding="utf-8")
+    command = [sys.executable, "-c", "from macroslip.cli import main; main()", *COMMANDS[name]]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 2 and "it is a pipe, a socket or a device, not a file" in " ".join(done.stderr.split())
+    assert len(list(tmp_path.iterdir())) == 5
