@@ -38,18 +38,9 @@ _FASTEST = 5.0
 # A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip already.
 _LOWEST_LOG_SLIP = -12.0
 
-
-class _Grid(NamedTuple):
-    """Number of pressures, and spacing of slips and films in their logarithms."""
-
-    pressures: int
-    slip_spacing: float
-    film_spacing: float
-
-
-#: Eyring's stress has no corner at a limit: with a third of the nodes, interpolated stress is off by a tenth of what that of
-#: limiting shear is.
-_GRIDS = {NEWTONIAN: _Grid(80, 0.3, 0.35), LIMITING_SHEAR: _Grid(80, 0.3, 0.35), EYRING: _Grid(56, 0.45, 0.5)}
+#: Pressures, and spacing of slips and of films in their logarithms. Eyring's stress has no corner at a limit: with a third of
+#: the nodes, interpolated stress is off by a tenth of what that of limiting shear is.
+_GRIDS = {NEWTONIAN: (80, 0.3, 0.35), LIMITING_SHEAR: (80, 0.3, 0.35), EYRING: (56, 0.45, 0.5)}
 
 
 class ChordTable(NamedTuple):
