@@ -175,9 +175,9 @@ def _watched(
             begun = killed = time.monotonic()
         workers = _workers(nannies)
         if begun is not None:
-            memory = [psutil.Process(process.pid).memory_info().rss for process in (scheduler, study)]
             largest = max((_resident(one) for one in workers), default=0)
-            samples.append(Sample(time.monotonic() - begun, *memory, largest, lines, kills))
+            memory = [_resident(psutil.Process(process.pid)) for process in (scheduler, study)]
+            samples.append(Sample(time.monotonic() - begun, memory[0], memory[1], largest, lines, kills))
             if time.monotonic() - killed >= every and len(workers) == WORKERS:
                 workers[kills % WORKERS].kill()
                 killed, kills = time.monotonic(), kills + 1

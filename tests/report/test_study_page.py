@@ -1,5 +1,6 @@
 """The page on a study: numbers of its tables, what it leaves open, and that names in it stay text."""
 
+import json
 import re
 
 import numpy as np
@@ -127,3 +128,15 @@ def test_without_wind_speeds_and_energies_of_orbits_the_page_says_so(tmp_path):
     assert "There is no lifetime energy" in section(page, "lifetime")
     assert "the results hold no orbit_energy" in section(page, "exceedance")
     assert "No run failed" in section(page, "failures")
+
+
+def test_the_page_has_no_folders_of_the_computer():
+    from macroslip.report.study_page import _without_folders
+
+    given = {
+        "loads": {"files": ["/home/me/runs/{a}.csv", "runs/b.csv"]},
+        "bearings": ["/home/me/own.yaml"],
+        "title": "a / b",
+    }
+    expected = {"loads": {"files": ["{a}.csv", "runs/b.csv"]}, "bearings": ["own.yaml"], "title": "a / b"}
+    assert json.loads(_without_folders(json.dumps(given))) == expected

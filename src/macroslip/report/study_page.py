@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.errors import InputError
+from macroslip.loads.source_file import without_folders
 from macroslip.report.page import Block, Paragraph, Pictures, Section, Table, Verbatim, render
 from macroslip.report.pictures import picture
 from macroslip.report.provenance import provenance_section
@@ -35,6 +37,20 @@ _WORST, _WORST_COUNT = ("energy_mean", "orbit_energy_max", "peak_power_max"), 5
 _MOST_LINES = 40
 #: Labels of a run that a reader does not need.
 _LEFT_OUT = ("case", "run", "outcome", "reason", "key")
+
+
+def _without_folders(study: str) -> str:
+    """A study as JSON, absolute paths of its files without their folders: a page is passed on."""
+
+    def bare(value: Any) -> Any:
+        if isinstance(value, list):
+            return [bare(one) for one in value]
+        return without_folders(value) if isinstance(value, str) else value
+
+    content = json.loads(study)
+    for section, keys in ((content.get("loads", {}), ("files", "table")), (content, ("bearings", "lubricants"))):
+        section |= {key: bare(section[key]) for key in keys if key in section}
+    return json.dumps(content, ensure_ascii=False)
 
 
 def is_study(path: Path) -> bool:
@@ -83,7 +99,7 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weights | None = None,
     ]
     if "status" in study:
         sections.append(provenance_section({study.attrs["title"] or "study": study}))
-    file = Verbatim(study.attrs["study"], "The study as it was read, as JSON")
+    file = Verbatim(_without_folders(study.attrs["study"]), "The study as it was read, as JSON")
     sections.append(Section("study", "The study file", (file,), "what was asked for"))
     return render(title, _subtitle(study, title), study_opening(study, life, curves), sections)
 
