@@ -27,7 +27,7 @@ class MacroslipError(Exception):
 
 
 class InputError(MacroslipError, ValueError):
-    """Input that cannot be used, told in one paragraph.
+    """Input that cannot be used, explained in one paragraph.
 
     Parameters
     ----------

@@ -94,7 +94,7 @@ file that registers film or traction laws, as macroslip init --example laws writ
 
 
 def _import(path: Path, name: str) -> None:
-    """Run the file as a module; what goes wrong in it is told with its line."""
+    """Run the file as a module; what goes wrong in it is reported with its line."""
     loader = SourceFileLoader(name, str(path.resolve()))
     spec = importlib.util.spec_from_file_location(name, path.resolve(), loader=loader)
     module = importlib.util.module_from_spec(spec)

@@ -1,4 +1,4 @@
-"""From a case file to a `Case`; whatever is wrong with the file is told together, each with its line and remedy."""
+"""From a case file to a `Case`; whatever is wrong with the file is reported together, each with its line and remedy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Problems with a record, told in the user's words and units."""
+"""Problems with a record, in the user's words and units."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ class Record(BaseModel):
     ------
     InputError
         If a value is missing, unknown, no finite number, out of its range, or inconsistent with the others. All such
-        problems are told together.
+        problems are reported together.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)

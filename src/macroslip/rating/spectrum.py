@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 LEVELS = 256
-"""Levels between smallest and largest load at which reversals are told apart."""
+"""Levels between smallest and largest load at which reversals are counted."""
 
 
 def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:

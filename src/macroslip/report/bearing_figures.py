@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.report.style import BLACK, GREY, INTERFACE, ROW, finish, log_ticks
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +31,7 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
     theta = np.radians(np.concatenate([one.angle.values, one.angle.values[:1] + 360.0]))
     for interface in one.interface.values.tolist():
         values = 1e3 * one.sel(interface=interface).values
-        label = f"{interface}: {told(width * values.sum())} mJ per orbit"
+        label = f"{interface}: {three_digits(width * values.sum())} mJ per orbit"
         axes.plot(theta, np.append(values, values[0]), label=label, linewidth=1.6, **INTERFACE[interface])
     axes.set_theta_zero_location("S")
     axes.set_theta_direction(-1)
@@ -122,7 +122,9 @@ def plot_roller_spread(axes: Axes, energy: xr.DataArray, row: str) -> Axes:
     axes.set_xticks(numbers[:: max(1, numbers.size // 7)])
     axes.margins(y=0.25)
     axes.ticklabel_format(axis="y", useOffset=False)
-    return finish(axes, "number of the roller [–]", "energy / mean of the row [–]", f"{row} row, mean {told(mean)} J")
+    return finish(
+        axes, "number of the roller [–]", "energy / mean of the row [–]", f"{row} row, mean {three_digits(mean)} J"
+    )
 
 
 def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
@@ -173,7 +175,12 @@ def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") 
         for place, value in zip(x, values, strict=True):
             if value > 0.0:
                 axes.annotate(
-                    told(value), (place, value), xytext=(0, 2), textcoords="offset points", ha="center", fontsize=9
+                    three_digits(value),
+                    (place, value),
+                    xytext=(0, 2),
+                    textcoords="offset points",
+                    ha="center",
+                    fontsize=9,
                 )
     if np.nanmax(energy.values, initial=0.0) > 0.0:
         axes.set_yscale("log")

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from macroslip.report.style import BLACK, BLUE, ORANGE, ROW, finish
-from macroslip.report.wording import told, told_energy
+from macroslip.report.wording import energy_text, three_digits
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,7 +35,7 @@ def plot_cumulative_energy(axes: Axes, turn: xr.Dataset, title: str = "") -> Axe
     shade_loaded(axes, turn)
     axes.plot(turn.angle.values, turn.energy_fraction.values, color=ORANGE, linewidth=1.8)
     axes.set_ylim(0.0, 1.04)
-    energy = f"whole turn: {told_energy(turn.attrs['energy_J'])}"
+    energy = f"whole turn: {energy_text(turn.attrs['energy_J'])}"
     axes.text(0.97, 0.05, energy, transform=axes.transAxes, ha="right", fontsize=9)
     return _finish(axes, "energy so far / whole turn [–]", title)
 
@@ -50,7 +50,9 @@ def plot_varying_over_static(axes: Axes, ratios: Mapping[str, Mapping[str, float
             x = place + 0.34 * (k - 0.5)
             style = {"color": ROW[row]["color"], "marker": ROW[row]["marker"], "linestyle": "none"}
             axes.plot([x], [ratio], markersize=7, label="" if place else f"{row} row", **style)
-            axes.annotate(told(ratio), (x, ratio), xytext=(0, 8), textcoords="offset points", ha="center", fontsize=9)
+            axes.annotate(
+                three_digits(ratio), (x, ratio), xytext=(0, 8), textcoords="offset points", ha="center", fontsize=9
+            )
     axes.set_xticks(range(len(ratios)), [f"static: {name}" for name in ratios])
     axes.set_xlim(-0.5, len(ratios) - 0.5)
     axes.set_yscale("log")

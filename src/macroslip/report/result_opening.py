@@ -12,7 +12,7 @@ from macroslip.report import bearing_figures as draw
 from macroslip.report.page import Opening
 from macroslip.report.pictures import OPENING_HEIGHT, OPENING_WIDTH, Picture, picture
 from macroslip.report.style import ROW, finish
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,7 +74,7 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
         )
         if words:
             place, row = np.argwhere(values == extreme(values))[0]
-            sentences.append(f"The {rows[row]} row of {names[place]} {words.format(told(values[place, row]))}.")
+            sentences.append(f"The {rows[row]} row of {names[place]} {words.format(three_digits(values[place, row]))}.")
     return Opening(tuple(sentences), tuple(pictures))
 
 
@@ -155,7 +155,7 @@ def _energies(result: xr.Dataset) -> str:
             continue
         most = str(one.interface.values[int(np.argmax(one.values))])
         share = f" ({100.0 * float(one.max()) / total:.3g} % of it at {_at(most)})" if total > 0.0 else ""
-        words.append(f"{told(total)} J {row}{share}")
+        words.append(f"{three_digits(total)} J {row}{share}")
     if "window_end" not in result.attrs:
         return f"A roller dissipates {' and '.join(words)}."
     length = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
@@ -168,12 +168,12 @@ def _peaks(result: xr.Dataset) -> str:
     interface = str(place.interface.item())
     samples = peak.max("interface")
     medians = [
-        f"{told(float(samples.sel(row=row).median()))} W {row}"
+        f"{three_digits(float(samples.sel(row=row).median()))} W {row}"
         for row in result.row.values.tolist()
         if bool(samples.sel(row=row).notnull().any())
     ]
     return (
-        f"The largest frictional power is {told(float(peak.max()))} W, at {_at(interface)} of a "
+        f"The largest frictional power is {three_digits(float(peak.max()))} W, at {_at(interface)} of a "
         f"roller of the {place.row.item()} row; the largest of an orbit is {' and '.join(medians)} in the median."
     )
 
@@ -182,7 +182,9 @@ def _spins(result: xr.Dataset) -> str:
     spins, loaded = [], []
     for row in result.row.values.tolist():
         lowest = float(result.min_spin_ratio.sel(row=row).min())
-        spins.append(f"{told(lowest)} of pure rolling {row}" if np.isfinite(lowest) else f"an unknown spin {row}")
+        spins.append(
+            f"{three_digits(lowest)} of pure rolling {row}" if np.isfinite(lowest) else f"an unknown spin {row}"
+        )
         if "roller_load" in result:
             load = result.roller_load.sel(row=row)
             loaded.append(f"{100.0 * float((load > 0.0).mean()):.3g} % {row}")

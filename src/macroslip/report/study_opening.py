@@ -10,7 +10,7 @@ from macroslip.report.page import Opening
 from macroslip.report.pictures import OPENING_HEIGHT, OPENING_WIDTH, picture
 from macroslip.report.result_opening import plot_by_result
 from macroslip.report.study_figures import EXCEEDED, group_labels, groups, plot_exceedance, plot_lifetime
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 from macroslip.study.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def study_opening(study: xr.Dataset, life: xr.Dataset | None, curves: xr.Dataset
             place = values.argmax(["case", "row"])
             value = float(study[name].isel(place))
             sentences.append(
-                f"{words.format(told(value))} {study.row[place['row']].item()} in {_run(study, int(place['case']))}."
+                f"{words.format(three_digits(value))} {study.row[place['row']].item()} in {_run(study, int(place['case']))}."
             )
     names = {"energy_mean": "energy of a mean roller [J]", "peak_power_max": "largest frictional power [W]",
              "lowest_spin_ratio": "lowest spin / pure rolling [–]"}  # fmt: skip
@@ -92,7 +92,7 @@ def _lifetime(life: xr.Dataset, group: int) -> str:
             continue
         parts = life.bin_energy.isel(group=group).sel(row=row)
         most = float(life.bin[int(np.nanargmax(parts.values))])
-        words.append(f"{told(1e-6 * value)} MJ {row} (most of it at {most:g} m/s)")
+        words.append(f"{three_digits(1e-6 * value)} MJ {row} (most of it at {most:g} m/s)")
     return (
         f"In {life.attrs['years']:g} years a roller dissipates {' and '.join(words)}; the wind speeds of the study are "
         f"{100.0 * float(life.covered):.0f} % of all time."
@@ -108,7 +108,9 @@ def _lifetimes(life: xr.Dataset) -> str:
             words.append(f"an unknown energy {row} (some wind speed has no result)")
             continue
         of = ", ".join(group_labels(life, int(np.nanargmax(values))))
-        words.append(f"{told(np.nanmin(values))} to {told(np.nanmax(values))} MJ {row} (most with {of})")
+        words.append(
+            f"{three_digits(np.nanmin(values))} to {three_digits(np.nanmax(values))} MJ {row} (most with {of})"
+        )
     return (
         f"In {life.attrs['years']:g} years a roller dissipates {' and '.join(words)}; the wind speeds of the study are "
         f"{100.0 * float(life.covered):.0f} % of all time."

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 from macroslip.reproduction.statement import UNKNOWN, Statement
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def tolerance_line(experiment: xr.Dataset) -> str:
     ratio, tolerance = one.ratio.values, one.stopping_tolerance.values
     if not np.isfinite(ratio).all():
         return f"Backward Euler against its stopping tolerance: {UNKNOWN}, an integration failed."
-    said = [told(value) for value in ratio]
+    said = [three_digits(value) for value in ratio]
     beyond = np.flatnonzero(ratio >= 100.0)
     if beyond.size and beyond[0] > 0:
         k = int(beyond[0])

@@ -10,7 +10,7 @@ import numpy as np
 from macroslip.report import orbit_figures
 from macroslip.report.page import Opening
 from macroslip.report.pictures import OPENING_HEIGHT, OPENING_WIDTH, picture
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 from macroslip.reproduction import mechanism_figures, solver_figures
 from macroslip.reproduction import wind_speed_figures as winds
 from macroslip.reproduction.headline import failure_line
@@ -67,7 +67,7 @@ def _early_stop(experiment: xr.Dataset) -> str:
     worst = one.isel(stopping_tolerance=int(np.argmax(one.ratio.values)))
     return (
         "Large energies can come from the numerical method: with backward Euler, an iteration on spin that stops at a "
-        f"relative change of {float(worst.stopping_tolerance):.0e} gives {told(float(worst.ratio))} times the static "
+        f"relative change of {float(worst.stopping_tolerance):.0e} gives {three_digits(float(worst.ratio))} times the static "
         f"energy, a converged one {float(one.ratio_converged):.3g} times."
     )
 

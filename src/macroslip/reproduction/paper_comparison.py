@@ -14,7 +14,7 @@ import numpy as np
 from macroslip.report import orbit_figures
 from macroslip.report.page import Beside, Block, Paragraph, Pictures, Section
 from macroslip.report.pictures import Picture, picture
-from macroslip.report.wording import told_energy
+from macroslip.report.wording import energy_text
 from macroslip.reproduction import solver_figures
 from macroslip.reproduction import wind_speed_figures as winds
 from macroslip.reproduction.headline import step_line, tolerance_line
@@ -112,7 +112,7 @@ def _turns(run: ModelRun, of: str) -> list[Block]:
                 )
             )
         energies = ", ".join(
-            f"{name} {told_energy(turn.attrs['energy_J'])} and at most {turn.attrs['peak_power_W']:.3g} W"
+            f"{name} {energy_text(turn.attrs['energy_J'])} and at most {turn.attrs['peak_power_W']:.3g} W"
             for name, turn in turns.items()
         )
         blocks.append(Beside(title, stated, tuple(pictures), f"{caption} Whole turn: {energies}."))

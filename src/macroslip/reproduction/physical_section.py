@@ -10,7 +10,7 @@ import numpy as np
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Table
 from macroslip.report.pictures import picture
 from macroslip.report.style import log_ticks
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 from macroslip.reproduction import mechanism_figures as draw
 from macroslip.reproduction import uncertainty_figures
 from macroslip.reproduction.dissipation import dissipation, knows_mechanisms
@@ -120,7 +120,7 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
         indices = ", ".join(
             f"{parameter} {first:.2f} ({total:.2f})" for parameter, first, total in strongest(summary, quantity)
         )
-        cells = (told(float(value)) for value in (one.base, *one.range.sel(quantile=[0.5, 0.05, 0.95]).values))
+        cells = (three_digits(float(value)) for value in (one.base, *one.range.sel(quantile=[0.5, 0.05, 0.95]).values))
         known = f"{float(one.explained):.2f}" if np.isfinite(one.explained) else "–"
         rows.append((f"{quantity}{unit}", *cells, named or "none", indices or "none", known))
     trends = tuple(

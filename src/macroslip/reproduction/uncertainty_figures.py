@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.report.style import BLACK, BLUE, ORANGE, finish, log_ticks, new_figure
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 from macroslip.reproduction.uncertainty_summary import DRIVER_LEVEL, TOLD_INDEX
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
     names = []
     for k in range(places.size):
         one = summary.isel(quantity=k)
-        low, middle, high = (told(value) for value in one.range.values)
+        low, middle, high = (three_digits(value) for value in one.range.values)
         unit = "" if str(one.units.values) == "1" else f" {one.units.values}"
         names.append(f"{one.quantity.values}\n{middle}{unit} ({low} to {high})")
     axes.set_yticks(places, names, fontsize=8)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 from macroslip.reproduction.sobol import sobol_indices
 from macroslip.reproduction.statement import ABOUT, Statement
 from macroslip.reproduction.uncertain_values import VALUES
@@ -22,12 +22,12 @@ QUANTILES = (0.05, 0.5, 0.95)
 #: Probability below which a rank correlation is taken to name a driver. With 23 values and ten quantities a smaller one
 #: than usual: about one of them in four samples is found by chance.
 DRIVER_LEVEL = 0.001
-#: Part of the variance from which on a Sobol' index is told.
+#: Part of the variance from which on a Sobol' index is shown.
 TOLD_INDEX = 0.05
 
 
 def quantities(sample: xr.Dataset) -> xr.Dataset:
-    """The results whose uncertainty is told, over (sample, quantity).
+    """The results whose uncertainty is given, over (sample, quantity).
 
     Parameters
     ----------
@@ -255,7 +255,7 @@ def with_uncertainty(statements: Mapping[str, Statement], summary: xr.Dataset) -
         rows = [k for k, name in enumerate(summary.quantity.values.tolist()) if name.startswith(quantity)]
         ends = summary.range.isel(quantity=rows)
         low, high = float(ends.isel(quantile=0).min()), float(ends.isel(quantile=-1).max())
-        return f"{told(low)} to {told(high)}"
+        return f"{three_digits(low)} to {three_digits(high)}"
 
     words = {
         "energy": f"with the estimated values anywhere in their ranges, {held('energy highest')} of the samples agree on the "

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.report.wording import told
+from macroslip.report.wording import three_digits
 from macroslip.reproduction.statement import Statement, about, verdict
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def energy_between_rows(numbers: xr.Dataset, thrust_energy: float = math.nan) ->
     return Statement(
         paper="the downwind row spends about 10 times the energy of the upwind row",
         verdict=verdict(parts, found),
-        found=f"{told(found['lowest'])} to {told(found['highest'])} times",
+        found=f"{three_digits(found['lowest'])} to {three_digits(found['highest'])} times",
         because=because if explained and not good else "",
         numbers=found,
     )
@@ -151,7 +151,7 @@ def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None
     return Statement(
         paper="the downwind row's mean peak power is up to 5 times the upwind row's, most at 12 m/s",
         verdict=verdict([about(found["highest"], 5.0), highest_at == 12.0], found),
-        found=f"{told(found['lowest'])} to {told(found['highest'])} times, most at {highest_at:g} m/s",
+        found=f"{three_digits(found['lowest'])} to {three_digits(found['highest'])} times, most at {highest_at:g} m/s",
         because="" if good else because,
         numbers=found,
     )
@@ -196,7 +196,7 @@ def varying_over_static(
     for name, rows in static.items():
         for row, energy in rows.items():
             found[f"{name}_{row}"] = float(numbers.orbit_energy.sel(case=case, row=row)) / energy
-        ratios = ", ".join(f"{told(found[f'{name}_{row}'])} {row}" for row in rows)
+        ratios = ", ".join(f"{three_digits(found[f'{name}_{row}'])} {row}" for row in rows)
         words.append(f"{ratios} against the {name} static load")
     good = all(about(ratio, 100.0) for ratio in found.values())
     because = (
@@ -231,7 +231,7 @@ def cage_dominates(study: xr.Dataset) -> Statement:
         others.append(f"{row} the {mean.interface.values[int(np.argmax(mean.values))]} interface takes most")
         least, most = (float(getattr(share.sel(row=row), name)(skipna=False)) for name in ("min", "max"))
         found |= {f"least_{row}": least, f"most_{row}": most}
-        words.append(f"{told(100 * least)} to {told(100 * most)} % of the energy {row}")
+        words.append(f"{three_digits(100 * least)} to {three_digits(100 * most)} % of the energy {row}")
         parts.append(least >= DOMINANT)
     return Statement(
         paper="friction at the cage dominates the energy",

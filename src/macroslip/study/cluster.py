@@ -65,7 +65,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
     import dask
     from distributed import Client
 
-    # What matters of Dask's own messages is told by the study itself.
+    # What matters of Dask's own messages is reported by the study itself.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     # Profiles of workers are looked at by a dashboard only, and there is none.
     with dask.config.set({"distributed.worker.profile.enabled": False}):

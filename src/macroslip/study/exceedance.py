@@ -13,7 +13,7 @@ from macroslip.study.weights import YEAR, Weights, binned
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Thresholds, 40 a decade: an energy [J] or power [W] is told to 6 %.
+#: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
 THRESHOLDS = np.logspace(-9.0, 9.0, 721)
 
 

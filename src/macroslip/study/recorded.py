@@ -62,7 +62,7 @@ class Recorded:
         """The different layouts of results, and which of them each run has, -1 without a result."""
         import pandas as pd
 
-        numbers, different = pd.factorize(pd.Series(self.texts["layout"]).where(self.stored))
+        numbers, different = pd.factorize(np.where(self.stored, self.texts["layout"], np.array(None)))
         return [json.loads(text) for text in different], numbers
 
 

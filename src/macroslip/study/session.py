@@ -25,7 +25,7 @@ from macroslip.study.study import Run, Study
 from macroslip.study.tables import Latest, write_runs
 from macroslip.study.workers import Workers
 
-#: Failures that are kept to be told at the end; the log and the summary have all.
+#: Failures that are kept to be listed at the end; the log and the summary have all.
 _TOLD = 1000
 #: Time between lines about progress in the log [s].
 _LOG_EVERY = 60.0
