@@ -8,6 +8,7 @@ from typing import Any
 
 import typer
 
+from macroslip.cli.interrupt import interrupts_kept
 from macroslip.errors import MacroslipError
 
 INTERNAL_ERROR, BAD_INPUT, ROLLERS_FAILED, INTERRUPTED = 1, 2, 3, 130
@@ -29,7 +30,8 @@ def command(app: typer.Typer, function: Callable[..., None]) -> None:
     @functools.wraps(function)
     def run(*args: Any, **options: Any) -> None:
         try:
-            function(*args, **options)
+            with interrupts_kept():
+                function(*args, **options)
         except (typer.Exit, BrokenPipeError):  # a reader such as `head` that has seen enough is not an error
             raise
         except KeyboardInterrupt:

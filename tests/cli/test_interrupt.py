@@ -1,0 +1,59 @@
+"""An interrupt that arrives where Python can raise nothing is raised a moment later."""
+
+import signal
+import time
+
+import pytest
+
+from macroslip.cli.interrupt import interrupts_kept
+
+
+class Interrupted:
+    """Its finalizer gets a Ctrl-C."""
+
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)
+
+
+class Faulty:
+    """Its finalizer has another fault."""
+
+    def __del__(self):
+        raise ValueError("in a finalizer")
+
+
+@pytest.fixture
+def interruptible():
+    """Workers of the tests may ignore Ctrl-C."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def lose_one():
+    """An interrupt in a finalizer, and five seconds of work."""
+    Interrupted()
+    end = time.monotonic() + 5.0
+    while time.monotonic() < end:
+        time.sleep(0.01)
+
+
+def test_an_interrupt_in_a_finalizer_is_not_lost(interruptible):
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt), interrupts_kept():
+        lose_one()
+    assert time.monotonic() - start < 2.0
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_without_it_python_goes_on(interruptible):
+    """The fault that is mended: were it gone from Python, this would not be needed."""
+    lose_one()
+
+
+def test_other_faults_of_finalizers_are_reported_as_before(monkeypatch):
+    seen = []
+    monkeypatch.setattr("sys.unraisablehook", seen.append)
+    with interrupts_kept():
+        Faulty()
+    assert [one.exc_type for one in seen] == [ValueError]
