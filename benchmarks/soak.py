@@ -293,7 +293,7 @@ def growth(samples: list[Sample], name: str) -> float:
 
 def main(arguments: list[str] | None = None) -> None:
     """Soak, print the table, and end with exit code 1 if anything is wrong."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--minutes", type=float, default=60.0)
     parser.add_argument("--every", type=float, default=60.0, help="time between kills [s]")
     parser.add_argument("--check", type=int, default=200, help="number of cases computed again in the end")
