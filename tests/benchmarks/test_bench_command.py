@@ -69,6 +69,7 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
         "threads",
         "linearity",
         "mechanisms",
+        "tables",
     }
     methods = found["methods"]
     assert list(methods) == ["own", "scipy_bdf", "lsoda", rivals.EULER]
@@ -82,12 +83,22 @@ def test_it_writes_numbers_and_diagram(short, tmp_path):
     assert all(one["reached"] and max(one["energy_error"], one["spin_error"]) <= found["asked_accuracy"] for one in own)
     assert found["quadrature"]["largest_difference"] < 1e-8
     assert found["evaluation"]["force_evaluation_ns"] > 0.0 and found["real_time"]["factor"] > 0.0
+    for row in ("downwind", "upwind"):
+        assert found["tables"][row]["median"] >= found["tables"][row]["least"] > 0.0
     assert {"processor", "cores", "python", "numba", "numbalsoda", "scikit-sundae"} <= set(found["machine"])
 
 
 def test_quiet_says_nothing(monkeypatch, tmp_path):
     """Of measurements that are done at once, one of them of a rival that is not installed: the test before has its line."""
-    for name in ("two_threads", "linearity", "real_time", "evaluation_times", "quadrature_times", "mechanism_costs"):
+    for name in (
+        "two_threads",
+        "linearity",
+        "real_time",
+        "evaluation_times",
+        "quadrature_times",
+        "mechanism_costs",
+        "speed_by_tables",
+    ):
         monkeypatch.setattr(run, name, lambda *arguments, **options: {})
     monkeypatch.setattr(room, "QUICK", (("24A",), 100.0, 100.1))
     missing = [one._replace(load=lambda: None) for one in rivals.RIVALS if one.key == "lsoda"]
