@@ -17,7 +17,7 @@ def bench(
         Path,
         typer.Option("--output", "-o", help="The folder to write to; what it holds of an earlier run is replaced."),
     ] = Path("bench"),
-    quick: Annotated[bool, typer.Option("--quick", help="A smaller set, in under a minute.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="A smaller set, in two minutes.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show nothing but errors.")] = False,
 ) -> None:
     """Measure speed and accuracy against general ODE solvers, on this machine."""
