@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import asyncio
 import atexit
+import contextlib
 import importlib.util
 import logging
 import math
+import os
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -76,7 +78,11 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
                 Client(local, set_as_default=False) as client,
             ):
                 client.register_plugin(_ignore_interrupts())
-                yield Dask(client, note)
+                try:
+                    yield Dask(client, note)
+                except KeyboardInterrupt:
+                    _kill(local)
+                    raise
             return
         try:
             client = Client(scheduler, timeout=_ANSWER, set_as_default=False)
@@ -106,6 +112,15 @@ def _started_here(workers: int | None) -> Any:
         # When the process ends Dask would stumble over workers that have not started yet; they end with it anyway.
         atexit.unregister(close_clusters)
         raise
+
+
+def _kill(local: Any) -> None:
+    """End workers at once: asked to end, they would finish the roller under way first."""
+    for nanny in local.workers.values():
+        nanny.auto_restart = False
+        if nanny.pid is not None:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(nanny.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
 
 
 def look_for(scheduler: str) -> None:
