@@ -34,8 +34,8 @@ def solve(history: History, tolerance: float) -> Solution:
     return Solution(energy, record.trace[:, 0], float(record.count[2]))
 
 
-def reference(history: History) -> Reference:
-    """The history at `REFERENCE_TOLERANCE`."""
-    status, record = integrate(history, REFERENCE_TOLERANCE, history.marks)
+def reference(history: History, tolerance: float = REFERENCE_TOLERANCE) -> Reference:
+    """The history at a tight tolerance; its energy is NaN if the roller failed."""
+    status, record = integrate(history, tolerance, history.marks)
     energy = float(record.energy.sum()) if status == COMPLETED else float("nan")
     return Reference(energy, record.trace[:, 0], record.trace[:, 1])

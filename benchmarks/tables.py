@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks import own
 from benchmarks.histories import History, long_histories
-from benchmarks.outcome import Reference, errors
+from benchmarks.outcome import errors
 from benchmarks.scaling import cpu_seconds
 from macroslip.case.parts import Radau
 from macroslip.integrate.load_zone import EDGE, FIRM, FREE, classify, empty_classes
@@ -100,9 +100,7 @@ def errors_by_tables(tolerance: float, reference: float, report: Callable[[str],
     """Tell the errors of energy and mid-coast spin of every history against the laws at the tolerance `reference`."""
     pairs = (long_histories(quick=False, laws=Laws.physical(), tables=one) for one in (True, False))
     for table, laws in zip(*pairs, strict=True):
-        _, record = own.integrate(laws, reference, laws.marks)
-        known = Reference(float(record.energy.sum()), record.trace[:, 0], record.trace[:, 1])
-        energy, spin = errors(own.solve(table, tolerance), known)
+        energy, spin = errors(own.solve(table, tolerance), own.reference(laws, reference))
         report(f"{table.name}: energy {energy:.1e}, spin {spin:.1e}")
 
 
