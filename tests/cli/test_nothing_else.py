@@ -101,8 +101,12 @@ def _names_used(tree):
 
 def test_nothing_in_data_can_run():
     allowed_to_load_programs = {"plugins.py"}  # files named with --laws are programs
+    # It reads an unnamed file from the process that started it, which nobody else can write to.
+    allowed_to_pickle = {"page_process.py"}
     for path in SOURCES.rglob("*.py"):
         used = set(_names_used(ast.parse(path.read_text(encoding="utf-8"))))
+        if path.name in allowed_to_pickle:
+            used.discard("pickle")
         assert not used & {"pickle", "marshal", "shelve", "dill", "joblib", "eval()", "exec()", "compile()", "allow_pickle=True",
                            "typ=unsafe", "yaml", "read_pickle"}, path  # fmt: skip
         if path.name not in allowed_to_load_programs:

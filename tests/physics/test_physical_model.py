@@ -31,6 +31,7 @@ from macroslip.mechanisms import Laws
 from macroslip.result.simulate import radau_limits
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion, instant
+from macroslip.roller.contact import cage_contact
 from macroslip.roller.contact_force import raceway_force, slip_field
 from macroslip.roller.forces import slip_forces, station
 from macroslip.roller.friction_power import friction_power
@@ -564,3 +565,26 @@ def test_a_floating_roller_leaves_no_heat_in_the_ellipse_of_its_cage_contact():
         assert float(largest.sel(interface="cage").max()) < 0.1 * float(largest.sel(interface="inner").max())
         assert float(largest.sel(interface=["inner", "outer"]).min()) > 0.0
         assert float(dry[name].sel(interface="cage").min()) > 0.0
+
+
+def test_the_largest_power_per_area_at_the_cage_is_that_of_its_contact():
+    """From the traces, by the contact's law: what the pocket's oil takes, and corrections of slip, are no part of it."""
+    loads = HubLoads.bundled("14B").window(0.0, 40.0)
+    case = Case(loads=loads, laws=Laws.physical(), rollers=[0], traces=Traces(step=0.01), window=Window(start=8.0))
+    result = simulate(case)
+    cage = roller_model(BEARING, OIL, 1, tilt=math.radians(5.0), laws=Laws.physical()).cage
+    area = 2.0 * cage.semi_axis_across * cage.semi_axis_along
+    for row in result.row.values:
+        trace = result.sel(row=row).isel(roller=0)
+        pushes, surfaces = np.abs(trace.cage_force.values), RADIUS * trace.spin.values
+        density = np.array(
+            [
+                0.75 * cage_contact(cage, push, -surface).power / (area * push ** (2.0 / 3.0)) if push else 0.0
+                for push, surface in zip(pushes, surfaces, strict=True)
+            ]
+        )
+        for orbit in range(result.sizes["orbit"]):
+            inside = (result.time >= result.orbit_start[orbit]) & (result.time <= result.orbit_end[orbit])
+            largest = float(trace.power_density.sel(interface="cage")[orbit])
+            # Contacts are looked at every ten degrees.
+            assert 0.7 < largest / density[inside.values].max() < 1.02

@@ -16,8 +16,7 @@ from macroslip.film.asperity_load import asperity_share
 from macroslip.film.film_law import film_thickness
 from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.reference import tuple_type
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, is_curved, slip_field
-from macroslip.roller.films import cage_film
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, cage_force, is_curved, slip_field
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
 
@@ -160,15 +159,20 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
 
 
 @jit_part
-def book_cage(record, orbit, contact, load, surface, power):
-    """Raise the extremes of the cage's contact, whose roller's surface moves at `surface` [m/s], by its power [W]."""
+def book_cage(record, orbit, contact, load, surface):
+    """Raise the extremes of the cage's contact, whose roller's surface moves at `surface` [m/s].
+
+    Its force is computed anew. The one in the spin equation includes the oil of the pocket, and what the last correction of
+    slip left, and the force of a light contact is far smaller than either.
+    """
     if load <= 0.0:
         return
     entrainment = max(0.5 * abs(surface), LOWEST_ENTRAINMENT_SPEED)
+    force = cage_force(contact, load, -surface, 0.5 * abs(surface), 0.0)[0]
     film, _, _ = film_thickness(contact.film, load, entrainment)
     root_load = load ** (1.0 / 3.0)
     across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
-    per_length = 0.75 * abs(power) / across
+    per_length = 0.75 * abs(force * surface) / across
     flash = flash_temperature(per_length, along, surface, 0.0, contact.effusivity_1, contact.effusivity_2)
     _raise(record, orbit, 2, flash, per_length / (2.0 * along), abs(surface) / entrainment, film / contact.roughness)
 
@@ -196,12 +200,7 @@ def look(record, interface, contact, load, ring_speed, slip, span):
 def _book_passage(record, model, at, forces, slip, passage):
     book_raceway(record, passage, 0, model.inner, at.inner_load, at, slip)
     book_raceway(record, passage, 1, model.outer, at.outer_load, at, slip)
-    load = abs(forces.cage_load)
-    if load > 0.0:
-        surface = at.ring_speed - slip
-        # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
-        pull = forces.cage - cage_film(model.films, load, surface).sliding
-        book_cage(record, passage.orbit, model.cage, load, surface, pull * surface)
+    book_cage(record, passage.orbit, model.cage, abs(forces.cage_load), at.ring_speed - slip)
     if passage.fine:
         look(record, 0, model.inner, at.inner_load, at.ring_speed, slip, passage.span)
         look(record, 1, model.outer, at.outer_load, at.ring_speed, slip, passage.span)

@@ -19,7 +19,6 @@ from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATI
 from macroslip.integrate.tuning import FINE_LOOKS
 from macroslip.reference import tuple_type
 from macroslip.roller.contact_force import is_curved
-from macroslip.roller.films import cage_film
 from macroslip.whole_bearing.space import CAGE_SLIDING, PUSH
 
 
@@ -112,16 +111,13 @@ def _book_contact(one, interface, contact, place, passage):
 
 
 @jit_merged
-def _book_roller(model, films, one, moment, j, passage):
+def _book_roller(model, one, moment, j, passage):
     stations, slips, force = moment.stations, moment.values.rollers[j], moment.force[j]
     inner = (stations.inner_load[j], stations.inner_speed[j], slips[0])
     outer = (stations.outer_load[j], stations.outer_speed[j], slips[1])
     _book_contact(one, 0, model.inner, inner, passage)
     _book_contact(one, 1, model.outer, outer, passage)
-    load, surface = abs(force[PUSH]), -force[CAGE_SLIDING]
-    # The oil that fills the pocket is sheared over all of it, and leaves no heat in Hertz' ellipse of a light contact.
-    oil = -surface * cage_film(films, load, surface).sliding
-    book_cage(one, passage.orbit, model.cage, load, surface, moment.powers[j, 2, 0] - oil)
+    book_cage(one, passage.orbit, model.cage, abs(force[PUSH]), -force[CAGE_SLIDING])
 
 
 @jit_called
@@ -141,9 +137,9 @@ def _book(bearing, moment, due, shaft_angle, time, orbit, details):
         details.looks[j] += 1
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.
         if row == 0:
-            _book_roller(bearing.models.downwind, bearing.films, one, moment, j, passage)
+            _book_roller(bearing.models.downwind, one, moment, j, passage)
         else:
-            _book_roller(bearing.models.upwind, bearing.films, one, moment, j, passage)
+            _book_roller(bearing.models.upwind, one, moment, j, passage)
 
 
 @jit_merged
