@@ -5,6 +5,9 @@ BIN := $(VENV)/bin
 # tests/conftest.py says which tests stay with one worker, and which begin.
 PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --no-loadscope-reorder
 
+# Without stored bytecode every process that a test starts would translate all modules anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: reproduce test test-fast test-lowest test-deep lint docs bench clean
 
 reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/

@@ -140,36 +140,36 @@ def histories_of(
         roller = sealed(models[row])
         for number in rollers:
             angle = float(initial_angles(row, bearing.rollers_per_row)[number])
-            edges = load_edges(models[row], motion, angle)
-            marks = _coast_middles(models[row], motion, angle, edges)
+            edges = load_edges(roller, motion, angle)
+            marks = _coast_middles(roller, motion, angle, edges)
             title = f"{name} {row}, roller {number}, {length:g} s"
             found.append(History(title, models[row], roller, motion, angle, limits, edges, marks))
     return found
 
 
-def load_edges(model: RollerModel, motion: Motion, start_angle: float) -> np.ndarray:
+def load_edges(roller: SealedModel, motion: Motion, start_angle: float) -> np.ndarray:
     """Times at which the rings begin or cease to press on a roller [s], rising.
 
     They follow from the loads alone, so that any integrator can be told of them beforehand.
     """
     classes = empty_classes(motion.time.size)
-    classify(model, motion, start_angle, np.inf, classes)
+    classify(roller, motion, start_angle, np.inf, classes)
     found = []
     for k in np.flatnonzero(classes == EDGE):
         low, high = motion.time[k], motion.time[k + 1]
-        ends = [interference_at(model, motion, start_angle, k, time) for time in (low, high)]
+        ends = [interference_at(roller, motion, start_angle, k, time) for time in (low, high)]
         if ends[0] * ends[1] < 0.0:
-            found.append(edge_time(model, motion, start_angle, k, low, high))
+            found.append(edge_time(roller, motion, start_angle, k, low, high))
     return np.array(found)
 
 
-def _coast_middles(model: RollerModel, motion: Motion, start_angle: float, edges: np.ndarray) -> np.ndarray:
+def _coast_middles(roller: SealedModel, motion: Motion, start_angle: float, edges: np.ndarray) -> np.ndarray:
     bounds = np.concatenate([[motion.time[0]], edges, [motion.time[-1]]])
     found = []
     for low, high in itertools.pairwise(bounds):
         middle = 0.5 * (low + high)
         interval = int(np.searchsorted(motion.time, middle, side="right")) - 1
-        free = interference_at(model, motion, start_angle, interval, middle) < 0.0
+        free = interference_at(roller, motion, start_angle, interval, middle) < 0.0
         if free and high - low > _SHORTEST_COAST:
             parts = int(np.ceil((high - low) / _LONGEST_STRETCH))
             found += [low + (high - low) * (part + 0.5) / parts for part in range(parts)]

@@ -4,9 +4,15 @@
 """
 
 import math
+import os
 import re
 
 import pytest
+
+# Every worker has a processor to itself. Where its linear algebra takes threads for all processors, they wait for each
+# other, and a small system takes five times as long. NumPy reads this when it is imported; so do processes of the tests.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from hypothesis import HealthCheck, settings
 from xdist.scheduler import LoadScopeScheduling
 
@@ -29,6 +35,7 @@ FIRST = (
     "tests/whole_bearing/",
     "tests/docs/test_pages.py",
     "tests/torque/test_rings.py",
+    "tests/study/test_cluster.py",
     "tests/reproduction/",
     "tests/docs/",
 )

@@ -41,7 +41,7 @@ def test_a_rival_converges_to_the_same_answer(name, histories):
 
 def test_load_edges_are_where_load_begins_and_ends(histories):
     history = histories[0]
-    edges = load_edges(history.model, history.motion, history.start_angle)
+    edges = load_edges(history.roller, history.motion, history.start_angle)
     assert edges.size > 0
 
     def load(time):

@@ -181,6 +181,7 @@ def test_relative_paths_start_at_the_folder_of_the_case_file(write, tmp_path, mo
     assert case.loads.force[:, 1].tolist() == [-300e3, -310e3]
 
 
+@pytest.mark.slow
 def test_laws_are_not_imported_unless_they_are_named(write):
     code = (
         "import sys; from macroslip.case.case_file import read_case; read_case(sys.argv[1]);"

@@ -79,6 +79,7 @@ def test_a_long_key_is_compared_and_shown_in_part():
     assert len(str(caught.value)) < 5000
 
 
+@pytest.mark.slow
 def test_a_file_in_the_bounds_is_read_whole():
     text = "".join(f"k{n}: [{n}, {{v: {n}}}]\n" for n in range(MOST_NODES // 6))
     data, source = parse(text, "mine.yaml")

@@ -31,6 +31,7 @@ def test_every_key_is_explained_in_the_line_above_it():
     assert 'rollers_per_row: {value: 28, unit: "1", tag: E, note: "back-calculated from the catalogue"}' in lines
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(
     value=st.floats(1e-3, 100.0), note=TEXT, title=TEXT,

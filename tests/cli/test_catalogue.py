@@ -59,6 +59,7 @@ def test_a_name_that_does_not_exist(folder, macroslip):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("noun", "kind"), KINDS)
 def test_show_as_a_file_that_can_be_read_again(folder, macroslip, noun, kind):
     for name in kind.catalogue():

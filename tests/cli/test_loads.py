@@ -158,6 +158,7 @@ def test_an_option_without_a_unit_is_refused(macroslip):
     assert done.code == 2 and done.err.startswith("error: --hub-to-bearing is '1.9', which does not give its unit")
 
 
+@pytest.mark.slow
 def test_a_picture(folder, macroslip):
     done = macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.png")
     assert (done.code, done.err) == (0, "") and done.out.endswith("written: loads.png\n")

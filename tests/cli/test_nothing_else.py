@@ -68,11 +68,13 @@ def folder(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_the_network_is_never_asked_for(folder):
     assert "the network was asked for" in ran(folder, "try").stderr  # the door is shut indeed
     assert (folder / "case.html").is_file() and (folder / "study.html").is_file()
 
 
+@pytest.mark.slow
 def test_nothing_that_is_written_says_where_its_user_keeps_files(folder):
     written = [folder / "case.nc", folder / "case.html", folder / "study.html"]
     written += [path for name in ("out", "tables") for path in (folder / name).rglob("*")]
@@ -82,6 +84,7 @@ def test_nothing_that_is_written_says_where_its_user_keeps_files(folder):
         assert str(folder).encode() not in path.read_bytes(), path
 
 
+@pytest.mark.slow
 def test_results_name_their_loads_all_the_same(folder):
     xr = pytest.importorskip("xarray")
     with xr.open_dataset(folder / "case.nc", engine="h5netcdf") as result:

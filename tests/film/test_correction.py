@@ -90,6 +90,7 @@ def test_range_is_that_of_the_law_inside(base):
     assert law.film_range_notes("square", base[:1]) == ["inner: always"]
 
 
+@pytest.mark.slow
 def test_a_kernel_compiles_for_the_wrapper_and_what_it_holds(base):
     @numba.njit
     def kernel(film, load, speed):

@@ -71,6 +71,7 @@ def _inspect(folder, named):
     return ends_well(folder, named, "loads", "inspect", named, "--json")
 
 
+@pytest.mark.slow
 @examples(10)
 @given(data=st.data())
 def test_damaged(files, data):

@@ -41,6 +41,7 @@ def test_undamaged_is_accepted(folder, content, result):
     xr.testing.assert_identical(open_result(folder / "mine.nc"), result)
 
 
+@pytest.mark.slow
 @examples(12)
 @given(data=st.data())
 def test_damaged(folder, content, data):
@@ -56,6 +57,7 @@ def places(content, result):
     return [range(content.index(one), content.index(one) + len(one)) for one in values.values()]
 
 
+@pytest.mark.slow
 @examples(10)
 @given(data=st.data())
 def test_a_flipped_bit_in_a_number_is_no_other_number(folder, content, places, data):
@@ -138,12 +140,14 @@ def _changed(data, result):
     return dataset
 
 
+@pytest.mark.slow
 @examples(15)
 @given(data=st.data())
 def test_changed(folder, result, data):
     _read(folder, to_netcdf(_changed(data, result)))
 
 
+@pytest.mark.slow
 @examples(2)
 @given(data=st.data())
 def test_report_of_a_changed_result(folder, result, data):
@@ -158,6 +162,7 @@ def test_what_is_missing_is_named(folder, result, name):
     assert f"the dataset has no {name}" in _read(folder, to_netcdf(result.drop_vars(name)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -176,6 +181,7 @@ def test_what_no_result_holds_is_refused(folder, result, change, words):
     assert words in _read(folder, to_netcdf(change(result)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "part", [{"row": ["downwind"]}, {"roller": [0]}, {"interface": ["cage"]}, {"time": slice(3.0, 9.0)}]
 )

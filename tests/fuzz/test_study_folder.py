@@ -53,6 +53,7 @@ def test_undamaged_is_accepted(folder, contents):
     assert result.is_file()
 
 
+@pytest.mark.slow
 @examples(40)
 @given(data=st.data())
 def test_damaged(folder, contents, data):

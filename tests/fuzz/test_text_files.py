@@ -66,6 +66,7 @@ def folder(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 @examples(40)
 @given(content=_either(CASE, CONSTANT))
 def test_case_file(folder, content):
@@ -82,6 +83,7 @@ def test_study_file(folder, content):
     ends_well(folder, folder / "mine.yaml", folder / "mine.yaml", app=app_of(_all_runs))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("noun", RECORDS)
 @examples(15)
 @given(data=st.data())

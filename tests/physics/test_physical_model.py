@@ -33,10 +33,10 @@ from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion, instant
 from macroslip.roller.contact import cage_contact
 from macroslip.roller.contact_force import raceway_force, slip_field
-from macroslip.roller.forces import slip_forces, station
 from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import ring_geometry, roller_model
 from macroslip.traction.film_shear_law import microslip_traction
+from tests.by_address import forces_by_address, station_by_address
 
 pytestmark = pytest.mark.slow
 
@@ -298,12 +298,13 @@ def integrate(model, motion, limits, angle, slip, trace_time):
 
 def by_scipy(model, motion, angle, slip, trace_time):
     """dv/dt = du2/dt − (r²/I)(F_i + F_o + F_c) by SciPy's Radau with small steps."""
+    roller = sealed(model)
 
     def rate(t, v):
         k = min(int(np.searchsorted(motion.time, t, side="right")) - 1, motion.time.size - 2)
         now = instant(motion, k, t)
         acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
-        forces = slip_forces(model, station(model, angle, now), float(v[0]))
+        forces = forces_by_address(roller, station_by_address(roller, angle, now), float(v[0]))
         drive = -model.orbit_ratio * model.outer_radius * acceleration
         return [drive - model.mobility * (forces.inner + forces.outer + forces.cage)]
 
@@ -339,8 +340,8 @@ def test_a_skidding_roller_follows_its_past(name, slip):
     wanted = by_scipy(model, motion, angle, slip, trace_time)
     assert np.abs(found - wanted).max() < 2e-4 * abs(slip) + 2e-6
     if name == "barus, newtonian" and abs(slip) > 0.1:
-        now = station(model, angle, instant(motion, 0, 0.0))
-        assert slip_forces(model, now, slip).slope < 0.0
+        now = station_by_address(sealed(model), angle, instant(motion, 0, 0.0))
+        assert forces_by_address(sealed(model), now, slip).slope < 0.0
 
 
 def test_a_roller_whose_shaft_jerks_follows_its_past():
@@ -362,10 +363,11 @@ def test_slip_settles_where_moments_balance(name, force):
     time = np.linspace(0.0, 0.5, 11)
     model, motion, limits, angle = setup(HOT[name], [0.0, 0.0, force], RATED, time)
     found = integrate(model, motion, limits, angle, 0.0, np.array([0.5]))[0]
-    now = station(model, angle, instant(motion, 9, 0.5))
+    roller = sealed(model)
+    now = station_by_address(roller, angle, instant(motion, 9, 0.5))
 
     def moment(slip):
-        forces = slip_forces(model, now, slip)
+        forces = forces_by_address(roller, now, slip)
         return forces.inner + forces.outer + forces.cage
 
     root = brentq(moment, -0.02, 0.02, xtol=1e-15)
@@ -383,6 +385,7 @@ def test_slip_of_an_orbiting_roller_is_the_balance_of_the_instant():
         .isel(roller=0)
     )
     model = roller_model(BEARING, OIL, 1, tilt=Drivetrain().tilt, laws=FULL)
+    roller = sealed(model)
     from macroslip.roller.model import truncation_load
 
     motion, _ = ring_motion(loads, BEARING, ring_geometry(BEARING, model), truncation_load(BEARING, OIL))
@@ -390,12 +393,12 @@ def test_slip_of_an_orbiting_roller_is_the_balance_of_the_instant():
     for k in range(1, found.time.size):
         t = float(found.time[k])
         interval = min(int(np.searchsorted(motion.time, t, side="right")) - 1, motion.time.size - 2)
-        at = station(model, initial_angles("downwind", 28)[0], instant(motion, interval, t))
+        at = station_by_address(roller, initial_angles("downwind", 28)[0], instant(motion, interval, t))
         if at.elastic_load < 3e3:
             continue
 
         def moment(slip, at=at):
-            forces = slip_forces(model, at, slip)
+            forces = forces_by_address(roller, at, slip)
             return forces.inner + forces.outer + forces.cage
 
         root = brentq(moment, -0.01, 0.01, xtol=1e-14)

@@ -197,6 +197,7 @@ def test_experiments(axes, tolerance_experiment, step_experiment):
     assert "[W]" in other.get_ylabel()
 
 
+@pytest.mark.slow
 def test_every_figure_is_written_as_png_and_svg(
     tmp_path, numbers, turn, stability, tolerance_experiment, step_experiment
 ):

@@ -136,6 +136,7 @@ def test_torque_over_a_part_of_the_history(axes):
     assert labels == ["model (mean 5.5 N m)", "SKF (mean 9.5 N m)"]
 
 
+@pytest.mark.slow
 def test_whole_figures(parts, numbers, summary, tmp_path):
     for k, figure in enumerate((mechanisms_figure(parts), models_figure(numbers), uncertainty_figure(summary))):
         figure.savefig(tmp_path / f"{k}.png")

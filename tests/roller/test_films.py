@@ -8,12 +8,14 @@ from scipy.optimize import brentq
 
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.bearing import geometry
+from macroslip.integrate.entries import sealed
 from macroslip.ring.orbit import Instant
 from macroslip.roller.films import NoFilms, cage_film, raceway_film
-from macroslip.roller.forces import INNER, OUTER, Station, net_force, slip_forces, station
+from macroslip.roller.forces import INNER, OUTER, Station, net_force
 from macroslip.roller.model import roller_model
 from macroslip.roller.play import carried, film_load
 from macroslip.rolling.light_contact import light_contact, pocket_contact
+from tests.by_address import forces_by_address, station_by_address
 
 pytestmark = pytest.mark.slow
 
@@ -53,7 +55,7 @@ def test_without_rolling_resistance_there_are_no_films():
     assert raceway_film(model.films, INNER, 1e4, 0.01, RING) == (0.0,) * 7
     assert cage_film(model.films, 30.0, RING) == (0.0,) * 5
     assert film_load(model.films, 0.0, -1e-4, 30.0, RING) == 0.0
-    assert slip_forces(model, at_load(2e4), 1e-3).rolling_power == (0.0, 0.0, 0.0)
+    assert forces_by_address(sealed(model), at_load(2e4), 1e-3).rolling_power == (0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("body", [-35.0, 0.0, 4.0, 50.0])
@@ -130,10 +132,10 @@ def test_what_the_surfaces_lose_is_sliding_and_rolling_power(model, load, slip):
 def test_slope_of_all_forces_is_their_derivative(load, slip):
     # The paper's traction, whose slopes are exact; those of microslip are of a spline.
     model = roller_model(BEARING, OIL, 1, tilt=0.0, laws=Laws.paper().but(rolling="whole-film"))
-    at = at_load(load)
+    at, roller = at_load(load), sealed(model)
     change = 1e-6 * max(abs(slip), 1e-3)
-    ahead, behind = slip_forces(model, at, slip + change), slip_forces(model, at, slip - change)
-    here = slip_forces(model, at, slip)
+    ahead, behind = (forces_by_address(roller, at, one) for one in (slip + change, slip - change))
+    here = forces_by_address(roller, at, slip)
     assert here.slope == pytest.approx((net_force(ahead) - net_force(behind)) / (2.0 * change), rel=2e-4)
     assert here.cage_load_slope == pytest.approx((ahead.cage_load - behind.cage_load) / (2.0 * change), rel=2e-4)
 
@@ -162,8 +164,8 @@ def test_a_light_roller_floats_in_the_middle_of_its_pocket(model):
 
 def free_spin(model, play, body):
     """ω/ω_pure of a roller without load."""
-    at = idle(model, play, body)
-    slip = brentq(lambda slip: net_force(slip_forces(model, at, slip)), 1.5 * RING, -0.5 * RING, xtol=1e-12)
+    at, roller = idle(model, play, body), sealed(model)
+    slip = brentq(lambda slip: net_force(forces_by_address(roller, at, slip)), 1.5 * RING, -0.5 * RING, xtol=1e-12)
     return (RING - slip) / RING
 
 
@@ -180,9 +182,9 @@ def test_starved_inlets_let_a_free_roller_turn_faster(flooded):
 
 def test_rolling_resistance_leaves_a_gripped_roller_in_its_balance(model):
     """Traction of both raceways makes up for what the oil of both inlets and of the pocket takes."""
-    at = at_load(2e4)
-    slip = brentq(lambda slip: net_force(slip_forces(model, at, slip)), -0.05, 0.05, xtol=1e-16)
-    forces = slip_forces(model, at, slip)
+    at, roller = at_load(2e4), sealed(model)
+    slip = brentq(lambda slip: net_force(forces_by_address(roller, at, slip)), -0.05, 0.05, xtol=1e-16)
+    forces = forces_by_address(roller, at, slip)
     assert forces.resistance > 0.0  # against a motion along −x
     assert forces.inner + forces.outer + forces.cage == pytest.approx(-forces.resistance, rel=1e-6)
     assert all(power > 0.0 for power in forces.rolling_power)
@@ -190,7 +192,7 @@ def test_rolling_resistance_leaves_a_gripped_roller_in_its_balance(model):
 
 def test_station_shares_the_play_of_an_idle_roller(model):
     now = Instant(2.14, 0.0, 0.0, 0.0, 0.0)  # ring in the middle: half the clearance is play all round
-    top, bottom = station(model, math.pi / 2, now), station(model, -math.pi / 2, now)
+    top, bottom = (station_by_address(sealed(model), angle, now) for angle in (math.pi / 2, -math.pi / 2))
     for at in (top, bottom):
         assert at.elastic_load == 0.0
         assert min(at.inner_load, at.outer_load) > 0.0

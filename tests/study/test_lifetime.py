@@ -48,6 +48,7 @@ def test_constant_power_gives_power_times_time_whatever_the_weights():
     )
 
 
+@pytest.mark.slow
 @given(st.floats(3.0, 15.0), st.floats(1.0, 4.0), st.floats(0.25, 4.0))
 def test_weibull_bins_cover_all_speeds(scale, shape, width):
     centres = np.arange(0, int(600 / width)) * width

@@ -28,6 +28,7 @@ def test_numbers_of_the_base_bearing():
     assert printed(BLOCKS[0]) == SHOWN[0]
 
 
+@pytest.mark.slow
 def test_numbers_of_the_computed_torque():
     # Digits may turn over from one processor to the next.
     found, shown = (re.findall(r"[\d.]+", text) for text in (printed(BLOCKS[2]), SHOWN[1]))
