@@ -187,7 +187,7 @@ def asperity_laws() -> list[str]:
 
 def rolling_laws() -> list[str]:
     """Names of the laws for rolling resistance."""
-    from macroslip.rolling.law import REFERENCES
+    from macroslip.rolling.rolling_law import REFERENCES
 
     return list(REFERENCES)
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.reproduction.uncertain_values import UNITS, VALUES, UncertainValue
+from macroslip.reproduction.uncertain_value import UNITS, UncertainValue
+from macroslip.reproduction.uncertain_values import VALUES
 from macroslip.study.outcome import Outcome
 from macroslip.study.reader import open_study
 

@@ -20,7 +20,7 @@ from macroslip.roller.films import Films, NoFilms
 from macroslip.roller.plane_table import no_plane_table
 from macroslip.roller.play_table import no_play_table
 from macroslip.roller.raceway_table import no_raceway_table
-from macroslip.rolling import law as rolling_law
+from macroslip.rolling import rolling_law
 from macroslip.rolling.gap import GapShape
 from macroslip.traction import traction_law as traction_law
 from macroslip.traction.asperity_friction import AsperityFriction

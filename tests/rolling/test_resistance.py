@@ -15,7 +15,8 @@ from macroslip.rolling.biboulet_houpert import starvation_factor
 from macroslip.rolling.elastic_line import Inlet, WholeFilm, line_rolling
 from macroslip.rolling.film import light_film
 from macroslip.rolling.gap import film_at_load
-from macroslip.rolling.law import LOWEST_SPEED, NoRolling, beside_ellipse, prepare_rolling, rolling_resistance
+from macroslip.rolling.resistance import LOWEST_SPEED, beside_ellipse, rolling_resistance
+from macroslip.rolling.rolling_law import NoRolling, prepare_rolling
 
 pytestmark = pytest.mark.slow
 
