@@ -68,7 +68,7 @@ class Laws:
 
     def __post_init__(self) -> None:
         for name, choices in (
-            ("viscosity", viscosities),
+            ("viscosity", viscosity_laws),
             ("rheology", rheologies),
             ("asperities", asperity_laws),
             ("rolling", rolling_laws),
@@ -166,7 +166,7 @@ _DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
 NAMED_SETS = ("paper", "physical")
 
 
-def viscosities() -> list[str]:
+def viscosity_laws() -> list[str]:
     """Names of the laws for viscosity under pressure."""
     return ["barus", "roelands"]
 

@@ -81,10 +81,10 @@ def test_the_friction_power_has_rolling_and_drag_in_it(made, sample):
     from dataclasses import replace
 
     from macroslip import HubLoads
-    from macroslip.result.thermal_balance import friction_power
+    from macroslip.result.thermal_balance import bearing_friction_power
 
     case = replace(base_case(made), loads=HubLoads.bundled("12B").window(None, 14.0))
-    power = friction_power(simulate(case))
+    power = bearing_friction_power(simulate(case))
     assert float(sample.friction_power.sel(sample=0, case="12B")) == pytest.approx(power, rel=1e-12)
     sliding = sample.torque.sel(sample=0, case="12B") * case.loads.shaft_speed.mean()
     assert power > 2.0 * float(sliding)  # the inlets take most

@@ -22,7 +22,7 @@ def console() -> Console:
     return found if found.is_terminal else Console(markup=False, highlight=False, width=PIPE_WIDTH)
 
 
-def table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
+def print_table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
     """Print a table; the headings say whether a column holds numbers."""
     from rich.table import Table
 

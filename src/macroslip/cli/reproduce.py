@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.cli.progress import progress_bar
+from macroslip.cli.progress import command_progress
 
 HEADLINES = 10
 """Lines of the summary that are printed."""
@@ -26,7 +26,7 @@ def reproduce(
     from macroslip.reproduction.reproduce import REPORT, stages
     from macroslip.reproduction.reproduce import reproduce as study
 
-    with progress_bar(quiet=quiet, stages=stages()) as report:
+    with command_progress(quiet=quiet, stages=stages()) as report:
         summary = study(output, threads=threads, progress=report)
     if not quiet:
         for line in summary["headline"][:HEADLINES]:

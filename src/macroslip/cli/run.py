@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.cli.progress import progress_bar
+from macroslip.cli.progress import command_progress
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
@@ -43,7 +43,7 @@ def run(
     from macroslip.result.simulate import simulate
     from macroslip.result.stored import to_netcdf
 
-    with progress_bar(quiet=quiet) as report, _named(case, checked.loads.source):
+    with command_progress(quiet=quiet) as report, _named(case, checked.loads.source):
         progress = report and (lambda done, total: report("rollers", done, total))
         dataset = with_rating(simulate(checked, threads=threads, progress=progress), checked)
     # In memory first: the HDF5 library may bring the whole process down when the disk is full.
@@ -104,7 +104,7 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
 
 def _summary(dataset: xr.Dataset) -> None:
     """Print what a user looks at first, row by row."""
-    from macroslip.cli.printing import number, table
+    from macroslip.cli.printing import number, print_table
 
     found = _numbers(dataset)
     rows = []
@@ -115,7 +115,7 @@ def _summary(dataset: xr.Dataset) -> None:
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
     numbers = "mean energy per roller [J]", "highest peak power [W]", "lowest spin / pure rolling [1]", "failed rollers"
     headings = [("row", False), *((heading, True) for heading in numbers)]
-    table(f"{found['title']}, {window}", headings, rows)
+    print_table(f"{found['title']}, {window}", headings, rows)
     _beside(dataset)
 
 

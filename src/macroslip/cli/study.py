@@ -84,13 +84,13 @@ def study(
 
 
 def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:
-    from macroslip.cli.printing import print_json, table
+    from macroslip.cli.printing import print_json, print_table
     from macroslip.machine import usable_processors
-    from macroslip.study.estimate import estimate
+    from macroslip.study.estimate import estimate_study
     from macroslip.study.progress import duration
     from macroslip.study.safe_text import safe_text
 
-    found = estimate(checked)
+    found = estimate_study(checked)
     parts = [
         (len(checked.loads.loads), "load histories"), (len(checked.bearings), "bearings"),
         (len(checked.lubricants), "lubricants"), (len(checked.models), "models"),
@@ -116,7 +116,7 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
             [f"time here, on {processors} processors", duration(found.seconds / processors)],
             ["disk", size(found.bytes)],
         ]
-    table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
+    print_table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
     typer.echo(
         f"Time and disk are estimated from {found.looked_at} runs of the study, begun here and now."
         if found.looked_at

@@ -80,7 +80,9 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
         ]
         shown.append(
             picture(
-                lambda axes, parts=parts: draw.plot_stations(axes, parts.station_energy, "downwind", draw.shown(parts)),
+                lambda axes, parts=parts: draw.plot_stations(
+                    axes, parts.station_energy, "downwind", draw.shown_cases(parts)
+                ),
                 "Energy along the roller, downwind row",
                 legend="below",
                 height=4.2,

@@ -99,7 +99,7 @@ def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
     return Polynomial(degrees[best], coefficients)
 
 
-def explained(places: NDArray[np.float64], values: NDArray[np.float64]) -> float:
+def explained_variance(places: NDArray[np.float64], values: NDArray[np.float64]) -> float:
     """Part of the variance that the fit foretells of samples it has not seen [1], below 1; 0 and less: nothing.
 
     The sample is divided into ten parts; each is foretold by a fit to the other nine.
@@ -128,7 +128,7 @@ def sobol_indices(places: NDArray[np.float64], values: NDArray[np.float64]) -> t
     total : ndarray, shape (values,)
         The same with all in which it takes part [1].
     float
-        Part of the variance that the fit foretells, from `explained`: indices are those of the fit, and of what is left
+        Part of the variance that the fit foretells, from `explained_variance`: indices are those of the fit, and of what is left
         nothing is known.
 
     References
@@ -141,11 +141,11 @@ def sobol_indices(places: NDArray[np.float64], values: NDArray[np.float64]) -> t
     polynomial = fit(places, values)
     if len(polynomial.coefficients) == 1:
         nothing = np.zeros(places.shape[1])
-        return nothing, nothing.copy(), explained(places, values)
+        return nothing, nothing.copy(), explained_variance(places, values)
     found = stats.sobol_indices(
         func=lambda x: polynomial(x.T)[None],
         n=_SOBOL_SAMPLES,
         dists=[stats.uniform()] * places.shape[1],
         rng=np.random.default_rng(1),
     )
-    return found.first_order.ravel(), found.total_order.ravel(), explained(places, values)
+    return found.first_order.ravel(), found.total_order.ravel(), explained_variance(places, values)

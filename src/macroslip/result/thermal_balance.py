@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _CLOSE, _FIRST_RISE, _MOST = 0.2, 30.0, 10
 
 
-def friction_power(result: xr.Dataset) -> float:
+def bearing_friction_power(result: xr.Dataset) -> float:
     """Mean friction power of the whole bearing over the window [W]: sliding, rolling, cage and drag.
 
         P = Z/n Σ (E + E_rolling)/t + P_drag
@@ -126,4 +126,4 @@ def balanced(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
         temperature, settled = next_temperature(known, heat)
         if settled:
             return replace(case, temperature=temperature)
-        known[temperature] = friction_power(simulate(replace(case, temperature=temperature, traces=None)))
+        known[temperature] = bearing_friction_power(simulate(replace(case, temperature=temperature, traces=None)))

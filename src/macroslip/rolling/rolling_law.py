@@ -12,7 +12,7 @@ from macroslip.contact.interface import Interface
 from macroslip.errors import InputError
 from macroslip.rolling import biboulet_houpert, goksem_hargreaves
 from macroslip.rolling.biboulet_houpert import starvation_factor
-from macroslip.rolling.elastic_line import Inlet, WholeFilm
+from macroslip.rolling.elastic_line import InletFilm, WholeFilm
 from macroslip.rolling.gap import Gap, GapShape, prepare_gap
 from macroslip.rolling.martin import ROLLING_AT_GAP, starved_martin
 
@@ -22,7 +22,7 @@ REFERENCES = {
     "inlet": f"{goksem_hargreaves.REFERENCE}; {biboulet_houpert.REFERENCE}",
     "whole-film": "full solutions of the line contact, benchmarks/line_contact.py",
 }
-_ELASTIC = {"inlet": Inlet(), "whole-film": WholeFilm()}
+_ELASTIC = {"inlet": InletFilm(), "whole-film": WholeFilm()}
 
 
 class NoRolling(NamedTuple):
@@ -34,7 +34,7 @@ class Rolling(NamedTuple):
 
     Attributes
     ----------
-    elastic : Inlet or WholeFilm
+    elastic : InletFilm or WholeFilm
         What counts of an elastic film.
     gap : Gap
         The rigid gap, with its fullness.

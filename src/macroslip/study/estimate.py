@@ -26,7 +26,7 @@ _CYCLES_BYTES = 8 * (len(COMPONENTS) + 1) * RANGE_EDGES.size
 
 
 @dataclass(frozen=True)
-class Estimate:
+class StudyEstimate:
     """Time and disk of a study.
 
     Parameters
@@ -52,7 +52,7 @@ class Estimate:
     problems: tuple[str, ...]
 
 
-def estimate(study: Study) -> Estimate:
+def estimate_study(study: Study) -> StudyEstimate:
     """Begin a few runs, spread over the study, and scale time and size to all of them.
 
     Each is simulated for 30 and for 60 s of its loads, with one thread; what grows is scaled to its whole length. Loads
@@ -64,7 +64,7 @@ def estimate(study: Study) -> Estimate:
 
     Returns
     -------
-    Estimate
+    StudyEstimate
     """
     lengths, seconds, sizes, problems = [], [], [], []
     chosen = sorted({round(part * (len(study) - 1) / max(_LOOKED_AT - 1, 1)) for part in range(_LOOKED_AT)})
@@ -93,7 +93,7 @@ def estimate(study: Study) -> Estimate:
         return sum(values) / len(values) if values else float("nan")
 
     runs, others = len(study), _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
-    return Estimate(
+    return StudyEstimate(
         runs, len(lengths), mean(lengths), runs * mean(seconds), runs * (mean(sizes) + others), tuple(problems)
     )
 

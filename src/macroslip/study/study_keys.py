@@ -139,7 +139,7 @@ class Variables(Texts):
 
 
 @input_section("grid", "values of one parameter")
-class Axis:
+class GridAxis:
     """Values of one parameter."""
 
     values: Annotated[list[Any], Values("values of the parameter")]
@@ -153,7 +153,7 @@ def _written(key: str, value: Any) -> Setting:
     return setting
 
 
-def _axis(key: str, axis: Axis) -> list[Setting]:
+def _axis(key: str, axis: GridAxis) -> list[Setting]:
     """The settings of one parameter, checked."""
     settings = [Setting(key, value, axis.unit) for value in axis.values]
     for setting in settings:
@@ -175,11 +175,11 @@ class StudyLoads:
 
 
 _Grid = Annotated[
-    dict[str, Axis],
+    dict[str, GridAxis],
     MappingOf(
         "values of each parameter, of which every combination is run",
         "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",
-        Axis,
+        GridAxis,
         _axis,
     ),
 ]

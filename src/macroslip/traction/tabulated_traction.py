@@ -108,11 +108,11 @@ def register_function(name: str, traction: Callable, *, reference: str) -> None:
     >>> register_function("couette", lambda interface, load, film, slip: 1e-4 * slip / film, reference="none")
     >>> traction_law.remove("couette")
     """
-    prepare = prepared_once(traction, lambda interface: tabulated(name, traction, interface))
+    prepare = prepared_once(traction, lambda interface: tabulated_law(name, traction, interface))
     register_name(name, reference=reference, prepare=prepare)
 
 
-def tabulated(name: str, traction: Callable, interface: Interface) -> TabulatedTraction:
+def tabulated_law(name: str, traction: Callable, interface: Interface) -> TabulatedTraction:
     """Tabulate a function for an interface; the parameters and errors are those of `register_function`."""
     law = Function(_KIND, name, traction, interface)
     (_, _, slip), force = law.at_nodes()

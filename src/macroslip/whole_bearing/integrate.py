@@ -151,7 +151,7 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
     stops : ndarray
         Times at which a step must end [s], rising, the last being the end of the integration; they hold the record's edges
         and output times.
-    limits : Limits
+    limits : BearingLimits
     space : Space
         With the initial state in `state`.
     record : BearingRecord

@@ -19,7 +19,7 @@ _LONGEST_REST = 0.05
 _CAGE_REACH = 0.1
 
 
-class Limits(NamedTuple):
+class BearingLimits(NamedTuple):
     """Tolerance and bounds.
 
     Attributes
@@ -61,9 +61,9 @@ class Limits(NamedTuple):
     interrupt: np.ndarray
 
 
-def limits_of(tolerance: float, speed_scale: float, longest_step: float, *, dry: bool) -> Limits:
+def limits_of(tolerance: float, speed_scale: float, longest_step: float, *, dry: bool) -> BearingLimits:
     """Bounds for a relative tolerance and the largest raceway speed of the history [m/s], with dry impacts or without."""
-    return Limits(
+    return BearingLimits(
         tolerance=tolerance,
         allowed_speed=_SPEED_SHARE * (_RINGING if dry else 1.0) * tolerance * speed_scale,
         power=_POWER_SHARE * tolerance,

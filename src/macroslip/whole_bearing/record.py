@@ -146,7 +146,7 @@ def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) 
 
 
 @jit_inline
-def raceway_power(sheet, at, ratio, forces, place):
+def raceway_powers(sheet, at, ratio, forces, place):
     """Powers [W] of a raceway contact with the forces of a stage at its load [N], ring speed and slip [m/s].
 
     Forces are that for the spin, the pull, and rolling resistance in both [N]. Returned are friction by mechanism, rolling
@@ -184,8 +184,8 @@ def stage_powers(bearing, moment, sheets):
         at_outer = (stations.outer_load[j], stations.outer_speed[j], state[j, 1])
         f[SHEAR_INNER], f[SHEAR_OUTER] = shear_from(sheet, INNER, *at_inner), shear_from(sheet, OUTER, *at_outer)
         f[SHEAR_CAGE] = cage_shear_from(sheet, f[5], f[6])
-        inner = raceway_power(sheet, INNER, inner_ratio, (f[0], f[2], f[SHEAR_INNER]), at_inner)
-        outer = raceway_power(sheet, OUTER, outer_ratio, (f[1], f[3], f[SHEAR_OUTER]), at_outer)
+        inner = raceway_powers(sheet, INNER, inner_ratio, (f[0], f[2], f[SHEAR_INNER]), at_inner)
+        outer = raceway_powers(sheet, OUTER, outer_ratio, (f[1], f[3], f[SHEAR_OUTER]), at_outer)
         for k in range(5):
             powers[j, 0, k + 1], powers[j, 1, k + 1] = inner[k], outer[k]
         powers[j, 0, 0], powers[j, 1, 0] = inner[0] + inner[1] + inner[2], outer[0] + outer[1] + outer[2]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit_inline, jit_merged
-from macroslip.whole_bearing.record import raceway_power
+from macroslip.whole_bearing.record import raceway_powers
 from macroslip.whole_bearing.traction import (
     INNER,
     LOAD,
@@ -44,8 +44,8 @@ def _contact_off(bearing, limits, sheets, at, place, span, power_scale):
     spin, pull = raceway_from(known, at, load, speed, slip)
     off = max(abs(spin - sheet[at + SPIN]), abs(pull - sheet[at + PULL]))
     drift = off / (bearing.roller_mass / max(span, 1e-9) + max(sheet[at + SPIN_V], sheet[at + PULL_V], 0.0))
-    foretold = raceway_power(known, at, ratio, (spin, pull, shear_from(known, at, load, speed, slip)), place)
-    found = raceway_power(sheet, at, ratio, (sheet[at + SPIN], sheet[at + PULL], sheet[at + SHEAR]), place)
+    foretold = raceway_powers(known, at, ratio, (spin, pull, shear_from(known, at, load, speed, slip)), place)
+    found = raceway_powers(sheet, at, ratio, (sheet[at + SPIN], sheet[at + PULL], sheet[at + SHEAR]), place)
     wrong, power = 0.0, 0.0
     for k in range(4):
         wrong += foretold[k] - found[k]
@@ -76,7 +76,7 @@ def refresh(bearing, limits, time, space, power_scale):
     Parameters
     ----------
     bearing : WholeBearing
-    limits : Limits
+    limits : BearingLimits
     time : float
         [s].
     space : Space

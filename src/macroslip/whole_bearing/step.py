@@ -99,7 +99,7 @@ def take_step(bearing, motion, limits, start, end, space):
     ----------
     bearing : WholeBearing
     motion : Motion
-    limits : Limits
+    limits : BearingLimits
     start, end : Clock
     space : Space
 
