@@ -25,11 +25,7 @@ from macroslip.whole_bearing.traction import (
     raceway_from,
     shear_from,
 )
-
-#: Factors by which the time between evaluations changes.
-_REST_GROWTH, _REST_PART = 2.0, 0.3
-#: How many times its allowance a foretold force may be off before the step is repeated.
-_FAR_OFF = 30.0
+from macroslip.whole_bearing.tuning import FAR_OFF, LOAD_CHANGE, REST_GROWTH, REST_PART, REST_SAFETY
 
 
 @jit_inline
@@ -65,7 +61,7 @@ def _foretold(bearing, limits, tractions, stations, j, span, power_scale):
         place = (load, speed, sheet[at + SLIP])
         worst = max(worst, _contact_off(bearing, limits, (known, sheet), at, place, span, power_scale))
         change = abs(load - known[at + LOAD])
-        worst = max(worst, (change / (0.2 * max(load, known[at + LOAD]) + 1e-9)) ** 2)
+        worst = max(worst, (change / (LOAD_CHANGE * max(load, known[at + LOAD]) + 1e-9)) ** 2)
     return worst
 
 
@@ -104,13 +100,13 @@ def refresh(bearing, limits, time, space, power_scale):
         if tractions.due[j]:
             ratio = _foretold(bearing, limits, tractions, moment.stations, j, span, power_scale)
             tractions.ratio[j] = ratio
-            if not tractions.fresh[j] and ratio > _FAR_OFF and span > 0.0:
+            if not tractions.fresh[j] and ratio > FAR_OFF and span > 0.0:
                 rest[j] = 0.0
                 good = False
     # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
     for j in range(rest.size):
         if good and tractions.due[j]:
-            factor = 0.8 / math.sqrt(max(tractions.ratio[j], 1e-4))
+            factor = REST_SAFETY / math.sqrt(max(tractions.ratio[j], 1e-4))
             span = time - tractions.known[j, WHEN]
-            rest[j] = min(limits.longest_rest, span * max(_REST_PART, min(factor, _REST_GROWTH)))
+            rest[j] = min(limits.longest_rest, span * max(REST_PART, min(factor, REST_GROWTH)))
     return good

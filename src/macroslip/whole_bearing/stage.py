@@ -16,14 +16,8 @@ from macroslip.whole_bearing.guidance import guide_force
 from macroslip.whole_bearing.meeting import add_to_border, follow_roller, meet, write_block
 from macroslip.whole_bearing.space import PULL_INNER, PULL_OUTER, SPIN_INNER, SPIN_OUTER
 from macroslip.whole_bearing.traction import INNER, OUTER, PULL, SPIN, evaluate_marked, out_of_reach, raceway_from
+from macroslip.whole_bearing.tuning import ITERATIONS, PREDICTED, PREDICTED_REST
 
-#: Newton iterations before a step counts as unsolved.
-_ITERATIONS = 12
-#: Tolerances by which the slopes may be off at the last evaluation, for Newton's next update is far smaller.
-_FORETOLD = 10.0
-#: Least part of a residual that is foreseen to be left by the next update. Newton's iteration squares it, but slopes of
-#: contacts are those of a state nearby.
-_FORESEEABLE = 1e-3
 #: Speed over which the guide's friction turns its sign [m/s].
 GUIDE_SPEED = 1e-3
 
@@ -112,7 +106,7 @@ def _raceway_forces(bearing, stage, moment, tractions):
             off = abs(f[SPIN_INNER] - sheet[INNER + SPIN]) + abs(f[PULL_INNER] - sheet[INNER + PULL])
             off += abs(f[SPIN_OUTER] - sheet[OUTER + SPIN]) + abs(f[PULL_OUTER] - sheet[OUTER + PULL])
             # Where the slopes foretold the force well enough, they do so until the stage is solved.
-            tractions.settled[j] = off <= _FORETOLD * stage.tolerance
+            tractions.settled[j] = off <= PREDICTED * stage.tolerance
             f[SPIN_INNER], f[PULL_INNER] = sheet[INNER + SPIN], sheet[INNER + PULL]
             f[SPIN_OUTER], f[PULL_OUTER] = sheet[OUTER + SPIN], sheet[OUTER + PULL]
     return evaluations
@@ -192,7 +186,7 @@ def solve_stage(bearing, stage, moment, space):
     size = 3 if bearing.translates else 1
     worst, before = math.inf, math.inf
     tractions.settled[:] = False
-    for _ in range(_ITERATIONS):
+    for _ in range(ITERATIONS):
         worst, evaluations = _assemble(bearing, stage, moment, space.star, tractions, arrow)
         space.work[0] += evaluations
         space.work[1] += 1
@@ -201,7 +195,7 @@ def solve_stage(bearing, stage, moment, space):
             break
         solve(cage_of, size, arrow)
         _update(moment.values, arrow, size)
-        foreseen = worst * max((worst / before) ** 2, _FORESEEABLE)
+        foreseen = worst * max((worst / before) ** 2, PREDICTED_REST)
         if foreseen <= stage.tolerance:
             _place_cages(stage, moment.values.cages, space.star.cages)
             for j in range(cage_of.size):
