@@ -192,7 +192,6 @@ def test_contact_without_load_has_no_traction(models):
 def test_entrainment_speed_has_a_floor(models):
     contact = models[1].inner
     floor = contact_force(contact, 1e3, 1e-4, LOWEST_ENTRAINMENT_SPEED, 0.0)
-    assert LOWEST_ENTRAINMENT_SPEED == 1e-6
     assert contact_force(contact, 1e3, 1e-4, 0.0, -0.5) == floor
     assert contact_force(contact, 1e3, 1e-4, 0.99e-6, 0.5) == floor
     assert contact_force(contact, 1e3, 1e-4, 2e-6, 0.0)[0] != floor[0]
