@@ -20,7 +20,7 @@ from macroslip.whole_bearing.traction import evaluate_marked
 from macroslip.whole_bearing.tuning import BEGUN, FIRST_STEP, GROWTH, IMPACT_PART, LEAST_PART, SAFETY, UNSOLVED_PART
 
 #: Positions in the record's counts.
-_STEPS, _REJECTIONS, _EVALUATIONS, _ITERATIONS, _REFRESHED, _UNSOLVED, _INACCURATE, _UNFORETOLD = range(8)
+_STEPS, _REJECTIONS, _EVALUATIONS, _ITERATIONS, _REFRESHED, _UNSOLVED, _INACCURATE, _UNPREDICTED = range(8)
 
 
 @jit_merged
@@ -200,7 +200,7 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
         power_scale = max(spent, 0.0) / (end.time - motion.time[0]) / (2 * space.state.rollers.shape[0])
         if not refresh(bearing, limits, end.time, space, power_scale):
             count[_REJECTIONS] += 1
-            count[_UNFORETOLD] += 1
+            count[_UNPREDICTED] += 1
             step = h
             continue
         count[_STEPS] += 1

@@ -20,7 +20,7 @@ class BearingLimits(NamedTuple):
     allowed_speed : float
         Error of speed that a step may make [m/s].
     power : float
-        Allowed relative error of power where slopes foretell it.
+        Allowed relative error of power where slopes predict it.
     force : float
         Largest force an iteration may leave unbalanced [N].
     rounding : float

@@ -1,4 +1,4 @@
-"""What the integration of a whole bearing leaves behind."""
+"""Results of the integration of a whole bearing."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class BearingRecord(NamedTuple):
         ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window.
     count : ndarray of int, shape (8,)
         Steps, rejections, evaluations of a raceway contact, Newton iterations, evaluations after a rest, and the rejections
-        for an unsolved stage, for the error, and for forces not as foretold.
+        for an unsolved stage, for the error, and for forces not as predicted.
     worst : ndarray, shape (1,)
         Largest force left unbalanced [N].
     end : ndarray, shape (1,)
@@ -73,7 +73,7 @@ class BearingRecord(NamedTuple):
     out_time : ndarray, shape (m,)
         Output times [s].
     trace : ndarray, shape (m, n, 21)
-        See `TRACES`; empty first axis where none were asked for.
+        See `TRACES`; empty first axis where none were requested.
     cage_trace : ndarray, shape (m, c, 5)
         See `CAGE_TRACES`.
     flows, held : ndarray, shape (m, 13) and (m, 3)
@@ -81,7 +81,7 @@ class BearingRecord(NamedTuple):
     book : ndarray, shape (13,)
         Books as they are now.
     details : Details
-        What curved contacts leave behind beside.
+        What is recorded of curved contacts.
     """
 
     edges: np.ndarray

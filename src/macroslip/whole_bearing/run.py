@@ -87,7 +87,7 @@ def run_whole_bearing(
     rests : bool
         Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
     interrupt : ndarray of int8, shape (1,), optional
-        Looked at in every step; anything but zero ends the integration.
+        Read in every step; any value but zero ends the integration.
 
     Returns
     -------
