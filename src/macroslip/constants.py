@@ -1,4 +1,4 @@
-"""Constants that several rooms share."""
+"""Constants that several folders share."""
 
 #: Acceleration of free fall [m/s²].
 GRAVITY = 9.81

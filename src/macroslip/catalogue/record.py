@@ -188,7 +188,7 @@ class Record(BaseModel):
         provenance: dict[str, Provenance] = {}
         problems: list[InputError] = []
         if entries and not entries.keys() & cls.model_fields.keys():
-            # Some other file: its keys are not for a message that others may see.
+            # Another kind of file: its keys may be private and are left out of the message.
             raise InputError(
                 f"none of its keys is one of a {cls.noun}",
                 where=source.file,
@@ -219,7 +219,7 @@ class Record(BaseModel):
         *keys : str
             Names of the quantities.
         purpose : str
-            What needs them, for the message: "the physical model", say.
+            What needs them, for the message, for example "the physical model".
 
         Raises
         ------
@@ -246,7 +246,8 @@ class Record(BaseModel):
         -------
         dict
             Text fields as text, quantities as value and unit as written, tag, note and, where it is known, range.
-            Quantities without a value, and those that follow from others, are left out. `from_dict` turns it back into an equal record.
+            Quantities without a value, and those that follow from others, are left out. `from_dict` makes an equal
+            record of it.
         """
         entries: dict[str, Any] = {}
         for key in type(self).model_fields:
@@ -302,7 +303,7 @@ class Record(BaseModel):
 
 @functools.cache
 def _shipped_record(kind: type[Record], name: str) -> Any:
-    """Read a shipped record. No record ever changes, so all who ask for one share it."""
+    """Read a shipped record. No record ever changes, so all users of one share it."""
     file = f"{name}.yaml"
     return kind._from_entries(*parse((kind._shipped() / file).read_text(encoding="utf-8"), file))
 

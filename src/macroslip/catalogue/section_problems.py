@@ -61,7 +61,7 @@ def _walk(kind: Any, loc: tuple[Any, ...]) -> tuple[list[str], FieldInfo | None,
 
 
 def _problem(detail: Mapping[str, Any], kind: Any, place: Place, noun: str) -> InputError:
-    """One thing that pydantic found, in one paragraph."""
+    """One problem that pydantic found, in one paragraph."""
     loc, problem = detail["loc"], detail.get("ctx", {}).get("error")
     keys, field, inside = _walk(kind, loc)
     here = place.inside(*keys)

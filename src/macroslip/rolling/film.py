@@ -63,7 +63,7 @@ def log_blended_film(log_rigid, log_load, log_material):
 def light_film(law, log_load, log_speed):
     """Ln h of the film of the volume flow [ln m] and its derivatives by ln Q and by ln u.
 
-    Moes' blend of a contact `law` (`law.Rolling`), its rigid and isoviscous limit that of the gap of finite length with
+    Moes' blend of a contact `law` (`rolling_law.Rolling`), its rigid and isoviscous limit that of the gap of finite length with
     its fullness: 1.2257 h0. From ln Q [ln N] and ln u [ln m/s].
     """
     unit = math.log(law.viscosity * law.gap.fullness) + log_speed
