@@ -136,7 +136,7 @@ def test_overrolling_frequencies_give_number_and_diameter():
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "reported"),
     [
         ({"bore": 0.9}, "bore is 900 mm. Allowed: below the outside diameter, 870 mm"),
         ({"width": math.nan}, "width is nan. Allowed: a finite number above 0"),
@@ -144,8 +144,8 @@ def test_overrolling_frequencies_give_number_and_diameter():
         ({"shoulder": 0.9}, "shoulder is 900 mm. Allowed: between bore and outside"),
     ],
 )
-def test_a_page_that_contradicts_itself(change, told):
-    with pytest.raises(InputError, match=told):
+def test_a_page_that_contradicts_itself(change, reported):
+    with pytest.raises(InputError, match=reported):
         dataclasses.replace(PAGE, **change)
 
 

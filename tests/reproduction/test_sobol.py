@@ -1,4 +1,4 @@
-"""Sobol' indices of a fit against those of functions whose indices are known, and what is said of a bad fit."""
+"""Sobol' indices of a fit against those of functions whose indices are known, and a bad fit."""
 
 import math
 

@@ -183,7 +183,7 @@ def test_contact_without_load_has_no_traction(models):
         assert contact_force(models[1].inner, load, 0.3, 0.4, -0.5) == (0.0, 0.0, 0.0)
     untouched = Station(-0.4, -1e-4, 0.0, 0.0, 0.0, 0.0)
     found = slip_forces(models[1], untouched, 0.1)
-    # Contacts of the paper's model have nothing to tell beside their forces.
+    # Contacts of the paper's model give nothing beside their forces.
     details = {"inner_detail": None, "outer_detail": None, "cage_detail": None}
     nothing = details | {"rolling_power": (0.0, 0.0, 0.0)}
     assert found._asdict() == dict.fromkeys(found._fields, 0.0) | nothing

@@ -57,7 +57,7 @@ def _options(
 def main() -> None:
     """Entry point of the command `macroslip`."""
     for stream in (sys.stdout, sys.stderr):
-        # Where output goes to a file or a pipe, Windows encodes it in a way that lacks most characters.
+        # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     app()

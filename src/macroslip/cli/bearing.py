@@ -144,7 +144,7 @@ def _write(path: Path, bearing: Bearing, force: bool) -> None:
 
 
 def _numbers(found: EstimatedBearing) -> dict[str, Any]:
-    """Every estimated value with its range, and what the dynamic load rating says of them."""
+    """Every estimated value with its range, and the check by the dynamic load rating."""
     bearing = found.bearing
     return {
         "name": bearing.name,

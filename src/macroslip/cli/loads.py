@@ -1,4 +1,4 @@
-"""`macroslip loads inspect`: what a load file holds, how it was read, and what it does to the main bearing."""
+"""`macroslip loads inspect`: what a load file holds, how it was read, and the load on the main bearing."""
 
 from __future__ import annotations
 

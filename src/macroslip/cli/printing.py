@@ -15,7 +15,7 @@ PIPE_WIDTH = 160
 
 
 def console() -> Console:
-    """Standard output, which takes brackets as brackets and colours nothing by guessing."""
+    """Standard output without markup and without automatic colours."""
     from rich.console import Console
 
     found = Console(markup=False, highlight=False)
@@ -23,7 +23,7 @@ def console() -> Console:
 
 
 def print_table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
-    """Print a table; the headings say whether a column holds numbers."""
+    """Print a table; each heading comes with whether its column holds numbers."""
     from rich.table import Table
 
     headings = list(headings)

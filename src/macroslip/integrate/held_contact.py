@@ -8,7 +8,7 @@ from numba.extending import overload
 
 from macroslip.compiled import jit, jit_part
 from macroslip.film.film_law import film_thickness
-from macroslip.integrate.tuning import MOST_QUICKENING, STEEPEST, LEAST_CHANGE
+from macroslip.integrate.tuning import LEAST_CHANGE, MOST_QUICKENING, STEEPEST
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved, raceway_force
 from macroslip.traction.traction_law import rising_slip
 

@@ -1,4 +1,4 @@
-"""Numbers beside slip: the rating of the bearing that a result holds, as tables and pictures."""
+"""The rating of the bearing that a result holds, as tables and pictures."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _BEARING = {
     "equivalent_load": "mean equivalent load P",
     "fatigue_load_limit": "fatigue load limit C_u",
     "share_below_fatigue_load_limit": "time with P below C_u",
-    "minimum_load": "minimum load the maker asks for",
+    "minimum_load": "minimum load the maker requires",
     "share_below_minimum_load": "time with P below it",
     "viscosity_ratio": "viscosity ratio κ at the mean speed",
     "life_modification": "life modification factor a_ISO",
@@ -33,7 +33,7 @@ _LOADS = {"radial": (BLUE, "-"), "axial": (ORANGE, "--"), "equivalent": (BLACK, 
 
 
 def rating_blocks(result: xr.Dataset) -> tuple[Block, ...]:
-    """What a result says of the bearing beside slip; nothing where it was not rated.
+    """The ratings in a result; nothing where it was not rated.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def rating_blocks(result: xr.Dataset) -> tuple[Block, ...]:
     return (
         Paragraph(
             "Over all loads of the case, as if they repeated for ever; lives weigh loads by revolutions. The "
-            f"contamination factor is {contamination:g}, an assumption. A rating knows loads, speed and viscosity, "
+            f"contamination factor is {contamination:g}, an assumption. A rating depends on loads, speed and viscosity, "
             "not slip."
         ),
         Table(("bearing", "value"), whole),
@@ -119,7 +119,7 @@ def rating_summary(study: xr.Dataset) -> tuple[Block, ...]:
 
 
 def rating_text(value: xr.DataArray) -> str:
-    """A number with its unit, as a reader wants it: kN, hours with years, per cent.
+    """A number with its unit, in usual units: kN, hours with years, per cent.
 
     Examples
     --------

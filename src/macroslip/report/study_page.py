@@ -100,7 +100,7 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weights | None = None,
     if "status" in study:
         sections.append(provenance_section({study.attrs["title"] or "study": study}))
     file = Verbatim(_without_folders(study.attrs["study"]), "The study as it was read, as JSON")
-    sections.append(Section("study", "The study file", (file,), "what was asked for"))
+    sections.append(Section("study", "The study file", (file,), "the study as it was read"))
     return render(title, _subtitle(study, title), study_opening(study, life, curves), sections)
 
 

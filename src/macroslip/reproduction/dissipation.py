@@ -1,4 +1,4 @@
-"""Where inside the contacts a study's energy goes: by interface, mechanism and station, and what loads say of it."""
+"""Where inside the contacts a study's energy goes: by interface, mechanism and station, and how it follows the loads."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PARTS = (
 
 
 def knows_mechanisms(study: xr.Dataset) -> bool:
-    """Whether the study was computed with contacts that tell mechanisms apart."""
+    """Whether the study was computed with contacts that distinguish mechanisms."""
     return "mechanism_energy" in study
 
 
@@ -141,7 +141,7 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
             "thrust takes the load off the upwind row: its rollers carry load during "
             f"{float(loaded.min()):.2g} to {float(loaded.max()):.2g} % of the time and spend "
             f"{ends(per_orbit.sel(row='upwind'))} J an orbit {span}, of it {float(cage.sel(row='upwind').min()):.0f} to "
-            f"{float(cage.sel(row='upwind').max()):.0f} % at the cage; what an unloaded roller spends is decided by the oil "
+            f"{float(cage.sel(row='upwind').max()):.0f} % at the cage; the energy of an unloaded roller depends on the oil "
             "between which it lies, and by how much of it there is"
         ),
         "peaks": (

@@ -1,4 +1,4 @@
-"""What dissipates inside the contacts, and what that does to the paper's figures 4 and 5."""
+"""Dissipation inside the contacts, and the paper's figures 4 and 5 under every model."""
 
 from __future__ import annotations
 

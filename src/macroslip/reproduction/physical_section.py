@@ -162,7 +162,7 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
             "Lines: 5 to 95 % of the samples; bar across: median. Squares, in the order of the lines: rank "
             f"correlations, filled where they are no chance (p < {DRIVER_LEVEL:g}), and Sobol' indices of the logarithm: "
             "the square is the total index, the filled part that of first order, and the number on the right the part of "
-            "the variance that the polynomial behind the indices foretells of samples it has not seen.",
+            "the variance that the polynomial behind the indices predicts for samples it was not fitted to.",
         ),
         Table(
             (
@@ -173,15 +173,15 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
                 "95 %",
                 "driven by (rank correlation)",
                 "Sobol' index of first order (total)",
-                "foretold",
+                "predicted",
             ),
             tuple(rows),
             "Results over the sample",
         ),
         Paragraph(
             "A statement is robust if every sample shows it, and robustly not so if none does. Indices are those of a "
-            "sparse polynomial of second degree fitted to the sample; of the variance it does not foretell nothing is "
-            "known."
+            "sparse polynomial of second degree fitted to the sample; the variance that it does not predict is "
+            "unexplained."
         ),
         Points(trends),
         Table(("value", "range", "tag", "why"), ranges, "What was varied"),

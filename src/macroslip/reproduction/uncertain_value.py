@@ -34,7 +34,7 @@ class UncertainValue:
     whole : bool
         Whether it is a count.
     choices : tuple of str
-        What 0 and 1 stand for.
+        Meaning of 0 and 1.
 
     Examples
     --------
@@ -55,7 +55,7 @@ class UncertainValue:
     choices: tuple[str, ...] = ()
 
     def at(self, place: float) -> Any:
-        """The value at a place from 0 to 1 in its range, in its unit; of a choice its word."""
+        """The value at a place from 0 to 1 in its range, in its unit; of a choice its name."""
         if self.choices:
             return self.choices[int(place * len(self.choices))]
         if self.whole:

@@ -21,7 +21,7 @@ from macroslip.study.reader import open_study
 from macroslip.study.settings import RECORDS
 from macroslip.study.study import Run, Study
 
-#: Digits of a temperature [K]: enough, and the same on every machine, so that a study that goes on finds its runs again.
+#: Digits of a temperature [K]: enough, and the same on every machine, so that a resumed study finds its runs again.
 _DIGITS = 3
 
 
@@ -67,7 +67,7 @@ def balanced(study: Study, directory: Path, compute: Callable[[Study, Path], Non
         found = {group: next_temperature(known[group], heats[group]) for group in examples}
         if all(settled for _, settled in found.values()):
             return replace(study, heat=None, weights=None, temperatures=_rounded({g: t for g, (t, _) in found.items()}))
-        # What has settled is not computed again a little off: its nearest temperature is there already.
+        # A group that has settled keeps the nearest temperature that is there already.
         asked = {
             group: min(known[group], key=lambda place, at=at: abs(place - at)) if settled else at
             for group, (at, settled) in found.items()

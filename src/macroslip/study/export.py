@@ -23,7 +23,7 @@ FORMATS = ("csv", "parquet")
 
 
 def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
-    """Some variables of a dataset with all coordinates they have, one line a value; units stand in the headings.
+    """Some variables of a dataset with all coordinates they have, one line a value; units are in the headings.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def tables(
     width: float = 2.0,
     by: Sequence[str] = (),
 ) -> dict[str, pd.DataFrame]:
-    """All tables of a study by name; docs/studies.md tells their columns.
+    """All tables of a study by name; docs/studies.md lists their columns.
 
     Parameters
     ----------

@@ -51,12 +51,12 @@ class LoadList:
     Parameters
     ----------
     source : str
-        `file`, `bearing_file` or `bundled`: the key of a case file under which a name stands.
+        `file`, `bearing_file` or `bundled`: the key of a case file for such a name.
     loads : sequence of Load
     units : mapping of str to str
         Units of the fields.
     remarks : sequence of str
-        What the user should know: files left out.
+        Notes for the user: files left out.
     """
 
     source: str

@@ -25,7 +25,7 @@ KINDS = ("hub", "main-bearing")
 
 @dataclass(frozen=True)
 class BaseCase(Form):
-    """The keys of a case file; what stands under them is checked by the reader of case files."""
+    """The keys of a case file; their values are checked by the reader of case files."""
 
     form = "the keys of a case file, of loads only start, end and shaft_speed"
 
@@ -78,7 +78,7 @@ class SettingsList(Form):
     form = "a list of sections such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
     def read(self, value: Any, info: Any) -> list[list[Setting]]:
-        """Check every item; a key has one unit throughout, so that its values can stand in one column."""
+        """Check every item; a key has one unit throughout, so that its values fit in one column."""
         if not isinstance(value, list) or not value:
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         items, problems = [], []
