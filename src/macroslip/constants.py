@@ -3,6 +3,6 @@
 #: Acceleration of free fall [m/s²].
 GRAVITY = 9.81
 
-#: Name under which a case asks for the traction built from viscosity, rheology, heating, microslip and asperities; no
+#: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip and asperities; no
 #: traction law of one's own may have it.
 MECHANISMS = "mechanisms"

@@ -139,7 +139,7 @@ class Case:
             _check(given == BALANCE, f"it is {shown(given)}", "temperature", words)
             _check(
                 isinstance(self.heat, Heat),
-                "temperature is to balance, and nothing says how the bearing loses heat",
+                "temperature is to balance, and the heat that the bearing loses is not given",
                 "heat",
                 "conductance to the surroundings and their temperature",
                 "40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine.",

@@ -39,8 +39,8 @@ app.add_typer(bearing)
 app.add_typer(lubricant)
 
 
-def _version(asked: bool) -> None:
-    if asked:
+def _version(requested: bool) -> None:
+    if requested:
         typer.echo(f"macroslip {macroslip.__version__}")
         raise typer.Exit()
 

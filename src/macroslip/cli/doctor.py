@@ -72,7 +72,7 @@ def _kernels() -> dict[str, Any]:
 
 
 def _packages() -> Iterator[dict[str, str | None]]:
-    """Packages that the program asks for in its metadata: installed version, and the bound."""
+    """Packages that the program requires in its metadata: installed version, and the bound."""
     import importlib.metadata
 
     try:

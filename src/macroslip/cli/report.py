@@ -51,7 +51,7 @@ def report(
     if not quiet:
         typer.echo(f"written: {output}")
     if failed:
-        to_stderr(f"failed: {failed}; the page says which.")
+        to_stderr(f"failed: {failed}; the page lists them.")
         raise typer.Exit(ROLLERS_FAILED)
 
 

@@ -35,5 +35,5 @@ def reproduce(
             typer.echo(f"used again from the last run, whose inputs are the same: {', '.join(summary['reused'])}")
         typer.echo(f"written: {output}; the report: {output / REPORT}")
     if any(summary["failed_rollers"][part] for part in ("study", "single_rollers", "detailed_case", "sensitivity")):
-        to_stderr(f"failed: some rollers did not reach the end; {output}/summary.json says how many in which case.")
+        to_stderr(f"failed: some rollers did not reach the end; {output}/summary.json has their number for each case.")
         raise typer.Exit(ROLLERS_FAILED)

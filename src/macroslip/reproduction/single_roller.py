@@ -188,7 +188,7 @@ def inflexion_angle(turn: xr.Dataset) -> float:
 def _angle_from_bottom(loads: BearingLoads, case: Case, row: str, roller: int) -> np.ndarray:
     """Angle of the roller along its orbit from the bottom at the load samples, rising without wrap [rad]."""
     if loads.shaft_speed.min() <= 0.0:
-        raise InputError("the shaft stands still or turns back", where=loads.source, allowed="speeds above 0")
+        raise InputError("the shaft stops or turns back", where=loads.source, allowed="speeds above 0")
     begin = initial_angles(row, case.bearing.rollers_per_row)[roller] + 0.5 * np.pi
     return begin + travel(loads.time, loads.shaft_speed, geometry.orbit_ratio(case.bearing))
 

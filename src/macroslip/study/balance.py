@@ -68,7 +68,7 @@ def balanced(study: Study, directory: Path, compute: Callable[[Study, Path], Non
         if all(settled for _, settled in found.values()):
             return replace(study, heat=None, weights=None, temperatures=_rounded({g: t for g, (t, _) in found.items()}))
         # A group that has settled keeps the nearest temperature that is there already.
-        asked = {
+        chosen = {
             group: min(known[group], key=lambda place, at=at: abs(place - at)) if settled else at
             for group, (at, settled) in found.items()
         }
@@ -79,11 +79,11 @@ def balanced(study: Study, directory: Path, compute: Callable[[Study, Path], Non
             cycles=False,
             heat=None,
             weights=None,
-            temperatures=_rounded(asked),
+            temperatures=_rounded(chosen),
         )
         compute(trial, directory)
         for group, power in _mean_powers(trial, directory, weights).items():
-            known[group][asked[group]] = power
+            known[group][chosen[group]] = power
 
 
 def _heat(study: Study, run: Run) -> Heat:
@@ -91,7 +91,9 @@ def _heat(study: Study, run: Run) -> Heat:
     records = {noun: getattr(study, f"{noun}s")[getattr(run, noun)] for noun in RECORDS}
     case, _ = template(study.case, list(run.settings), records, folder=study.folder)
     if case.heat is None:
-        raise InputError("the temperature is to balance, and nothing says how the bearing loses heat", where="heat")
+        raise InputError(
+            "the temperature is to balance, and the heat that the bearing loses is not given", where="heat"
+        )
     return case.heat
 
 

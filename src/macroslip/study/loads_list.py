@@ -187,5 +187,7 @@ def _from_table(path: Path) -> list[Load]:
     loads = [Load(row["file"], {name: value for name, value in row.items() if name != "file"}) for row in rows]
     name, times = Counter(load.name for load in loads).most_common(1)[0]
     if times > 1:
-        raise InputError(f"the file {safe_text(name)} stands {times} times", where=where, remedy="Keep one row of it.")
+        raise InputError(
+            f"the file {safe_text(name)} is listed {times} times", where=where, remedy="Keep one row of it."
+        )
     return loads

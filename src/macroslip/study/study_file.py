@@ -172,13 +172,13 @@ def _check_weights(weights: Weighting, heat: Heat | None, loads: Sequence[Load])
 def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sample | None:
     """The sample, with the ranges of the study's bearing and lubricant where it takes them."""
     sample = variations.sample
-    asked = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
-    if sample is None or not asked:
+    open_nouns = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
+    if sample is None or not open_nouns:
         return sample
     if base is None:  # what is wrong with the case comes first
         return None
     found = {}
-    for noun in asked:
+    for noun in open_nouns:
         known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
         if len(known) > 1:
             raise InputError(
