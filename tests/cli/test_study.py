@@ -36,9 +36,9 @@ def study(folder):
 
 
 def test_from_a_study_file_to_tables(study, macroslip):
-    done = macroslip("study", "study.yaml", "-o", "out")
+    done = macroslip("study", "study.yaml", "-o", "out", "--threads", "1")
     assert (done.code, done.err) == (0, "")
-    # Both seeds are copies of one file: one input, one result.
+    # Both seeds are copies of one file: one input, one result, which the second run finds.
     assert re.fullmatch(r"2 runs: 1 computed, 1 unchanged, 0 failed, in .*\nwritten: out\n", done.out)
     assert len(list((study / "out").glob("cases/*/*.nc"))) == 1
     assert (open_study(study / "out").outcome == "completed").all()

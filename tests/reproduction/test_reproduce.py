@@ -1,5 +1,6 @@
 """The reproduction: numbers of the study, turns, experiments, verdicts and what is written."""
 
+import contextlib
 import importlib.util
 import json
 import shutil
@@ -321,8 +322,8 @@ def test_everything_is_written_says_the_same_and_is_used_again(quick, study, mon
     assert all(one["models"]["paper"]["verdict"] in page for one in summary["statements"])
 
     # What is drawn follows from what was read, and was drawn above.
-    monkeypatch.setattr(module, "_save", lambda *arguments: None)
-    monkeypatch.setattr(module, "_write_report", lambda *arguments: None)
+    monkeypatch.setattr(module, "save_figures", lambda *arguments: None)
+    monkeypatch.setattr(module, "page_written", lambda *arguments: contextlib.nullcontext())
     again = quick(target)
     assert again["reused"] == ["study_paper", "detail_paper", "sensitivity_paper"]
     changing = ("seconds", "reused")
@@ -335,13 +336,13 @@ def test_the_physical_model_gets_its_own_column_sections_and_files(quick, paper_
     shutil.copytree(paper_studies, tmp_path / "results" / FOLDER)
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
     only(monkeypatch, paper=Laws.paper(), physical=Laws.physical())
-    save = module._save
+    save = module.save_figures
 
     def of_the_physical_model(figures, *rest):
         """Those of the paper's model are drawn in the test above."""
         save({name: one for name, one in figures.items() if f"{name}_physical" not in figures}, *rest)
 
-    monkeypatch.setattr(module, "_save", of_the_physical_model)
+    monkeypatch.setattr(module, "save_figures", of_the_physical_model)
     calls = []
     summary = quick(tmp_path / "results", progress=lambda *call: calls.append(call))
     assert len(summary["headline"]) == 10
@@ -392,7 +393,7 @@ def test_failed_rollers_head_the_summary(quick, paper_studies, study, monkeypatc
     shutil.copytree(paper_studies, tmp_path / "results" / FOLDER)
     monkeypatch.setattr(model_run, "_turns", fewer_turns)
     monkeypatch.setattr(model_run, "paper_study", lambda directory: with_failed_roller(study))
-    monkeypatch.setattr(module, "_save", lambda *arguments: None)
+    monkeypatch.setattr(module, "save_figures", lambda *arguments: None)
     summary = quick(tmp_path / "results")
     assert summary["reused"] == ["study_paper", "detail_paper", "sensitivity_paper"]
     assert summary["headline"][0].startswith("FAILED INTEGRATIONS: 1 in study")

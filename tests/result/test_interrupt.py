@@ -18,33 +18,52 @@ PROMISED = 2.0
 PROGRAM = """
 import signal
 
-from macroslip import BackwardEuler, BearingLoads, Case, Laws, Radau, simulate
+from macroslip import BackwardEuler, BearingLoads, Case, Laws, Radau, run_study, simulate
+from macroslip.study.study_file import study_of
 
 # Tests that run in the background of a shell leave interrupts to be ignored.
 signal.signal(signal.SIGINT, signal.default_int_handler)
-integrator, slow = {integrator}, {slow}
 laws = Laws.physical()
-simulate(Case(loads=BearingLoads.constant([0.0, -3e5, 0.0], 2.0, 1.0), laws=laws, rollers=[0], integrator=integrator))
+
+
+def of(seconds, integrator):
+    loads = BearingLoads.constant([0.0, -3e5, 0.0], 2.0, seconds)
+    return Case(loads=loads, laws=laws, rollers=[0, 1], integrator=integrator)
+
+
+simulate(of(1.0, {integrator}))
 print("ready", flush=True)
 try:
-    simulate(Case(loads=BearingLoads.constant([0.0, -3e5, 0.0], 2.0, 1e4), laws=laws, rollers=[0, 1], integrator=slow))
+    {slow}
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
+
+#: Two runs of two rollers each, which take minutes.
+STUDY = {
+    "case": {
+        "rollers": [0],
+        "laws": {"model": "physical"},
+        "integrator": {"tolerance": 1e-10, "tables": False, "max_steps": 10**9},
+    },
+    "loads": {"bundled": ["14B", "24A"]},
+}
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send to another process")
 @pytest.mark.parametrize(
     ("integrator", "slow"),
     [
-        ("Radau()", "Radau(tolerance=1e-10, max_steps=10**12)"),
-        ("BackwardEuler(step=0.01, tolerance=1e-9)", "BackwardEuler(step=1e-5, tolerance=1e-9)"),
+        ("Radau()", "simulate(of(1e4, Radau(tolerance=1e-10, max_steps=10**12)))"),
+        ("BackwardEuler(step=0.01, tolerance=1e-9)", "simulate(of(1e4, BackwardEuler(step=1e-5, tolerance=1e-9)))"),
+        ("Radau()", f"run_study(study_of({STUDY}, '.'), 'out', threads=2)"),
     ],
-    ids=["radau", "backward-euler"],
+    ids=["radau", "backward-euler", "two runs of a study at once"],
 )
-def test_an_interrupt_does_not_wait_for_the_roller_under_way(integrator, slow):
+def test_an_interrupt_does_not_wait_for_the_roller_under_way(integrator, slow, tmp_path):
     program = PROGRAM.format(integrator=integrator, slow=slow)
-    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as process:
+    command = [sys.executable, "-c", program]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
         try:
             assert process.stdout.readline() == "ready\n"
             time.sleep(1.0)

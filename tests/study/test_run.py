@@ -37,7 +37,7 @@ def test_several_runs_at_once_store_the_same(tmp_path, load_files, content):
     ]
     assert len(stored[0]) == 4 and stored[0] == stored[1]
     assert "1 at once with 1 threads each" in (tmp_path / "one" / "log.txt").read_text()
-    assert "3 at once with 2 threads each" in (tmp_path / "many" / "log.txt").read_text()
+    assert "4 at once with 1 threads each" in (tmp_path / "many" / "log.txt").read_text()
 
 
 def test_only_what_is_to_be_kept_is_stored(tmp_path, load_files, content):
@@ -169,7 +169,7 @@ def test_bad_cases_are_recorded_and_the_others_computed(tmp_path, load_files, co
 def test_strict_stops_at_the_first(tmp_path, load_files, content):
     # Of four loads the third is taken second: they are mixed.
     (load_files / "runs" / "14mps_seed1.csv").write_text("")
-    ended = run_study(study_of(content, load_files), tmp_path / "out", strict=True)
+    ended = run_study(study_of(content, load_files), tmp_path / "out", strict=True, threads=1)
     assert (ended.stopped, ended.progress.done, ended.progress.failed) == (True, 2, 1)
     assert list(open_study(tmp_path / "out").outcome.values) == ["completed", "missing", "failed", "missing"]
 

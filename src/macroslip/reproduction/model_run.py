@@ -76,7 +76,7 @@ class ModelRun:
     sensitivity : xarray.Dataset
         From `sensitivity`.
     uncertainty : xarray.Dataset or None
-        From `uncertainty`; None under the paper's model.
+        From `uncertainty_summary`; None under the paper's model.
     """
 
     study: xr.Dataset
@@ -128,11 +128,11 @@ def compute_model(
     turns = _turns(profile["result"], laws, threads, of("single rollers"))
     varied, folder = results_of("sensitivity", "sensitivity", may_fail=True)
     table = sensitivity(folder, base_case(varied))
-    sample = None
+    ranges = None
     if laws.microslip:
-        sample = uncertainty(results_of("uncertainty", "uncertainty", may_fail=True)[1])
+        ranges = uncertainty_summary(uncertainty(results_of("uncertainty", "uncertainty", may_fail=True)[1]))
     return ModelRun(
-        study=study, numbers=paper_numbers(study), turns=turns, profile=profile, sensitivity=table, uncertainty=sample
+        study=study, numbers=paper_numbers(study), turns=turns, profile=profile, sensitivity=table, uncertainty=ranges
     )
 
 
@@ -202,7 +202,7 @@ def statements(run: ModelRun, experiments: Mapping[str, xr.Dataset]) -> dict[str
     }
     if knows_mechanisms(run.study):
         found = explained(found, run.study, run.numbers)
-    return with_uncertainty(found, uncertainty_summary(run.uncertainty)) if run.uncertainty is not None else found
+    return with_uncertainty(found, run.uncertainty) if run.uncertainty is not None else found
 
 
 def failures(run: ModelRun) -> dict[str, int]:
@@ -212,5 +212,5 @@ def failures(run: ModelRun) -> dict[str, int]:
         "single_rollers": sum(turn.attrs["status"] != 0 for group in run.turns.values() for turn in group.values()),
         "detailed_case": int((run.profile["result"].status != 0).sum()),
         "sensitivity": int(run.sensitivity.failed.sum()),
-        "uncertainty": int((run.uncertainty.outcome == 1).sum()) if run.uncertainty is not None else 0,
+        "uncertainty": run.uncertainty.attrs["failed"] if run.uncertainty is not None else 0,
     }

@@ -23,7 +23,6 @@ from macroslip.reproduction.uncertainty_summary import (
     robust,
     sample_size,
     strongest,
-    uncertainty_summary,
 )
 
 if TYPE_CHECKING:
@@ -38,9 +37,9 @@ def physical_sections(runs: Mapping[str, ModelRun]) -> list[Section]:
     inside = {name: run for name, run in runs.items() if knows_mechanisms(run.study)}
     if inside:
         found.append(_models(runs, inside))
-    samples = {name: run.uncertainty for name, run in runs.items() if run.uncertainty is not None}
-    if samples:
-        blocks = [block for name, sample in samples.items() for block in _uncertainty(name, sample)]
+    summaries = {name: run.uncertainty for name, run in runs.items() if run.uncertainty is not None}
+    if summaries:
+        blocks = [block for name, summary in summaries.items() for block in _uncertainty(name, summary)]
         gist = "all estimated values drawn together from their ranges: what follows, and what drives it"
         found.append(Section("uncertainty", "What the estimated values leave open", tuple(blocks), gist))
     return [*found, _torque(runs)]
@@ -112,8 +111,7 @@ def _part_table(parts: xr.Dataset, name: str) -> Table:
     )
 
 
-def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
-    summary = uncertainty_summary(sample)
+def _uncertainty(name: str, summary: xr.Dataset) -> list[Block]:
     rows = []
     for k, quantity in enumerate(summary.quantity.values.tolist()):
         one = summary.isel(quantity=k)
@@ -136,7 +134,7 @@ def _uncertainty(name: str, sample: xr.Dataset) -> list[Block]:
     return [
         Paragraph(
             f"Model {name}: all values below, and the law of shear, drawn together from their ranges by a scrambled Sobol sequence "
-            f"with a fixed seed; cases {', '.join(sample.case.values.tolist())}. {sample_size(summary)}."
+            f"with a fixed seed; cases {', '.join(summary.case.values.tolist())}. {sample_size(summary)}."
         ),
         Pictures(
             (

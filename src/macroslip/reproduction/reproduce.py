@@ -4,34 +4,31 @@ from __future__ import annotations
 
 import importlib.util
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import macroslip
 from macroslip.errors import MacroslipError
 from macroslip.files import published_together
-from macroslip.reproduction.dissipation import dissipation, knows_mechanisms
+from macroslip.reproduction.figure_files import figures, save_figures
 from macroslip.reproduction.headline import failure_line, numerical_line, statement_lines
 from macroslip.reproduction.model_run import (
     MODEL_STAGES,
     MODELS,
     PAPER,
-    STATIC_LOADS,
-    TORQUE_WINDOW,
     ModelRun,
     StageReport,
-    bearing_torques,
     compute_model,
     failures,
     stage_label,
     statements,
     varying_load,
 )
+from macroslip.reproduction.page_process import page_written
 from macroslip.reproduction.single_roller import largest_peak, static_load
 from macroslip.reproduction.solver_experiments import nonlinear_tolerance, step_size
 from macroslip.reproduction.stability import compare_stability
-from macroslip.reproduction.statement import Statement
 from macroslip.reproduction.studies import FOLDER
 from macroslip.reproduction.summary import (
     CONVENTIONS,
@@ -42,12 +39,10 @@ from macroslip.reproduction.summary import (
     plotted,
     told_statements,
 )
-from macroslip.reproduction.uncertainty_summary import uncertainty_summary
 from macroslip.result.stored import to_netcdf
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
 
 SUMMARY, STUDY, REPORT = "summary.json", "study.nc", "report.html"
 
@@ -110,7 +105,6 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: StageRep
         runs = {name: compute_model(name, directory / FOLDER, threads, report, reused) for name in MODELS}
         experiments = _experiments(runs[PAPER], threads, report)
         judged = {name: statements(run, experiments if name == PAPER else {}) for name, run in runs.items()}
-        _save(_figures(runs, experiments), folder, report)
         for name, run in runs.items():
             # In memory first: the HDF5 library may bring the whole process down when the disk is full.
             (folder / f"{of_model('study', name)}.nc").write_bytes(to_netcdf(run.study))
@@ -139,7 +133,10 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: StageRep
                 "study": {name: run.study.to_dict(data="list") for name, run in runs.items()},
             }
         )
-        _write_report(folder / REPORT, runs, experiments, judged, summary, report)
+        with page_written(folder / REPORT, runs, experiments, judged, summary):
+            save_figures(figures(runs, experiments), folder, report)
+        report("report", 1, 1)
+        summary["seconds"] = dict(seconds)
         (folder / SUMMARY).write_text(as_json(summary), encoding="utf-8")
     return summary
 
@@ -161,72 +158,6 @@ def _experiments(run: ModelRun, threads: int | None, report: StageReport) -> dic
         found[name] = job()
         report("experiments", done, len(jobs))
     return found
-
-
-def _figures(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, Callable[[], Figure]]:
-    """How each figure is drawn, by file name."""
-    from macroslip.reproduction import bearing_sets, mechanism_figures, uncertainty_figures
-    from macroslip.reproduction import paper_figures as draw
-    from macroslip.reproduction.torque_figures import torque_figure
-
-    found: dict[str, Callable[[], Figure]] = {
-        "figure_A1": lambda: draw.stability_figure(experiments["A1"]),
-        "nonlinear_tolerance": lambda: draw.nonlinear_tolerance_figure(experiments["nonlinear_tolerance"]),
-        "step_size": lambda: draw.step_size_figure(experiments["step_size"]),
-    }
-    if len(runs) > 1:
-        found["figures_4_5_models"] = lambda: mechanism_figures.models_figure(
-            {name: run.numbers for name, run in runs.items()}
-        )
-    histories = bearing_torques(runs)
-    found["friction_torque"] = lambda: torque_figure(histories, *TORQUE_WINDOW)
-    for name, run in runs.items():
-        static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
-        of_run = {
-            "figure_3a": lambda static=static: draw.turns_figure(static),
-            "figure_3b": lambda run=run: draw.turns_figure(run.turns["typical"]),
-            "figure_3b_peak": lambda run=run: draw.turns_figure(run.turns["peak"]),
-            "figure_4a": lambda run=run: draw.energy_figure(run.numbers),
-            "figure_4b": lambda run=run: draw.energy_ratio_figure(run.numbers),
-            "figure_5a": lambda run=run: draw.peak_power_figure(run.numbers),
-            "figure_5b": lambda run=run: draw.peak_power_ratio_figure(run.numbers),
-            "energy_over_orbit": lambda run=run: bearing_sets.energy_over_orbit_figure(run.profile),
-            "film_over_orbit": lambda run=run: bearing_sets.film_over_orbit_figure(run.profile),
-            "load_zone": lambda run=run: bearing_sets.load_zone_figure(run.profile),
-            "roller_spread": lambda run=run: bearing_sets.roller_spread_figure(run.profile),
-            "outside_film_range": lambda run=run: bearing_sets.outside_film_range_figure(run.profile),
-            "sensitivity": lambda run=run: bearing_sets.sensitivity_figure(run.sensitivity),
-        }
-        if knows_mechanisms(run.study):
-            of_run["mechanisms"] = lambda run=run: mechanism_figures.mechanisms_figure(dissipation(run.study))
-        if run.uncertainty is not None:
-            of_run["uncertainty"] = lambda run=run: uncertainty_figures.uncertainty_figure(
-                uncertainty_summary(run.uncertainty)
-            )
-        found |= {of_model(title, name): figure for title, figure in of_run.items()}
-    return found
-
-
-def _save(figures: Mapping[str, Callable[[], Figure]], folder: Path, report: StageReport) -> None:
-    from macroslip.report.style import save
-
-    for done, (name, draw) in enumerate(figures.items(), start=1):
-        save(draw(), folder, name)
-        report("figures", done, len(figures))
-
-
-def _write_report(
-    path: Path,
-    runs: Mapping[str, ModelRun],
-    experiments: Mapping[str, xr.Dataset],
-    judged: Mapping[str, Mapping[str, Statement]],
-    summary: Mapping[str, Any],
-    report: StageReport,
-) -> None:
-    from macroslip.reproduction.reproduction_page import reproduction_page
-
-    path.write_text(reproduction_page(runs, experiments, judged, summary), encoding="utf-8")
-    report("report", 1, 1)
 
 
 def _failed(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset]) -> dict[str, int]:

@@ -12,7 +12,6 @@ import numpy as np
 
 from macroslip.reproduction.dissipation import dissipation, knows_mechanisms
 from macroslip.reproduction.model_run import PAPER
-from macroslip.reproduction.uncertainty_summary import uncertainty_summary
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -95,7 +94,7 @@ def plotted(runs: Mapping[str, ModelRun], experiments: Mapping[str, xr.Dataset])
         if knows_mechanisms(run.study):
             numbers["mechanisms"] = dissipation(run.study).to_dict(data="list")
         if run.uncertainty is not None:
-            numbers["uncertainty"] = uncertainty_summary(run.uncertainty).to_dict(data="list")
+            numbers["uncertainty"] = run.uncertainty.to_dict(data="list")
         found |= {of_model(name, model): value for name, value in numbers.items()}
     return found | {name: experiment.to_dict(data="list") for name, experiment in experiments.items()}
 

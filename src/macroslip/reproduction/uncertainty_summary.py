@@ -83,7 +83,7 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
         rank_correlation and probability [1] (Spearman), first_order and total_order [1], Sobol' indices of the quantity's
         logarithm; explained [1] over quantity, the part of its variance that the polynomial behind them foretells of
         samples it has not seen. trend_share [1] over trend: how many of the completed samples show it, and trend_base
-        whether the base values do. Attributes: completed, failed, refused: numbers of samples.
+        whether the base values do. Attributes: completed, failed, refused: numbers of samples. `case` has the load cases of the samples.
     """
     import xarray as xr
     from scipy.stats import spearmanr
@@ -149,6 +149,7 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
             "quantile": list(QUANTILES),
             "trend": list(trends),
             "parameter": sample.parameter,
+            "case": sample.case.values,
         },
         {"completed": of(0), "failed": of(1), "refused": of(2)},
     )

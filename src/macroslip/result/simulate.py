@@ -67,7 +67,7 @@ def simulate(
     threads : int, optional
         Threads over rollers; the number of usable processors by default. Results do not depend on it.
     progress : callable, optional
-        Called as progress(done, total) after each roller.
+        Called as progress(done, total) after each roller, and twice a second meanwhile. What it raises ends the simulation.
 
     Returns
     -------
@@ -86,6 +86,7 @@ def simulate(
     >>> float(simulate(Case(loads=standstill, rollers=[0])).energy.sum())
     0.0
     """
+    threads = threads or usable_processors()
     if case.temperature == BALANCE:
         case = balanced(case, lambda known: simulate(known, threads=threads))
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
@@ -101,11 +102,11 @@ def simulate(
     if case.dynamics == WHOLE_BEARING:
         times = Times(edges, trace_time, end)
         drag = _drag_power(case, model, motion, edges[0], end)
-        evaluated = partial(evaluated_models, case, motion=motion, largest=largest)
-        return simulate_whole_bearing(case, models, motion, times, evaluated, _notes(case, largest), drag)
+        evaluated = partial(evaluated_models, case, motion=motion, largest=largest, threads=threads)
+        return simulate_whole_bearing(case, models, motion, times, evaluated, _notes(case, largest), drag, progress)
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
-    models, evaluation = evaluated_models(case, models, motion, largest)
+    models, evaluation = evaluated_models(case, models, motion, largest, threads)
     rollers = {row: sealed(one) for row, one in models.items()}
 
     def run(row: str, angle: float) -> tuple[int, RollerRecord]:
@@ -118,7 +119,7 @@ def simulate(
     angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in ROWS}
     jobs = [(row, number) for row in ROWS for number in case.roller_numbers]
     results = {}
-    pool = ThreadPoolExecutor(threads or usable_processors())
+    pool = ThreadPoolExecutor(threads)
     try:
         futures = {pool.submit(run, row, angles[row][number]): (row, number) for row, number in jobs}
         pending = set(futures)
@@ -129,6 +130,8 @@ def simulate(
                 results[futures[future]] = future.result()
                 if progress:
                     progress(len(results), len(jobs))
+            if progress and not finished:
+                progress(len(results), len(jobs))
     except BaseException:
         # An interrupt, say: the rollers under way look at this in every step.
         limits.interrupt[0] = 1
@@ -140,7 +143,7 @@ def simulate(
 
 
 def evaluated_models(
-    case: Case, models: dict[str, RollerModel], motion: Motion, largest: float
+    case: Case, models: dict[str, RollerModel], motion: Motion, largest: float, threads: int = 1
 ) -> tuple[dict[str, RollerModel], dict[str, Any]]:
     """The rollers of both rows as they are integrated, by their laws or by tables, and what a result tells of it.
 
@@ -152,6 +155,8 @@ def evaluated_models(
     motion : Motion
     largest : float
         Largest elastic load of a roller [N].
+    threads : int
+        That may be used to make tables.
 
     Returns
     -------
@@ -175,7 +180,7 @@ def evaluated_models(
     box = table_box(speeds, largest, body)
     if box is None:
         return models, {laws: "laws: the shaft stands still"}
-    found, report = tabulated(models, box)
+    found, report = tabulated(models, box, threads)
     return found, {
         laws: "tables",
         "table_error_typical": report.typical_error,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from macroslip.bearing.frames import ROWS
 from macroslip.result.whole_dataset import whole_dataset
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.whole_bearing.model import RowModels, whole_bearing, with_rollers
@@ -29,6 +30,7 @@ def simulate_whole_bearing(
     evaluated: Callable,
     notes: dict[str, Any],
     drag_power: float,
+    progress: Callable[[int, int], None] | None,
 ) -> xr.Dataset:
     """Compute orbit and spin of all rollers, and the cages.
 
@@ -47,6 +49,9 @@ def simulate_whole_bearing(
         Attributes of the result on its accuracy, by name.
     drag_power : float
         Mean power of the lubricant's drag on all rollers of both rows in the window [W].
+    progress : callable or None
+        Called twice a second as progress(0, rollers), since all rollers are done together. What it raises ends the
+        simulation.
 
     Returns
     -------
@@ -75,7 +80,8 @@ def simulate_whole_bearing(
         try:
             # On Windows an interrupt is noticed only when a wait ends.
             while not wait([future], timeout=0.5, return_when=FIRST_COMPLETED).done:
-                pass
+                if progress:
+                    progress(0, len(ROWS) * case.bearing.rollers_per_row)
             status, record = future.result()
         except BaseException:
             interrupt[0] = 1

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import time
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -50,7 +52,9 @@ def needs_tables(model: RollerModel) -> bool:
     return isinstance(inner, CurvedContact) and isinstance(inner.traction, FilmShear) and inner.shape.microslip
 
 
-def tabulated(models: dict[str, RollerModel], box: TableBox) -> tuple[dict[str, RollerModel], TableReport]:
+def tabulated(
+    models: dict[str, RollerModel], box: TableBox, threads: int = 1
+) -> tuple[dict[str, RollerModel], TableReport]:
     """The rollers of both rows with tables for their contacts, and what is known of these.
 
     Parameters
@@ -58,10 +62,13 @@ def tabulated(models: dict[str, RollerModel], box: TableBox) -> tuple[dict[str, 
     models : dict of RollerModel
         By row; of rollers that `needs_tables`.
     box : TableBox
+    threads : int
+        With two or more, the tables of both raceways are made at once.
     """
     model = next(iter(models.values()))
-    inner, of_inner, inner_time = _stored_raceway_table(model.inner, box)
-    outer, of_outer, outer_time = _stored_raceway_table(model.outer, box)
+    with ThreadPoolExecutor(min(threads, 2)) as pool:
+        raceways = pool.map(partial(_stored_raceway_table, box=box), (model.inner, model.outer))
+        (inner, of_inner, inner_time), (outer, of_outer, outer_time) = raceways
     cage, of_cage = cage_table(model.cage, box)
     films = model.films
     if isinstance(films, Films):
@@ -103,11 +110,11 @@ def _stored_raceway_table(contact: CurvedContact, box: TableBox) -> tuple[Racewa
     def make() -> list[np.ndarray]:
         # Compilation, at the first table after installation, is no part of the time.
         raceway_values(alike, *np.full((3, 1), np.nan), np.empty((1, CHANNELS)))
-        started = time.process_time()
+        started = time.thread_time()
         table = raceway_table(alike, box)
         errors = raceway_errors(alike, table, box)
         axes = np.array([table.load, table.speed, table.ratio])
-        numbers = np.array([table.stretch, table.merging_ratio, time.process_time() - started])
+        numbers = np.array([table.stretch, table.merging_ratio, time.thread_time() - started])
         return [axes, numbers, table.coefficients, table.good, errors]
 
     axes, numbers, coefficients, good, errors = stored(table_key(alike, box), make)

@@ -7,8 +7,10 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
+from threading import Event
 
 from macroslip.bearing.frames import ROWS
+from macroslip.case.case import WHOLE_BEARING
 from macroslip.errors import InputError, MacroslipError
 from macroslip.files import make_folder
 from macroslip.machine import usable_processors
@@ -40,7 +42,7 @@ def run_study(
     """Compute all runs of a study whose results are not there yet.
 
     Without `workers` and `scheduler` the runs are computed in this process: one after the other, or several at once
-    where there are more threads than rollers in a run. What is computed and stored does not depend on these arguments.
+    where a run has few rollers or is of the whole bearing. What is computed and stored does not depend on these arguments.
 
     Parameters
     ----------
@@ -118,12 +120,20 @@ def run_study(
             raise _cannot_store(error, directory) from error
 
 
+#: Rollers of a run for each thread up to which as many runs as threads are computed at once: what comes before and after
+#: the rollers uses one thread, and takes as long as some of them.
+_FEW_ROLLERS = 4
+
+
 def _shared_out(study: Study, threads: int) -> tuple[int, int]:
-    """How many runs to compute at once in this process, and the threads of each: its rollers, if they are few."""
+    """How many runs to compute at once in this process, and the threads of each: the rollers of a whole bearing use one."""
     records = {noun: next(iter(getattr(study, f"{noun}s").values())) for noun in RECORDS}
     base, _ = template(study.case, [], records, folder=study.folder)
-    runs = max(1, threads // (len(ROWS) * len(base.roller_numbers)))
-    return runs, threads // runs
+    rollers = len(ROWS) * len(base.roller_numbers)
+    if base.dynamics == WHOLE_BEARING or rollers <= _FEW_ROLLERS * threads:
+        runs = min(threads, len(study))
+        return runs, threads // runs
+    return 1, threads
 
 
 @contextmanager
@@ -132,10 +142,12 @@ def _here(runs: int) -> Iterator[Workers]:
         # In the main thread, where an interrupt waits for the rollers under way only.
         yield ThisProcess()
         return
+    ended = Event()
     with ThreadPoolExecutor(runs) as pool:
         try:
-            yield ThreadsHere(pool, runs)
+            yield ThreadsHere(pool, runs, ended)
         finally:
+            ended.set()
             pool.shutdown(cancel_futures=True)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import time
 import traceback
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,7 @@ class StoreError(MacroslipError):
     """A result cannot be stored; no fault of the case, so the study stops."""
 
 
-def work(task: dict[str, Any]) -> dict[str, Any]:
+def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
     """Do one run.
 
     Parameters
@@ -35,6 +36,8 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
         Plain data: `directory`, `setup` (checksum of its manifest), `session` (a name that no other has), `run` (name),
         `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
         compute even if a result is there.
+    progress : callable, optional
+        As for `macroslip.simulate`; what it raises ends the run.
 
     Returns
     -------
@@ -58,7 +61,7 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
         path = case_path(Path(task["directory"]), record["key"])
         if not task["again"] and (stored := _stored(path)) is not None:
             return record | {"found": True, "detail": checksum(stored)}
-        result, values = _computed(case, options, task["threads"])
+        result, values = _computed(case, options, task["threads"], progress)
     except StoreError:
         raise
     except InputError as problem:
@@ -88,7 +91,9 @@ def work(task: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def work_several(tasks: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def work_several(
+    tasks: list[dict[str, Any]], progress: Callable[[int, int], None] | None = None
+) -> list[dict[str, Any]]:
     """Do several runs, one after the other; after one that cannot be stored, the others are not begun.
 
     Returns
@@ -99,7 +104,7 @@ def work_several(tasks: list[dict[str, Any]]) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
     for task in tasks:
         try:
-            found.append(work(task))
+            found.append(work(task, progress))
         except StoreError as error:
             return [*found, {"run": task["run"], "stop": str(error)}]
     return found
@@ -145,12 +150,14 @@ def _stored(path: Path) -> bytes | None:
         return None
 
 
-def _computed(case: Case, options: dict[str, Any], threads: int | None) -> tuple[Any, dict]:
+def _computed(
+    case: Case, options: dict[str, Any], threads: int | None, progress: Callable[[int, int], None] | None
+) -> tuple[Any, dict]:
     """What is stored of a case, and the numbers of its summary."""
     from macroslip.result.simulate import simulate
 
     started = time.perf_counter()
-    result = simulate(case, threads=threads)
+    result = simulate(case, threads=threads, progress=progress)
     seconds = time.perf_counter() - started
     values: dict[str, Any] = row_values(result) | case_values(result, case)
     values["simulate_seconds"] = seconds

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from threading import Event
 from typing import Any, Protocol
 
 from macroslip.study.work import work_several
@@ -57,10 +58,12 @@ class ThreadsHere:
     pool : ThreadPoolExecutor
     runs : int
         Runs at once.
+    ended : threading.Event
+        Set when no more is wanted: runs under way are given up within a second.
     """
 
-    def __init__(self, pool: ThreadPoolExecutor, runs: int):
-        self._pool, self._runs = pool, runs
+    def __init__(self, pool: ThreadPoolExecutor, runs: int, ended: Event):
+        self._pool, self._runs, self._ended = pool, runs, ended
         self._under_way: dict[Future, dict[str, Any]] = {}
 
     def free_places(self) -> int:
@@ -69,9 +72,13 @@ class ThreadsHere:
 
     def submit(self, tasks: list[dict[str, Any]]) -> None:
         """Begin the tasks."""
-        self._under_way |= {self._pool.submit(work_several, [task]): task for task in tasks}
+        self._under_way |= {self._pool.submit(work_several, [task], self._go_on): task for task in tasks}
 
     def wait(self) -> list[Done]:
         """Wait until one or more are done."""
         done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
         return [(self._under_way.pop(future), future.result()[0]) for future in done]
+
+    def _go_on(self, done: int, total: int) -> None:
+        if self._ended.is_set():
+            raise KeyboardInterrupt
