@@ -12,8 +12,7 @@ import hashlib
 from typing import Any
 
 from llvmlite import ir
-from numba import types
-from numba.core.errors import TypingError
+from numba import TypingError, types
 from numba.extending import (
     infer_getattr,
     intrinsic,

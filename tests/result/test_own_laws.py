@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from numba import njit
-from numba.core.errors import NumbaError
+from numba import NumbaError, njit
 
 from macroslip.result.own_laws import _reason
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba.core.errors import NumbaError
+from numba import NumbaError
 
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from xarray.backends import BackendArray
-from xarray.core import indexing
+from xarray.core import indexing  # the documented interface for arrays of a backend, in spite of its name
 
 from macroslip.bearing.frames import ROWS
 from macroslip.files import reading
