@@ -1,4 +1,4 @@
-"""Slip of loaded contacts: the range in which traction is sure to rise with slip, and how a held roller follows its loads."""
+"""Slip of loaded contacts: where traction is sure to rise with slip, and how a held roller follows its loads."""
 
 from __future__ import annotations
 

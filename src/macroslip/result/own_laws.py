@@ -1,4 +1,4 @@
-"""Laws of one's own, tried over the states of a case before its first step: a wrong one gives plausible numbers, or no end."""
+"""Laws of one's own, tried over the states of a case before its first step: a wrong one may give plausible numbers."""
 
 from __future__ import annotations
 

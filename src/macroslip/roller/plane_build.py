@@ -59,7 +59,7 @@ def pocket_values(films, loads, speeds, values):
 
 
 def _plane(tabled: Callable, quantities: int, highest_load: float, box: TableBox) -> PlaneTable:
-    """A table of as many quantities of the kernel `tabled(table)`, which takes from the laws what the table does not hold."""
+    """A table of `quantities` results of the kernel `tabled(table)`, which falls back on the laws."""
     kernel = tabled(no_plane_table())
     load = axis(math.log(_LEAST_LOAD), math.log(highest_load), _LOAD_SPACING)
     bounds = _LEAST_SPEED * box.highest_speed, _MOST_SPEED * box.highest_speed

@@ -128,7 +128,7 @@ def _deviations(
 
 
 def raceway_errors(contact: CurvedContact, table: RacewayTable, box: TableBox) -> np.ndarray:
-    """Median and largest relative error of force and power at random states where rollers go, and the share of states that the table holds.
+    """Median and largest relative error of force and power at usual random states, and the share that the table holds.
 
     States are even in the logarithms of load and speed. Rollers with more than `_HELD_LOAD` slip up to `_USUAL_RATIO` of
     the ring's speed, lighter ones up to all of it. An error of force counts as when cells are judged.
