@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from macroslip.cli.failure import command
-from macroslip.cli.progress import progress_bar
+from macroslip.cli.progress import command_progress
 
 
 def bench(
@@ -23,7 +23,7 @@ def bench(
     """Measure speed and accuracy against general ODE solvers, on this machine."""
     from benchmarks.run import run_bench
 
-    with progress_bar(quiet=quiet) as report:
+    with command_progress(quiet=quiet) as report:
         summary = run_bench(output, quick=quick, progress=report)
     if quiet:
         return
@@ -35,7 +35,7 @@ def bench(
 
 def _rivals(summary: dict[str, Any]) -> None:
     from benchmarks.rivals import INSTALL, OWN
-    from macroslip.cli.printing import table
+    from macroslip.cli.printing import print_table
 
     methods, rows, missing = summary["methods"], [], False
     for key, method in methods.items():
@@ -61,7 +61,7 @@ def _rivals(summary: dict[str, Any]) -> None:
     own = [entry["seconds"] for entry in methods[OWN]["histories"].values()]
     title = f"CPU time at the same accuracy, {summary['asked_accuracy']:g} in total energy and mid-coast spin, over "
     title += f"{len(own)} histories; macroslip takes {1e3 * sum(own) / len(own):.3g} ms on average"
-    table(title, headings, rows)
+    print_table(title, headings, rows)
     agreement = summary["reference"]
     worst = max([*agreement["energy_error"].values(), *agreement["spin_error"].values()])
     typer.echo(f"the reference and a converged {agreement['method']} differ by {worst:.1e} at most")
@@ -71,7 +71,7 @@ def _rivals(summary: dict[str, Any]) -> None:
 
 
 def _limits(summary: dict[str, Any]) -> None:
-    from macroslip.cli.printing import number, table
+    from macroslip.cli.printing import number, print_table
 
     targets, evaluation, quadrature = summary["targets"], summary["evaluation"], summary["quadrature"]
     speed, threads = summary["real_time"], summary["threads"]
@@ -98,11 +98,11 @@ def _limits(summary: dict[str, Any]) -> None:
     for kind, growth in summary["linearity"].items():
         rows.append([f"growth with {kind}, exponent", number(growth["exponent"]), "1", "", ""])
     headings = [("", False), ("measured", True), ("target", True), ("reached", False), ("", False)]
-    table("against the limit", headings, rows)
+    print_table("against the limit", headings, rows)
 
 
 def _mechanisms(summary: dict[str, Any]) -> None:
-    from macroslip.cli.printing import number, table
+    from macroslip.cli.printing import number, print_table
 
     rows = []
     for name, row in summary["mechanisms"].items():
@@ -119,7 +119,7 @@ def _mechanisms(summary: dict[str, Any]) -> None:
     headings = [("model", False), ("downwind roller, simulated over CPU time", True), ("force evaluations", True)]
     headings += [("time of one [us]", True), ("upwind roller", True)]
     asked = number(summary["targets"]["physical_real_time_factor"])
-    table(f"cost of mechanisms; at least {asked} times real time is asked of the physical model", headings, rows)
+    print_table(f"cost of mechanisms; at least {asked} times real time is asked of the physical model", headings, rows)
 
 
 def _line(name: str, value: float, target: float, note: str, *, least: bool = True) -> list[str]:

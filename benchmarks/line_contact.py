@@ -295,7 +295,7 @@ def main() -> None:
     """Errors of the laws over the loads of a raceway contact of the base bearing, and over a grid of M and L."""
     from macroslip import Bearing, Lubricant
     from macroslip.roller.model import interfaces
-    from macroslip.rolling.elastic_line import Inlet, WholeFilm, line_rolling
+    from macroslip.rolling.elastic_line import InletFilm, WholeFilm, line_rolling
 
     contact = interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))[0]
     oil, speed = contact.lubricant, 0.396
@@ -314,7 +314,7 @@ def main() -> None:
         }
         real = climb(load, [material], 600, **laws)[0]
         inlet = inlet_share(solution, load) if load > 1.0 else math.nan
-        whole, published = (line_rolling(law, load, material) for law in (WholeFilm(), Inlet()))
+        whole, published = (line_rolling(law, load, material) for law in (WholeFilm(), InletFilm()))
         print(
             f"{force:9.0f} {load:7.3f} {solution.rolling:7.4f} {inlet:6.3f} {real.rolling:10.4f} "
             f"{whole / solution.rolling:20.3f} {published / inlet:12.3f} {published / solution.rolling:12.3f}",

@@ -33,7 +33,7 @@ def intervals_by_class(history: History) -> np.ndarray:
 def cost_by_class(intervals: np.ndarray, evaluations: np.ndarray) -> dict[str, float]:
     """Force evaluations in an interval in which a roller is firmly held and in any other, by non-negative least squares.
 
-    Coasts and edges of the load zone come together, so that histories do not tell them apart.
+    Coasts and edges of the load zone come together, so that histories do not distinguish them.
 
     Parameters
     ----------

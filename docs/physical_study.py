@@ -111,7 +111,7 @@ def uncertainty_tables(folder: Path) -> None:
     print("| value | range | why |\n|---|---|---|")
     for one in VALUES:
         print(f"| {one.name} | {one.range_text} | {one.reason} |")
-    print("| result | base | median | 5 to 95 % | rank correlation | Sobol' index of first order (total) | foretold |")
+    print("| result | base | median | 5 to 95 % | rank correlation | Sobol' index of first order (total) | predicted |")
     print("|---|---|---|---|---|---|---|")
     for k, name in enumerate(summary.quantity.values.tolist()):
         one = summary.isel(quantity=k)

@@ -36,7 +36,7 @@ def test_a_zero_byte_in_a_name_is_refused_in_words(tmp_path):
 
 
 def test_of_two_commands_with_one_new_output_one_succeeds(tmp_path):
-    """Both begin before either ends; the file is that of the one that was told it succeeded."""
+    """Both begin before either ends; the file is that of the writer that reported success."""
     path, both = tmp_path / "out.nc", threading.Barrier(2)
     ended = {}
 

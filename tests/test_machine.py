@@ -1,4 +1,4 @@
-"""What is said of the machine, on systems that say less than Linux as well."""
+"""The description of the machine, also on systems that report less than Linux."""
 
 import os
 

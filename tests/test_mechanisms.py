@@ -52,7 +52,7 @@ def test_the_closed_form_serves_the_papers_traction_alone():
         ),
     ],
 )
-def test_what_a_user_is_told(choice, message):
+def test_what_a_user_is_reported(choice, message):
     with pytest.raises(InputError) as caught:
         Laws.physical().but(**choice)
     assert str(caught.value) == message
@@ -63,7 +63,7 @@ def test_the_way_out_that_the_message_names_is_one():
     assert own.asperities == "masjedi-khonsari" and own.starvation
 
 
-def test_a_law_that_does_not_exist_is_told_with_those_that_do():
+def test_a_law_that_does_not_exist_is_reported_with_those_that_do():
     from macroslip import simulate
 
     loads = HubLoads.bundled("14B").window(0.0, 1.0)

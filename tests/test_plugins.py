@@ -1,4 +1,4 @@
-"""Laws of one's own from a file: what a user is told when it is wrong, and that nothing is left behind then."""
+"""Laws of one's own from a file: what a user is shown when it is wrong, and that nothing is left behind then."""
 
 import os
 import subprocess
@@ -19,11 +19,11 @@ TRACTION = (EXAMPLES / "own_law.py").read_text(encoding="utf-8")
 
 
 @pytest.fixture
-def told(tmp_path, monkeypatch):
-    """What the user is told about a file that is wrong; no law and no module of it may stay behind."""
+def reported(tmp_path, monkeypatch):
+    """What the user is shown about a file that is wrong; no law and no module of it may stay behind."""
     monkeypatch.chdir(tmp_path)
 
-    def told(text, name="my_laws.py"):
+    def reported(text, name="my_laws.py"):
         if text is not None:
             Path(name).write_text(text, encoding="utf-8")
         before = film_law.names(), traction_law.names(), set(sys.modules)
@@ -34,7 +34,7 @@ def told(tmp_path, monkeypatch):
         assert "\n" not in str(caught.value)
         return str(caught.value)
 
-    return told
+    return reported
 
 
 ALLOWED = "Allowed: a Python file that registers film or traction laws, as macroslip init --example laws writes."
@@ -88,12 +88,12 @@ ALLOWED = "Allowed: a Python file that registers film or traction laws, as macro
     ],
     ids=["missing", "nothing", "syntax", "raises", "deeper", "exits", "taken", "reserved"],
 )
-def test_what_a_user_is_told(told, text, message):
-    assert told(text) == message
+def test_what_a_user_is_reported(reported, text, message):
+    assert reported(text) == message
 
 
-def test_a_file_that_was_wrong_can_be_mended_and_read_again(told, tmp_path):
-    told(FILM + "\n1 / 0\n")
+def test_a_file_that_was_wrong_can_be_mended_and_read_again(reported, tmp_path):
+    reported(FILM + "\n1 / 0\n")
     (tmp_path / "my_laws.py").write_text(FILM, encoding="utf-8")
     found = load_laws("my_laws.py")
     try:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 import pytest
-from numba.core.errors import TypingError
+from numba import TypingError
 
 from macroslip.compiled import entry, jit
 from macroslip.reference import Reference, by_reference, calling, packed, tuple_type, write

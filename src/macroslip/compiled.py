@@ -21,12 +21,12 @@ _stored: list[Any] = []
 
 
 def depend_on(*functions: Callable) -> None:
-    """Make kernels depend on the files that hold these compiled functions: a law of the user's own, say.
+    """Make kernels depend on the files that hold these compiled functions, for example a law of the user's own.
 
     From then on kernels are read from a folder of their own, and written there: what is stored holds the types of all
-    kernels of a function, and a process that does not know such a law could not read it.
+    kernels of a function, and a process without such a law could not read it.
 
-    A function typed at a prompt has no file; then its bytecode and constants stand for it. The module's name counts
+    A function typed at a prompt has no file; then its bytecode and constants are hashed instead. The module's name counts
     too: kernels are stored with the names of their types, and a process that gave the module another name would not
     find them.
     """
@@ -81,7 +81,7 @@ def _cached(function: Callable, **options: Any) -> Callable:
 
 
 def _in_folder(folder: Path | None, function: Callable, **options: Any) -> tuple[Callable, bool]:
-    """Compile a function, and say whether it is stored in the folder."""
+    """Compile a function; also returns whether it is stored in the folder."""
     if folder is not None:
         # Numba refuses to store a function that has no file, and one whose folder in ours cannot be written.
         with contextlib.suppress(RuntimeError):
@@ -127,7 +127,7 @@ def jit_called(function: Callable) -> Callable:
 
 
 def jit_merged(function: Callable) -> Callable:
-    """Make a part of one kernel, into whose text it is copied.
+    """Make a part of one kernel, into whose source it is copied.
 
     It is not compiled by itself: every function that is, is compiled once more with each that calls it.
     """

@@ -1,8 +1,8 @@
-"""Constants that several rooms share."""
+"""Constants that several folders share."""
 
 #: Acceleration of free fall [m/s²].
 GRAVITY = 9.81
 
-#: Name under which a case asks for the traction built from viscosity, rheology, heating, microslip and asperities; no
+#: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip and asperities; no
 #: traction law of one's own may have it.
 MECHANISMS = "mechanisms"

@@ -1,4 +1,4 @@
-"""Errors a user meets, written for the user: what is wrong, where, what is allowed, what to do."""
+"""Errors that a user can get, written for the user: what is wrong, where, what is allowed, what to do."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class InputError(MacroslipError, ValueError):
     what : str
         What is wrong, with the offending value.
     where : str
-        File, key, line or time stamp at which it stands.
+        File, key, line or time stamp of the fault.
     allowed : str
         What would be accepted.
     remedy : str

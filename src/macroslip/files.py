@@ -13,14 +13,14 @@ from pathlib import Path
 
 from macroslip.errors import InputError
 
-#: End of the names of files under way; what bears it was never finished.
+#: End of the names of files that are being written; a file with it was never finished.
 UNFINISHED = ".part"
 #: What is wrong with a path that is neither a file nor a folder.
 SPECIAL = "it is a pipe, a socket or a device, not a file"
 
 
 def write_durably(path: Path, content: bytes) -> None:
-    """Write a file in one step: when this returns it is on the disk, and until then what stood there stands.
+    """Write a file in one step: when this returns it is on the disk; until then the old content stays.
 
     The content goes to a temporary file in the same folder, is flushed to the disk (fsync), takes its name, and the
     folder, which holds the name, is flushed as well. The folder is made if need be.
@@ -76,7 +76,7 @@ def flush_folder(folder: Path) -> None:
 
 
 def is_special(path: Path) -> bool:
-    """Whether a path leads to a pipe, a socket or a device, of which a reader would wait for ever or see no end.
+    """Whether a path leads to a pipe, a socket or a device, of which a reader would wait for ever or find no end.
 
     Raises
     ------
@@ -90,12 +90,12 @@ def is_special(path: Path) -> bool:
 def check_regular(path: Path, remedy: str) -> None:
     """Refuse a pipe, a socket or a device in the place of a file, before it is opened.
 
-    What is not there, and a folder, pass: their reader has words for them.
+    What is not there, and a folder, pass: their reader reports them.
 
     Parameters
     ----------
     path : Path
-        Anything that somebody has named, or that lies where a file should.
+        A path that was named, or that is used where a file should be.
     remedy : str
         What to do about it.
 
@@ -174,7 +174,7 @@ def new_file(path: Path, *, force: bool) -> Iterator[Path]:
     Yields
     ------
     Path
-        In the same folder, so that the change of name is one step. What stands there is removed if the block fails.
+        In the same folder, so that the change of name is one step. It is removed if the block fails.
 
     Raises
     ------
@@ -234,7 +234,7 @@ def check_no_zero_byte(name: str) -> None:
 
 @contextmanager
 def reading(path: Path, remedy: str) -> Iterator[None]:
-    """Say of a file or folder that its reader cannot make sense of it, whatever the libraries below stumble over.
+    """Turn any error of the libraries that read a file or folder into one that names it as damaged.
 
     Parameters
     ----------
@@ -246,7 +246,7 @@ def reading(path: Path, remedy: str) -> Iterator[None]:
     Raises
     ------
     InputError
-        In place of anything but an error of the system or of memory, which have their own words.
+        In place of anything but an error of the system or of memory, which are reported elsewhere.
     """
     try:
         yield

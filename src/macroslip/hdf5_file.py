@@ -1,6 +1,6 @@
-"""HDF5 files from anywhere: the library may never come back from a damaged one, or bring the whole process down.
+"""HDF5 files of unknown origin: from a damaged one the library may never return, or it may end the whole process.
 
-A flipped byte can make a list within the file point at itself, which HDF5 follows for ever, without hearing an interrupt.
+A flipped byte can make a list within the file point at itself, which HDF5 follows for ever, without reacting to an interrupt.
 So a process of its own reads the file first, with bounds on its time and memory.
 """
 
@@ -60,7 +60,7 @@ def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
     Raises
     ------
     InputError
-        For the first file that it does not get through.
+        For the first file that cannot be read to its end.
     """
     seconds = sum(_SECONDS + path.stat().st_size / _RATE for path in paths)
     command = [sys.executable, "-P", "-c", _READER, str(seconds), *(str(path.absolute()) for path in paths)]

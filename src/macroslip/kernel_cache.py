@@ -41,7 +41,7 @@ def kernel_folder(laws: str = "") -> Path | None:
     Parameters
     ----------
     laws : str
-        Twelve hexadecimal digits that tell laws of the user's own apart; none without such laws.
+        Twelve hexadecimal digits that identify the user's own laws; none without such laws.
 
     Returns
     -------

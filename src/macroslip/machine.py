@@ -1,4 +1,4 @@
-"""On what the numbers were measured; nothing that tells whose machine it is."""
+"""The machine on which numbers were measured, without anything that identifies its owner."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def machine() -> dict[str, str | int | None]:
 
 
 def usable_processors() -> int:
-    """Processors this process may use; those of the machine where the system does not say."""
+    """Processors this process may use; those of the machine where the system does not report it."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

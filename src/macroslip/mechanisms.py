@@ -1,6 +1,6 @@
 """Which physics a case uses inside its contacts, chosen mechanism by mechanism, with two named sets.
 
-`Laws.paper()` is the model of Hart et al.; `Laws.physical()` switches on everything the program knows.
+`Laws.paper()` is the model of Hart et al.; `Laws.physical()` switches on all of them.
 """
 
 from __future__ import annotations
@@ -68,13 +68,13 @@ class Laws:
 
     def __post_init__(self) -> None:
         for name, choices in (
-            ("viscosity", viscosities),
+            ("viscosity", viscosity_laws),
             ("rheology", rheologies),
             ("asperities", asperity_laws),
             ("rolling", rolling_laws),
         ):
             value = getattr(self, name)
-            # Names are asked for when one is not the default, so that kernels need not be imported to read a case.
+            # Names are looked up only when one is not the default, so that kernels need not be imported to read a case.
             if value != _DEFAULTS[name] and value not in choices():
                 raise InputError(f"'{value}' does not exist", where=f"laws.{name}", allowed=", ".join(choices()))
         for name in ("starvation", "inlet_heating", "heating", "microslip"):
@@ -106,7 +106,7 @@ class Laws:
         Film for every load, starved and heated in the inlet; Roelands; Eyring's law; microslip; asperities; rolling
         resistance of whole films.
 
-        Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils goes on rising with the
+        Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils keeps rising with the
         shear rate and reaches no limit; that of polyglycols does, so for them `rheology` is to be "limiting-shear".
 
         References
@@ -166,7 +166,7 @@ _DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
 NAMED_SETS = ("paper", "physical")
 
 
-def viscosities() -> list[str]:
+def viscosity_laws() -> list[str]:
     """Names of the laws for viscosity under pressure."""
     return ["barus", "roelands"]
 
@@ -187,7 +187,7 @@ def asperity_laws() -> list[str]:
 
 def rolling_laws() -> list[str]:
     """Names of the laws for rolling resistance."""
-    from macroslip.rolling.law import REFERENCES
+    from macroslip.rolling.rolling_law import REFERENCES
 
     return list(REFERENCES)
 

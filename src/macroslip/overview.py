@@ -1,4 +1,4 @@
-"""How objects show themselves in a notebook: a heading and a small table."""
+"""Objects in a notebook: a heading and a small table."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ _ALLOWED = "a Python file that registers film or traction laws, as macroslip ini
 
 
 class OwnLaws(NamedTuple):
-    """Names of the laws a file has registered: what may stand under `laws.film` and `laws.traction`."""
+    """Names of the laws a file has registered: names for `laws.film` and `laws.traction`."""
 
     film: tuple[str, ...]
     traction: tuple[str, ...]

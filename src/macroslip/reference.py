@@ -12,8 +12,7 @@ import hashlib
 from typing import Any
 
 from llvmlite import ir
-from numba import types
-from numba.core.errors import TypingError
+from numba import TypingError, types
 from numba.extending import (
     infer_getattr,
     intrinsic,
@@ -25,7 +24,7 @@ from numba.extending import (
 )
 
 try:
-    # What `infer_getattr` asks for; numba.extending has the decorator, but not this.
+    # The base class that `infer_getattr` needs; numba.extending has the decorator, but not this.
     from numba.core.typing.templates import AttributeTemplate
 except ImportError:
     AttributeTemplate = None
@@ -261,9 +260,9 @@ packed: Any = intrinsic(_packed)
 
 
 def taking(law: Any, function: Any) -> Any:
-    """A function of a law, for kernels that know the law's type `law`.
+    """A function of a law, for kernels that are compiled for the law's type `law`.
 
-    A law of the user's own is handed on itself, in case it is not only asked for its fields.
+    A law of the user's own is handed on itself, in case its functions use more than its fields.
     """
     if not isinstance(law, Reference) or law.instance_class.__module__.startswith("macroslip."):
         return function

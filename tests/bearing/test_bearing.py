@@ -100,15 +100,15 @@ def test_every_quantity_has_a_range(base, key):
     low, high = RANGES[key]
     step = 1 if key == "rollers_per_row" else 1e-6 * (high - low)
     bounds = "(above|at least) .* and (below|at most) "
-    told = re.compile(rf"\b{key} is [^ ]+( [^.]+)?\. Allowed: a (whole )?number {bounds}")
+    reported = re.compile(rf"\b{key} is [^ ]+( [^.]+)?\. Allowed: a (whole )?number {bounds}")
     for outside in (low - step, high + step):
-        with pytest.raises(InputError, match=told):
+        with pytest.raises(InputError, match=reported):
             base.replace(**{key: outside})
     for inside in (low + step, high - step):
         try:
             assert getattr(base.replace(**{key: inside}), key) == inside
         except InputError as error:  # within its range, but inconsistent with the other values
-            assert not told.search(str(error))
+            assert not reported.search(str(error))
 
 
 def test_rollers_have_to_fit(base):
@@ -119,7 +119,7 @@ def test_rollers_have_to_fit(base):
 
 @given(st.integers(3, 60), st.floats(0.02, 0.15))
 @settings(max_examples=50, deadline=None)
-def test_the_largest_number_of_rollers_is_told_right(count, diameter):
+def test_the_largest_number_of_rollers_is_reported_right(count, diameter):
     base = Bearing.read("skf-240-600-bc").replace(bore_diameter=None, outside_diameter=None, width=None)
     centre = 0.38
     sphere = {"outer_raceway_radius": centre + diameter / 2, "pitch_radius": centre * math.cos(base.contact_angle),
@@ -138,8 +138,8 @@ def test_the_largest_number_of_rollers_is_told_right(count, diameter):
 def test_roller_centres_have_to_lie_on_the_sphere(base):
     for key, formula in (("pitch_radius", "cos"), ("row_offset", "sin")):
         value = getattr(base, key)
-        told = rf"^{key} is .* roller_diameter/2\) {formula}\(contact_angle\) = .* m\. Allowed: agreement within 1%"
-        with pytest.raises(InputError, match=told):
+        reported = rf"^{key} is .* roller_diameter/2\) {formula}\(contact_angle\) = .* m\. Allowed: agreement within 1%"
+        with pytest.raises(InputError, match=reported):
             base.replace(**{key: 1.015 * value})
         assert getattr(base.replace(**{key: 1.006 * value}), key) == 1.006 * value
 

@@ -1,4 +1,4 @@
-"""Reading bearing files: values, units, provenance, and what a user is told when a file is wrong."""
+"""Reading bearing files: values, units, provenance, and what a user is shown when a file is wrong."""
 
 import copy
 import json
@@ -25,8 +25,8 @@ def base():
 
 
 @pytest.fixture
-def told(tmp_path, monkeypatch):
-    """Change the shipped file and give back what its reader is told, with the line number of the first change."""
+def reported(tmp_path, monkeypatch):
+    """Change the shipped file and give back what its reader is shown, with the line number of the first change."""
 
     monkeypatch.chdir(tmp_path)
 
@@ -127,19 +127,19 @@ def test_provenance_is_part_of_equality(base):
     assert base.replace(roller_diameter=0.07) != base
 
 
-def test_unknown_key_gets_a_suggestion_and_a_line(told):
-    message, line = told(("roller_diameter: {", "roler_diameter: {"))
+def test_unknown_key_gets_a_suggestion_and_a_line(reported):
+    message, line = reported(("roller_diameter: {", "roler_diameter: {"))
     assert message == f"mine.yaml, line {line}: the key 'roler_diameter' is unknown. Did you mean 'roller_diameter'?"
 
 
-def test_unknown_key_without_likeness_gets_the_whole_list(told):
-    message, _ = told(end="xyz: 1\n")
+def test_unknown_key_without_likeness_gets_the_whole_list(reported):
+    message, _ = reported(end="xyz: 1\n")
     line = TEXT.count("\n") + 1
     assert message.startswith(f"mine.yaml, line {line}: the key 'xyz' is unknown. Allowed: name, title, bore_diameter,")
 
 
-def test_unknown_key_inside_an_entry(told):
-    message, line = told(("pitch_radius: {value: 372.7, unit: mm,", "pitch_radius:\n  {value: 372.7, units: mm,"))
+def test_unknown_key_inside_an_entry(reported):
+    message, line = reported(("pitch_radius: {value: 372.7, unit: mm,", "pitch_radius:\n  {value: 372.7, units: mm,"))
     expected = "the key 'units' inside pitch_radius is unknown. Did you mean 'unit'?"
     assert message == f"mine.yaml, line {line + 1}: {expected}"
 
@@ -176,35 +176,35 @@ def test_unknown_key_inside_an_entry(told):
          "hardness is 7.0 Pa. Allowed: a number at least 1e+08 Pa and at most 1e+11 Pa."),
     ],
 )  # fmt: skip
-def test_wrong_entry_is_told_with_its_line(told, old, new, expected):
-    message, line = told((old, new))
+def test_wrong_entry_is_reported_with_its_line(reported, old, new, expected):
+    message, line = reported((old, new))
     assert message.startswith(f"mine.yaml, line {line}: {expected}")
 
 
-def test_missing_keys_are_told_together(told):
-    assert told(text="name: x\ntitle: y\n")[0].startswith(
+def test_missing_keys_are_reported_together(reported):
+    assert reported(text="name: x\ntitle: y\n")[0].startswith(
         "mine.yaml: the bearing has no rollers_per_row, no roller_diameter, no roller_length, no contact_angle,"
     )
     lines = [line for line in TEXT.splitlines(keepends=True) if not line.startswith("roller_length:")]
-    assert told(text="".join(lines))[0] == (
+    assert reported(text="".join(lines))[0] == (
         "mine.yaml: the bearing has no roller_length. "
         "Add what is missing, in the form roller_length: {value: ..., unit: m or mm or um}."
     )
 
 
-def test_all_problems_are_told_together(told):
-    message, _ = told(("osculation_inner: {value: 0.98", "osculation_inner: {value: 1.02"),
+def test_all_problems_are_reported_together(reported):
+    message, _ = reported(("osculation_inner: {value: 0.98", "osculation_inner: {value: 1.02"),
                       ("diametral_clearance: {value: 0.20", "diametral_clearance: {value: 20"))  # fmt: skip
     assert message.startswith("2 problems: (1) mine.yaml, line ")
     assert "osculation_inner is 1.02. Allowed: a number above 0.9 and below 1." in message
     assert "diametral_clearance is 20 mm. Allowed: a number at least -1 mm and at most 5 mm." in message
 
 
-def test_duplicate_key(told):
-    message, _ = told(end="density: {value: 7800, unit: kg/m3}\n")
+def test_duplicate_key(reported):
+    message, _ = reported(end="density: {value: 7800, unit: kg/m3}\n")
     expected = 'found duplicate key "density". Allowed: every key once. Delete one of the two.'
     assert message == f"mine.yaml, line {TEXT.count(chr(10)) + 1}: {expected}"
-    message, line = told(("mass: {value: 519,", "mass: {value: 519, value: 520,"))
+    message, line = reported(("mass: {value: 519,", "mass: {value: 519, value: 520,"))
     assert message.startswith(f'mine.yaml, line {line}: found duplicate key "value".')
 
 
@@ -220,15 +220,15 @@ def test_duplicate_key(told):
         ("- name\n", "mine.yaml: the file holds a list. Allowed: a mapping"),
     ],
 )
-def test_broken_file(told, text, expected):
-    assert told(text=text)[0].startswith(expected)
+def test_broken_file(reported, text, expected):
+    assert reported(text=text)[0].startswith(expected)
 
 
-def test_merged_entries_fall_back_to_the_line_of_the_entry(told):
+def test_merged_entries_fall_back_to_the_line_of_the_entry(reported):
     merged = TEXT.replace("poisson_ratio: {value: 0.3, unit: \"1\", tag: E, note: \"bearing steel\"}",
                           "poisson_ratio: &steel {value: 0.7, unit: \"1\"}")  # fmt: skip
     old = 'cage_poisson_ratio: {value: 0.3, unit: "1", tag: E,'
-    message, line = told((old, "cage_poisson_ratio: {<<: *steel, tag: E,"), text=merged)
+    message, line = reported((old, "cage_poisson_ratio: {<<: *steel, tag: E,"), text=merged)
     assert f"(2) mine.yaml, line {line}: cage_poisson_ratio is 0.7." in message
 
 
@@ -253,7 +253,7 @@ def test_from_dict_tells_the_same_without_a_place(base):
 @given(st.recursive(st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
                     lambda inner: st.dictionaries(st.sampled_from(["value", "unit", "tag", "x"]), inner, max_size=4)
                     | st.lists(inner, max_size=2), max_leaves=6))  # fmt: skip
-def test_any_entry_is_either_right_or_told(entry):
+def test_any_entry_is_either_right_or_reported(entry):
     entries = Bearing.read(NAME).as_dict() | {"mass": entry}
     try:
         bearing = Bearing.from_dict(entries)

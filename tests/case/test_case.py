@@ -1,4 +1,4 @@
-"""Cases made in Python: NumPy's numbers are numbers, and what is wrong is said in one paragraph."""
+"""Cases made in Python: NumPy's numbers are numbers, and what is wrong is reported in one paragraph."""
 
 import pickle
 from dataclasses import replace

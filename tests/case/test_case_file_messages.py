@@ -1,4 +1,4 @@
-"""What a user is told about a case file that is wrong."""
+"""What a user is shown about a case file that is wrong."""
 
 import os
 import re
@@ -14,10 +14,10 @@ LOADS = "loads: {bundled: 14B, start: 0 s, end: 10 s}\n"
 
 
 @pytest.fixture
-def told(tmp_path):
-    """What the user is told about a case file that is wrong."""
+def reported(tmp_path):
+    """What the user is shown about a case file that is wrong."""
 
-    def told(text):
+    def reported(text):
         path = tmp_path / "case.yaml"
         path.write_text(text, encoding="utf-8")
         with pytest.raises(InputError) as caught:
@@ -26,7 +26,7 @@ def told(tmp_path):
         assert str(path) in message and "\n" not in message
         return message.replace(str(path), "case.yaml").replace(str(path.parent), "FOLDER")
 
-    return told
+    return reported
 
 
 @pytest.mark.parametrize(
@@ -245,12 +245,12 @@ def told(tmp_path):
         ),
     ],
 )
-def test_what_a_user_is_told(told, text, message):
-    assert told(text) == message
+def test_what_a_user_is_reported(reported, text, message):
+    assert reported(text) == message
 
 
-def test_all_problems_are_told_together(told):
-    message = told("""
+def test_all_problems_are_reported_together(reported):
+    message = reported("""
 loads: {bundled: 14B, end: 60 s}
 bering: skf-240-600-bc
 drivetrain: {tilt: 5}
@@ -270,19 +270,19 @@ rollers: [99]
         ("file", "gap.csv", "Read the part before or after the gap (loads.start, loads.end), or resample the record."),
     ],
 )
-def test_a_load_file_under_the_wrong_key(told, tmp_path, key, file, advice):
+def test_a_load_file_under_the_wrong_key(reported, tmp_path, key, file, advice):
     (tmp_path / "bearing.csv").write_text("time_s,rotor_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n0,1,1,1,1\n1,1,1,1,1\n")
     header = "time_s,rotor_speed_rpm,fx_kN,fy_kN,fz_kN,mx_kNm,my_kNm,mz_kNm\n"
     (tmp_path / "gap.csv").write_text(header + "".join(f"{t},1,1,1,1,1,1,1\n" for t in (0, 1, 2, 9)))
     path = tmp_path / file if (tmp_path / file).exists() else DATA / file
-    message = told(f"loads:\n  {key}: {path}\n")
+    message = reported(f"loads:\n  {key}: {path}\n")
     assert message.startswith(f"case.yaml, line 2, loads.{key}: ") and message.endswith(advice)
     assert file in message
 
 
-def test_a_wrong_bearing_file_is_named_with_its_own_line(told, tmp_path):
+def test_a_wrong_bearing_file_is_named_with_its_own_line(reported, tmp_path):
     (tmp_path / "mine.yaml").write_text("name: mine\nwitdh: {value: 3, unit: mm}\n")
-    message = told(LOADS + "bearing: mine.yaml\n")
+    message = reported(LOADS + "bearing: mine.yaml\n")
     assert message == (
         "case.yaml, line 2, bearing: FOLDER/mine.yaml, line 2: the key 'witdh' is unknown. Did you mean 'width'?"
     )

@@ -89,7 +89,7 @@ def test_a_bearing_from_its_makers_page(folder, macroslip):
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "reported"),
     [
         (["--shoulder", "828"], "--shoulder is '828', which does not give its unit"),
         (["--shoulder", "928 mm"], "shoulder is 928 mm. Allowed: between bore and outside diameter"),
@@ -98,9 +98,9 @@ def test_a_bearing_from_its_makers_page(folder, macroslip):
         (["--c", "0 kN"], "dynamic_load_rating is 0.0. Allowed: a finite number above 0"),
     ],
 )
-def test_a_page_that_contradicts_itself(folder, macroslip, options, told):
+def test_a_page_that_contradicts_itself(folder, macroslip, options, reported):
     done = macroslip("bearing", "estimate", *PAGE, *options, "-o", "mine.yaml")
-    assert (done.code, done.out) == (2, "") and told in done.err
+    assert (done.code, done.out) == (2, "") and reported in done.err
     assert not list(folder.iterdir())
 
 

@@ -75,7 +75,7 @@ def test_a_table_of_bearing_loads(folder, macroslip, kind):
     assert rows(done.out)["shaft speed [rpm]"] == pytest.approx([2.0, 0.8165, 1.0, 3.0])
 
 
-def test_uneven_steps_are_told(folder, macroslip):
+def test_uneven_steps_are_reported(folder, macroslip):
     lines = "".join(f"{t},1,1,1,1\n" for t in (0, 1, 2.2, 3.2))
     (folder / "loads.csv").write_text("time_s,shaft_speed_rpm,F_X0_kN,F_Y0_kN,F_Z0_kN\n" + lines)
     assert "step      1 s (median; 1 s to 1.2 s)" in macroslip("loads", "inspect", "loads.csv").out

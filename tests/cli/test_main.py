@@ -102,7 +102,7 @@ def stderr(monkeypatch):
 def test_the_bar_shows_label_count_and_time_left(stderr, monkeypatch):
     screen = stderr(Terminal)
     monkeypatch.setattr(progress, "DELAY", 0.0)
-    with progress.progress_bar(quiet=False) as report:
+    with progress.command_progress(quiet=False) as report:
         for stage in ("study", "figures"):
             for done in range(1, 4):
                 report(stage, done, 3)
@@ -113,15 +113,15 @@ def test_the_bar_shows_label_count_and_time_left(stderr, monkeypatch):
 
 def test_no_bar_for_what_is_quick(stderr):
     screen = stderr(Terminal)
-    with progress.progress_bar(quiet=False) as report:
+    with progress.command_progress(quiet=False) as report:
         report("rollers", 1, 1)
     assert "rollers" not in screen.getvalue()
 
 
 def test_no_bar_when_quiet_or_without_a_terminal(stderr):
     stderr(Terminal)
-    with progress.progress_bar(quiet=True) as report:
+    with progress.command_progress(quiet=True) as report:
         assert report is None
     stderr(io.StringIO)
-    with progress.progress_bar(quiet=False) as report:
+    with progress.command_progress(quiet=False) as report:
         assert report is None

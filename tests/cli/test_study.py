@@ -142,8 +142,8 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
         assert time.monotonic() < end
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)
-    told = process.communicate()[1]
-    assert told == "interrupted; what is computed is kept in out. Go on with the same command and --resume.\n"
+    reported = process.communicate()[1]
+    assert reported == "interrupted; what is computed is kept in out. Go on with the same command and --resume.\n"
     assert process.returncode == 130
     done = subprocess.run([*command, "--resume"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

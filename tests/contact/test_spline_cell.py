@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numba.core.errors import TypingError
+from numba import TypingError
 from scipy.interpolate import BSpline, NdBSpline
 
 from macroslip.compiled import jit

@@ -121,7 +121,7 @@ def test_raceways_at_rated_speed_run_on_a_nearly_full_film(base):
     assert by_groups == pytest.approx(1.2e-3, rel=0.05) and by_film == pytest.approx(1.3e-4, rel=0.05)
 
 
-def test_names_share_one_type_and_an_unknown_one_is_told(base):
+def test_names_share_one_type_and_an_unknown_one_is_reported(base):
     assert names() == KINDS
     assert {type(prepare(kind, base[0])) for kind in KINDS} == {AsperityLoad}
     assert len({tuple(map(type, prepare(kind, base[0]))) for kind in KINDS}) == 1

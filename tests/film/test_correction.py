@@ -108,6 +108,6 @@ def test_a_kernel_compiles_for_the_wrapper_and_what_it_holds(base):
 
 
 @pytest.mark.parametrize("starvation", [0.0, -0.1, 1.01, math.nan])
-def test_a_starvation_factor_outside_its_range_is_told(base, starvation):
+def test_a_starvation_factor_outside_its_range_is_reported(base, starvation):
     with pytest.raises(InputError, match="^starvation: the starvation factor is .* Allowed: a number above 0 and at"):
         prepare_film("moes", base[0], starvation=starvation)

@@ -161,7 +161,7 @@ def test_cage_contact_lies_far_outside_the_range(base, laws):
     assert not law.film_in_range(laws[2], load, speed)
 
 
-def test_unknown_law_is_told_with_the_choices():
+def test_unknown_law_is_reported_with_the_choices():
     interface = Interface("inner", elliptical_contact(1.0, 1.0, 1e11), 1.0, 1e11, 0.0, 1e9, None)
     with pytest.raises(InputError, match="^laws.film: there is no film law 'dowson'. Allowed: .*masjedi-khonsari"):
         law.prepare("dowson", interface)
@@ -169,7 +169,7 @@ def test_unknown_law_is_told_with_the_choices():
     assert "10.1115/1.4005514" in law.reference("masjedi-khonsari")
 
 
-def test_groups_outside_the_range_whatever_the_load_are_told():
+def test_groups_outside_the_range_whatever_the_load_are_reported():
     from macroslip import Bearing, Lubricant
     from macroslip.film.film_law import film_range_notes
     from macroslip.roller.model import interfaces

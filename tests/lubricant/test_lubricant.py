@@ -74,7 +74,7 @@ def test_every_quantity_has_a_range(base, key, low, high):
             base.replace(**{key: value})
 
 
-def test_a_range_is_told_in_the_unit_of_the_file(base):
+def test_a_range_is_reported_in_the_unit_of_the_file(base):
     entries = base.as_dict()
     entries["inlet_temperature"]["value"] = 308.15
     with pytest.raises(InputError, match="^inlet_temperature is 308.15 degC. Allowed: .* at least -73.15 degC and"):
@@ -150,7 +150,7 @@ def test_roelands_lies_below_barus_and_bends(base):
     assert (slopes > 0).all() and (np.diff(slopes) < 0).all()
 
 
-def test_a_viscosity_too_low_for_roelands_is_told():
+def test_a_viscosity_too_low_for_roelands_is_reported():
     for viscosity in (6e-5, 1e-9, 0.0):
         with pytest.raises(
             InputError, match="^viscosity: Roelands' law has no viscosity of .* Allowed: above 6.3e-05 Pa s"

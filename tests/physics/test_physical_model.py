@@ -533,10 +533,10 @@ def test_contact_angle_and_curvature_share_the_friction(energies):
         ({"traction": "mine", "microslip": True}, "laws.traction: the traction law 'mine'"),
     ],
 )
-def test_wrong_choices_are_told(change, message):
-    with pytest.raises(InputError) as told:
+def test_wrong_choices_are_reported(change, message):
+    with pytest.raises(InputError) as reported:
         PAPER.but(**change)
-    assert str(told.value).startswith(message)
+    assert str(reported.value).startswith(message)
 
 
 def test_named_sets():

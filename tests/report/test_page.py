@@ -40,22 +40,22 @@ def sentences(page):
 
 
 def test_the_opening_has_the_numbers_in_five_sentences_and_four_figures(page, result):
-    told = sentences(page)
-    assert len(told) == 5 and opening(page).count("<img") == 4
+    reported = sentences(page)
+    assert len(reported) == 5 and opening(page).count("<img") == 4
     energy = result.energy.sum("interface").mean("roller")
     for row in ("downwind", "upwind"):
-        assert f"{float(energy.sel(row=row)):.3g} J {row}" in told[0]
-        assert f"{float(result.min_spin_ratio.sel(row=row).min()):.3g} of pure rolling {row}" in told[2]
+        assert f"{float(energy.sel(row=row)):.3g} J {row}" in reported[0]
+        assert f"{float(result.min_spin_ratio.sel(row=row).min()):.3g} of pure rolling {row}" in reported[2]
         load = result.roller_load.sel(row=row)
-        found = float(re.search(rf"([\d.e-]+) % {row}", told[2])[1])
+        found = float(re.search(rf"([\d.e-]+) % {row}", reported[2])[1])
         assert found == pytest.approx(100.0 * float((load > 0.0).mean()), rel=5e-3)
     place = result.peak_power.where(result.peak_power == result.peak_power.max(), drop=True)
     where = "cage" if (interface := place.interface.item()) == "cage" else f"{interface} raceway"
-    assert f"{float(place.max()):.3g} W, at the {where} of a roller of the {place.row.item()} row" in told[1]
+    assert f"{float(place.max()):.3g} W, at the {where} of a roller of the {place.row.item()} row" in reported[1]
     given = json.loads(result.attrs["input"])
     tags = [one["tag"] for part in ("bearing", "lubricant") for one in given[part].values() if isinstance(one, dict)]
-    assert f"{tags.count('E')} of {len(tags)} values of bearing and lubricant are engineering estimates" in told[3]
-    assert told[4] == "All 8 rollers completed."
+    assert f"{tags.count('E')} of {len(tags)} values of bearing and lubricant are engineering estimates" in reported[3]
+    assert reported[4] == "All 8 rollers completed."
 
 
 def test_several_results_are_compared_in_the_opening(result):
@@ -67,7 +67,7 @@ def test_several_results_are_compared_in_the_opening(result):
     most = str(energy.row[int(np.argmax(energy.values))].item())
     assert f"The {most} row of whole dissipates most, {float(energy.max()):.3g} J a roller." in sentences(page)
     assert opening(page).count("<img") == 4
-    # Their sections are told apart, in the contents too.
+    # Their sections are distinguished, in the contents too.
     assert page.count('<span class="group">whole</span>') > 3 and 'id="energy-1"' in page
 
 
@@ -133,7 +133,7 @@ def test_without_traces_the_page_says_what_would_give_more(bare):
     assert "data-view" not in page.split("<main>")[1].split("<script>")[0]
 
 
-def test_failed_rollers_are_told_first(result):
+def test_failed_rollers_are_reported_first(result):
     failed = result.copy(deep=True)
     failed.status.loc[{"row": "upwind", "roller": 7}] = 3
     for name in ("energy", "orbit_energy", "peak_power"):

@@ -51,15 +51,15 @@ def test_the_answer_counts_what_failed(page):
 
 def test_the_opening_has_lifetime_and_largest_values(page, study):
     opening = section(page, "answer")
-    told = re.findall(r"<p[^>]*>(.*?)</p>", opening)
-    assert len(told) == 5 and opening.count("<img") == 4
+    reported = re.findall(r"<p[^>]*>(.*?)</p>", opening)
+    assert len(reported) == 5 and opening.count("<img") == 4
     # The refused model has no energy, so that one is left.
     life = lifetime_energy(study, CLASS_ONE).isel(group=0).sel(row="downwind")
     most = float(life.bin[int(np.argmax(life.bin_energy.values))])
-    assert f"{1e-6 * float(life.lifetime_energy):.3g} MJ downwind (most of it at {most:g} m/s)" in told[1]
+    assert f"{1e-6 * float(life.lifetime_energy):.3g} MJ downwind (most of it at {most:g} m/s)" in reported[1]
     for name, words in (("energy_mean", "Rollers dissipate most"), ("peak_power_max", "The largest frictional power")):
         first = worst(study, name, count=1).isel(rank=0)
-        (sentence,) = (one for one in told if one.startswith(words))
+        (sentence,) = (one for one in reported if one.startswith(words))
         assert sentence.endswith(f"{first.row.item()} in {first.loads.item()}, {first.model.item()}.")
     assert "4 runs, 2 load histories, bearing skf-240-600-bc" in page
 
@@ -70,9 +70,9 @@ def test_lifetimes_of_several_variants_are_a_range(study):
         energy_mean=2.0 * kept.energy_mean
     )
     both = xr.concat([kept, other], "case", data_vars="minimal", combine_attrs="override")
-    told = re.findall(r"<p[^>]*>(.*?)</p>", section(study_page(both, title="Two"), "answer"))
+    reported = re.findall(r"<p[^>]*>(.*?)</p>", section(study_page(both, title="Two"), "answer"))
     life = 1e-6 * float(lifetime_energy(kept, CLASS_ONE).lifetime_energy.isel(group=0).sel(row="downwind"))
-    assert f"{life:.3g} to {2.0 * life:.3g} MJ downwind (most with twice)" in told[1]
+    assert f"{life:.3g} to {2.0 * life:.3g} MJ downwind (most with twice)" in reported[1]
 
 
 def test_lifetime_energy_is_that_of_the_function(page, study):

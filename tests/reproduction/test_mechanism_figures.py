@@ -12,7 +12,7 @@ from macroslip.reproduction.mechanism_figures import (
     plot_models,
     plot_parts,
     plot_stations,
-    shown,
+    shown_cases,
 )
 from macroslip.reproduction.torque_figures import plot_torque, torque_figure
 from macroslip.reproduction.uncertainty_figures import plot_correlations, plot_indices, plot_ranges, uncertainty_figure
@@ -94,8 +94,8 @@ def test_parts_are_stacked_and_what_is_negative_hangs_below(axes, parts):
 
 
 def test_stations_of_the_chosen_cases(axes, parts):
-    assert shown(parts) == ("12B", "24B")
-    plot_stations(axes, parts.station_energy, "upwind", shown(parts))
+    assert shown_cases(parts) == ("12B", "24B")
+    plot_stations(axes, parts.station_energy, "upwind", shown_cases(parts))
     line = next(one for one in axes.lines if one.get_label() == "24B, outer")
     np.testing.assert_allclose(line.get_ydata(), parts.station_energy.sel(case="24B", row="upwind", raceway="outer"))
     np.testing.assert_allclose(line.get_xdata(), [-30.0, -10.0, 10.0, 30.0])

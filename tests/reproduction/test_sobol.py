@@ -1,4 +1,4 @@
-"""Sobol' indices of a fit against those of functions whose indices are known, and what is said of a bad fit."""
+"""Sobol' indices of a fit against those of functions whose indices are known, and a bad fit."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from macroslip.reproduction.sobol import Polynomial, explained, fit, sobol_indices
+from macroslip.reproduction.sobol import Polynomial, explained_variance, fit, sobol_indices
 
 COUNT = 128
 
@@ -69,8 +69,8 @@ def test_an_additive_function_of_known_indices_beside_many_idle_values():
 def test_what_no_polynomial_foretells_is_not_said_to_be_known():
     places = sample(23)
     noise = np.random.default_rng(5).normal(size=COUNT)
-    assert explained(places, noise) < 0.1
-    assert explained(places, np.sin(40.0 * places[:, 0])) < 0.1
+    assert explained_variance(places, noise) < 0.1
+    assert explained_variance(places, np.sin(40.0 * places[:, 0])) < 0.1
 
 
 def test_a_constant_term_alone_has_no_variance():

@@ -118,15 +118,6 @@ def test_both_laws_and_all_counts_are_drawn_alike(points):
     assert all(abs(counts.count(count) - POINTS / 5) < 2 for count in range(26, 31))
 
 
-def test_places_are_the_inverse_of_values():
-    for one in VALUES:
-        for place in (0.1, 0.45, 0.9):
-            value = one.at(place)
-            number = one.choices.index(value) if one.choices else value
-            width = 1.0 / len(one.choices) if one.choices else 1.0 / (one.high - one.low + 1.0) if one.whole else 1e-12
-            assert abs(float(one.place(number)) - place) <= 0.5 * width + 1e-12, one.name
-
-
 def test_values_that_follow_from_others_are_right(study, points):
     bearing = base_case(study).bearing
     for point in points[1:]:

@@ -81,10 +81,10 @@ def test_the_friction_power_has_rolling_and_drag_in_it(made, sample):
     from dataclasses import replace
 
     from macroslip import HubLoads
-    from macroslip.result.thermal_balance import friction_power
+    from macroslip.result.thermal_balance import bearing_friction_power
 
     case = replace(base_case(made), loads=HubLoads.bundled("12B").window(None, 14.0))
-    power = friction_power(simulate(case))
+    power = bearing_friction_power(simulate(case))
     assert float(sample.friction_power.sel(sample=0, case="12B")) == pytest.approx(power, rel=1e-12)
     sliding = sample.torque.sel(sample=0, case="12B") * case.loads.shaft_speed.mean()
     assert power > 2.0 * float(sliding)  # the inlets take most
@@ -144,7 +144,7 @@ def test_ranges_drivers_and_trends_follow_the_numbers(sample):
     found = quantities(made)
     name = "energy, downwind / upwind, 12B"
     np.testing.assert_allclose(found.result.sel(quantity=name), 9.0 + made.value[:, 0] / 0.4)
-    # A quantity that does not change has no rank; that is no driver, and said by no number.
+    # A quantity that does not change has no rank; that is no driver, and it has no number.
     summary = uncertainty_summary(made.assign(torque=made.torque + made.value[:, 0]))
     assert drivers(summary, name)[0] == (str(VALUES[0].name), pytest.approx(1.0))
     # The one value that moves it has all of its variance, and the fit foretells it.
@@ -174,8 +174,8 @@ def test_ranges_drivers_and_trends_follow_the_numbers(sample):
 def test_statements_tell_what_the_sample_says(sample):
     subjects = ("energy", "rows", "peaks", "peak ratio", "unloaded", "static", "cage", "Euler")
     statements = {one: Statement(paper=one, verdict=DIFFERS, found=f"found {one}") for one in reversed(subjects)}
-    told = with_uncertainty(statements, uncertainty_summary(synthetic(sample)))
-    assert "100 % of the samples" in told["energy"].found
-    assert told["rows"].found.startswith("found rows; 1 to ")
-    changed = {subject for subject, one in told.items() if one.found != f"found {subject}"}
+    reported = with_uncertainty(statements, uncertainty_summary(synthetic(sample)))
+    assert "100 % of the samples" in reported["energy"].found
+    assert reported["rows"].found.startswith("found rows; 1 to ")
+    changed = {subject for subject, one in reported.items() if one.found != f"found {subject}"}
     assert changed == {"energy", "rows", "peak ratio"}

@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from numba import njit
-from numba.core.errors import NumbaError
+from numba import NumbaError, njit
 
 from macroslip.result.own_laws import _reason
 
@@ -74,7 +73,7 @@ def message(**laws):
     return ""
 
 if __name__ == "__main__":
-    said, always = {}, jit(lambda law, load, u: True)
+    messages, always = {}, jit(lambda law, load, u: True)
     for name, text in FILMS.items():
         kind = type("Film", (Film,), {})
         film_law.register(name, kind, reference="", prepare=lambda interface, kind=kind: kind(1.0),
@@ -99,18 +98,18 @@ if __name__ == "__main__":
             laws = Laws.paper().but(**{kind: name})
             try:
                 check_own_laws(laws, case.bearing, case.oil, 0.5)
-                said[name] = ""
+                messages[name] = ""
             except InputError as error:
-                said[name] = str(error)
-    said["simulated"] = message(film="negative")
+                messages[name] = str(error)
+    messages["simulated"] = message(film="negative")
     own_laws._LONGEST = 3.0
-    said["endless"] = message(film="endless")
-    print(json.dumps(said))
+    messages["endless"] = message(film="endless")
+    print(json.dumps(messages))
 """
 
 
 @pytest.fixture(scope="module")
-def said(tmp_path_factory):
+def messages(tmp_path_factory):
     path = tmp_path_factory.mktemp("laws") / "wrong.py"
     path.write_text(SCRIPT, encoding="utf-8")
     command = [sys.executable, path, EXAMPLES / "own_film.py", EXAMPLES / "own_law.py"]
@@ -143,17 +142,17 @@ def said(tmp_path_factory):
         ("rises nowhere", "rising_slip is -1 m/s"),
     ],
 )
-def test_a_wrong_law_is_refused_with_the_state_at_which_it_is(said, law, message):
-    assert message in said[law] and "Mend the law" in said[law]
+def test_a_wrong_law_is_refused_with_the_state_at_which_it_is(messages, law, message):
+    assert message in messages[law] and "Mend the law" in messages[law]
 
 
 @pytest.mark.parametrize("law", ["kinked", "sound", "dowson-higginson", "isothermal-barus"])
-def test_a_sound_law_is_not(said, law):
-    assert said[law] == ""
+def test_a_sound_law_is_not(messages, law):
+    assert messages[law] == ""
 
 
-def test_a_simulation_looks_before_its_first_step(said):
-    assert said["simulated"] == said["negative"] != ""
+def test_a_simulation_looks_before_its_first_step(messages):
+    assert messages["simulated"] == messages["negative"] != ""
 
 
 def test_the_compilers_pages_become_two_lines():

@@ -6,7 +6,7 @@ import pytest
 from macroslip import BearingLoads, Case, Heat, Laws, Lubricant, Traces, read_case, simulate
 from macroslip.errors import InputError
 from macroslip.result.run_input import run_input
-from macroslip.result.thermal_balance import friction_power
+from macroslip.result.thermal_balance import bearing_friction_power
 
 pytestmark = pytest.mark.slow
 
@@ -39,7 +39,7 @@ def test_friction_of_every_kind_falls_with_temperature(by_temperature):
         loaded = result.sel(row="downwind")
         sliding.append(float(loaded.energy.sum()))
         rolling.append(float(loaded.rolling_energy.sum()))
-        power.append(friction_power(result))
+        power.append(bearing_friction_power(result))
     for found in (sliding, rolling, power):
         assert found == sorted(found, reverse=True)
     # Rolling resistance goes about with the viscosity's power 0.6 to 0.75: 1.27, 0.54 and 0.25 Pa s.
@@ -61,7 +61,7 @@ def test_at_the_balance_friction_heats_as_much_as_is_lost():
     result = simulate(case(temperature="balance", heat=Heat(conductance=60.0, ambient=288.15), traces=Traces(step=1.0)))
     lost = 60.0 * (float(result.inlet_temperature) - 288.15)
     # 0.2 K of 60 W/K.
-    assert friction_power(result) == pytest.approx(lost, abs=0.4 * 60.0)
+    assert bearing_friction_power(result) == pytest.approx(lost, abs=0.4 * 60.0)
     assert result.sizes["time"] == 10
     less = simulate(case(temperature="balance", heat=Heat(conductance=120.0, ambient=288.15)))
     assert 288.15 < float(less.inlet_temperature) < float(result.inlet_temperature)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from macroslip.film.moes import moes
-from macroslip.rolling.elastic_line import RIGID, Inlet, WholeFilm, line_rolling, log_elastic
+from macroslip.rolling.elastic_line import RIGID, InletFilm, WholeFilm, line_rolling, log_elastic
 from macroslip.rolling.martin import FLOW, SHEAR
 
 pytestmark = pytest.mark.slow
@@ -69,12 +69,12 @@ def test_exit_resists_beside_the_inlet(solutions):
     place = 0.5 * (solution.place[1:] + solution.place[:-1])
     work = 0.5 * scale * (middle - solution.film * math.pi / 44.0) * np.diff(solution.pressure)
     inlet, outlet = work[place < -0.9].sum(), work[place > 0.6].sum()
-    assert inlet == pytest.approx(line_rolling(Inlet(), 11.0, 13.4), rel=0.03)
+    assert inlet == pytest.approx(line_rolling(InletFilm(), 11.0, 13.4), rel=0.03)
     assert 0.3 < outlet / inlet < 0.5
     assert inlet + outlet == pytest.approx(solution.rolling, rel=0.02)
 
 
-@pytest.mark.parametrize("law", [Inlet(), WholeFilm()])
+@pytest.mark.parametrize("law", [InletFilm(), WholeFilm()])
 @pytest.mark.parametrize("place", [(-1.0, 0.0), (0.5, 1.0), (3.0, 2.6), (3.0, -8.0)])
 def test_derivatives(law, place):
     step = 1e-5

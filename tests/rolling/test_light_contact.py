@@ -10,8 +10,9 @@ from macroslip.film.moes import moes
 from macroslip.rolling import martin
 from macroslip.rolling.film import light_film
 from macroslip.rolling.gap import GapShape
-from macroslip.rolling.law import prepare_rolling, rolling_resistance
 from macroslip.rolling.light_contact import contact_at_gap, light_contact
+from macroslip.rolling.resistance import rolling_resistance
+from macroslip.rolling.rolling_law import prepare_rolling
 
 pytestmark = pytest.mark.slow
 

@@ -62,7 +62,7 @@ def test_weibull_is_that_of_scipy():
     assert Weibull(9.0, 2.2).probability(12.0, 2.0) == pytest.approx(expected.cdf(13.0) - expected.cdf(11.0), rel=1e-12)
 
 
-def test_a_run_without_a_result_is_left_out_and_told():
+def test_a_run_without_a_result_is_left_out_and_reported():
     broken = study((600.0, np.nan, 1800.0, 60.0, 60.0, 6.0, np.nan))
     found = lifetime_energy(broken, Given({12.0: 0.5, 14.0: 0.25}))
     assert found.left_out.values.tolist() == [[1, 0], [0, 1]]

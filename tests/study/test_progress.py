@@ -8,7 +8,7 @@ from macroslip.study.progress import Progress
 
 @pytest.fixture
 def clock(monkeypatch):
-    """A clock that goes on where it is told to."""
+    """A clock that goes on where it is shown to."""
 
     class Clock:
         now = 1000.0

@@ -72,7 +72,7 @@ def test_settings_reach_the_case():
     assert (case.integrator.tolerance, case.drag, case.traces.step, cut) == (1e-5, False, 0.1, {"end": 3.0})
 
 
-def test_values_that_do_not_go_together_are_told():
+def test_values_that_do_not_go_together_are_reported():
     with pytest.raises(InputError, match="rollers"):
         template({}, [Setting("bearing.rollers_per_row", 60)], {})
 

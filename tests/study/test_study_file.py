@@ -156,7 +156,7 @@ def test_a_table_gives_files_and_fields(load_files):
         ("- 1\n", ["a mapping"]),
     ],
 )
-def test_mistakes_are_told_with_their_place(tmp_path, text, messages):
+def test_mistakes_are_reported_with_their_place(tmp_path, text, messages):
     with pytest.raises(InputError) as caught:
         read_study(write(tmp_path, text))
     for message in messages:
@@ -164,14 +164,14 @@ def test_mistakes_are_told_with_their_place(tmp_path, text, messages):
     assert str(tmp_path) in str(caught.value)
 
 
-def test_a_case_file_is_told_from_a_study(tmp_path):
+def test_a_case_file_is_reported_from_a_study(tmp_path):
     with pytest.raises(InputError, match=r"the keys bearing, laws are those of a case\. .*macroslip run; .*key case"):
         read_study(write(tmp_path, "bearing: skf-240-600-bc\nloads: {bundled: 14B}\nlaws: {model: paper}\n"))
     with pytest.raises(InputError, match="this is a study file, not a case file. Run it by macroslip study"):
         read_case(write(tmp_path, "case: {rollers: [0]}\nloads: {bundled: [14B]}\n"))
 
 
-def test_all_problems_are_told_together(tmp_path):
+def test_all_problems_are_reported_together(tmp_path):
     text = "loads: {bundled: 99Z}\ncase: {rollers: some}\nvariations: {grid: {forces.drg: {values: [true]}}}\n"
     with pytest.raises(InputError, match="3 problems"):
         read_study(write(tmp_path, text))
@@ -187,7 +187,7 @@ def test_a_study_file_is_data(tmp_path, monkeypatch, text):
     assert not (tmp_path / "made").exists()
 
 
-def test_files_whose_fields_cannot_be_read_are_told(load_files, content):
+def test_files_whose_fields_cannot_be_read_are_reported(load_files, content):
     (load_files / "runs" / "12mps_seedX.csv").touch()
     study = study_of(content, load_files)
     assert len(study) == 4 and "1 files" in study.loads.remarks[0] and "12mps_seedX.csv" in study.loads.remarks[0]

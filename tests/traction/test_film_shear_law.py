@@ -360,9 +360,7 @@ def test_stress_rises_up_to_rising_slip(name, load):
     law = contact(CHOICES[name]).traction
     for film in (2e-7, 1e-6, 1e-5):
         top = rising_slip(law, load, film)
-        if math.isinf(top):
-            assert not CHOICES[name].heating
-            top = 1.0
+        assert math.isfinite(top) or not CHOICES[name].heating
         # At every point of the contact, hence for every slip field below it.
         pressure = law.pressure * load ** (1 / 3) * np.array([0.05, 0.3, 0.7, 0.95, 1.0])
         slips = np.linspace(0.02, 1.0, 60) * min(top, 10.0)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from macroslip import BearingLoads, Case, InputError, Laws, load_laws, simulate
 from macroslip.roller.model import interfaces
 from macroslip.traction import traction_law
-from macroslip.traction.tabulated_traction import register_function, tabulated
+from macroslip.traction.tabulated_traction import register_function, tabulated_law
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -37,7 +37,7 @@ def inner(bearing, lubricant):
 
 @pytest.fixture(scope="module", params=[limited, heated])
 def law(request, inner):
-    return request.param, tabulated("tried", request.param, inner)
+    return request.param, tabulated_law("tried", request.param, inner)
 
 
 states = given(
@@ -93,7 +93,7 @@ def test_without_slip_there_is_no_force(law):
 )
 def test_refused(inner, function, words):
     with pytest.raises(InputError) as caught:
-        tabulated("mine", function, inner)
+        tabulated_law("mine", function, inner)
     assert words in str(caught.value) and "traction law mine, inner" in str(caught.value)
 
 

@@ -1,4 +1,4 @@
-"""A double-row spherical roller bearing: everything the model has to know of it."""
+"""A double-row spherical roller bearing: all its data that the model uses."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from macroslip.errors import InputError
 class Bearing(Record):
     """Data of a double-row spherical roller bearing with identical, mirrored rows.
 
-    Attributes are in SI units (m, N, rad, Pa, kg); `provenance` says for each where it comes from. Lengths and angles
+    Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths and angles
     have no sign, except the clearance, which is negative for a preloaded bearing.
 
     Raises
@@ -48,7 +48,7 @@ class Bearing(Record):
     noun: ClassVar[str] = "bearing"
 
     name: str = Field(min_length=1, description="short name of the bearing, used in results")
-    title: str = Field(default="", description="one line that says what bearing it is")
+    title: str = Field(default="", description="one line that describes the bearing")
 
     bore_diameter: Annotated[
         float | None, LENGTH, Field(gt=0, le=10, description="bore diameter of the inner ring")

@@ -63,7 +63,7 @@ FREQUENCY_ROUNDING = 0.005
 """Half of the last digit of overrolling frequencies per turn."""
 
 
-class Estimate(NamedTuple):
+class EstimatedBearing(NamedTuple):
     """A bearing from its maker's page.
 
     Attributes
@@ -78,7 +78,7 @@ class Estimate(NamedTuple):
     samples: Mapping[str, NDArray[np.float64]]
 
 
-def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> Estimate:
+def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
     Parameters
@@ -92,7 +92,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
 
     Returns
     -------
-    Estimate
+    EstimatedBearing
 
     Raises
     ------
@@ -117,7 +117,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     (29, 75.4, 104.0)
     """
     drawn = _fitting(page, _draw(page, np.random.default_rng(seed)))
-    return Estimate(estimated_record(page, drawn, name, title), drawn)
+    return EstimatedBearing(estimated_record(page, drawn, name, title), drawn)
 
 
 def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:

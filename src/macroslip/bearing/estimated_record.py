@@ -77,7 +77,7 @@ def _short(number: float) -> float:
 
 
 def _published(page: MakersPage) -> dict[str, dict]:
-    """Entries of what stands on the page itself."""
+    """Entries of the values on the page itself."""
     found = {
         "bore_diameter": (page.bore, "mm", "d"),
         "outside_diameter": (page.outside, "mm", "D"),

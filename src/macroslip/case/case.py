@@ -139,7 +139,7 @@ class Case:
             _check(given == BALANCE, f"it is {shown(given)}", "temperature", words)
             _check(
                 isinstance(self.heat, Heat),
-                "temperature is to balance, and nothing says how the bearing loses heat",
+                "temperature is to balance, and the heat that the bearing loses is not given",
                 "heat",
                 "conductance to the surroundings and their temperature",
                 "40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine.",
@@ -153,7 +153,7 @@ class Case:
 
     @property
     def oil(self) -> Lubricant:
-        """The lubricant at the temperature of the inlets; what everything that computes has to take.
+        """The lubricant at the temperature of the inlets; every computation uses this one.
 
         Raises
         ------
@@ -216,7 +216,7 @@ class Case:
         return html_overview("Case", ["", ""], self._overview())
 
     def _overview(self) -> list[tuple[str, str]]:
-        """What a reader wants to know first, each in a few words."""
+        """The main data, each in a few words."""
         loads, start, end = self.loads, self.window.start, self.window.end
         count = "all rollers" if self.rollers == "all" else f"{len(self.roller_numbers)} rollers of each row"
         opens = "after the first orbit" if start is None else f"at {start:g} s"

@@ -64,7 +64,7 @@ def files_named_in(path: Path) -> list[Path]:
     try:
         data, _ = parse(read_text(path, "the case file cannot be read"), str(path))
     except InputError:
-        return []  # whoever reads the case says what is wrong with it
+        return []  # the reader of the case reports what is wrong with it
     loads = data.get("loads")
     named = [data.get("bearing"), data.get("lubricant")]
     named += [loads.get("file"), loads.get("bearing_file")] if isinstance(loads, Mapping) else []
@@ -110,8 +110,8 @@ class CaseBuilder:
         return {"laws": Laws.named(given.model).but(**differs)}
 
     def check_lubricant(self, case: Case) -> None:
-        """Find out now, not after the loads are computed, whether the lubricant has what the mechanisms need."""
-        if case.laws == Laws.paper():  # it asks for nothing that a lubricant may lack
+        """Check before the loads are computed that the lubricant has what the mechanisms need."""
+        if case.laws == Laws.paper():  # it needs nothing that a lubricant may lack
             return
         from macroslip.roller.contacts import check_lubricant
 

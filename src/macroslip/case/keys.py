@@ -21,7 +21,7 @@ from macroslip.catalogue.units import FORCE, MOMENT, SPEED, TEMPERATURE, TIME
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, bundled_cases
-from macroslip.mechanisms import NAMED_SETS, asperity_laws, rheologies, rolling_laws, viscosities
+from macroslip.mechanisms import NAMED_SETS, asperity_laws, rheologies, rolling_laws, viscosity_laws
 from macroslip.whole_bearing.cage import Cage
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
@@ -97,7 +97,7 @@ class LawsKeys:
     film: Annotated[str | None, Choice("film thickness", _film_laws, _OWN_LAW)] = None
     starvation: Annotated[bool | None, Flag("film thinned by the lubricant's starvation factor")] = None
     inlet_heating: Annotated[bool | None, Flag("film thinned by shear heating in the inlet")] = None
-    viscosity: Annotated[str | None, Choice("how viscosity rises with pressure", viscosities)] = None
+    viscosity: Annotated[str | None, Choice("how viscosity rises with pressure", viscosity_laws)] = None
     rheology: Annotated[str | None, Choice("how the film's stress falls behind the Newtonian one", rheologies)] = None
     heating: Annotated[bool | None, Flag("shear heating of the film")] = None
     microslip: Annotated[bool | None, Flag("slip that varies along the roller")] = None

@@ -72,9 +72,9 @@ def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tu
     Parameters
     ----------
     key : str
-        Key under which the entry stands.
+        Key of the entry.
     entry : Any
-        What stands there: text of number and unit, a plain number where the quantity has no unit, or a mapping with
+        Content: text of number and unit, a plain number where the quantity has no unit, or a mapping with
         value, unit and optionally tag, note and range.
     dimension : Dimension
         Units the quantity may have.

@@ -1,4 +1,4 @@
-"""What a record's class says about its fields: dimension, range and meaning."""
+"""Dimension, range and meaning of the fields of a record's class."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def dimensions(record: type[BaseModel]) -> Mapping[str, Dimension]:
 
 
 def allowed_text(field: FieldInfo, dimension: Dimension | None, unit: str = "") -> str:
-    """Say what a field accepts, in one of its units (SI by default).
+    """Describe what a field accepts, in one of its units (SI by default).
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from macroslip.files import check_no_zero_byte
 
 #: Context of a validation whose values come from a file.
 IN_FILE = "file"
-#: Context of a validation of a value that others decide on: its form is checked, its range is not.
+#: Context of a validation in which the form of a value is checked and its range is not.
 FORM_ONLY = "form"
 
 
@@ -52,7 +52,7 @@ class Form:
         raise NotImplementedError
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        """Validation by `read`; in Python, None stands for a value that is left open."""
+        """Validation by `read`; in Python, None is a value that is left open."""
         optional = type(None) in get_args(source)
 
         def validate(value: Any, info: ValidationInfo) -> Any:
@@ -153,7 +153,7 @@ class Texts(Form):
 
 @dataclass(frozen=True)
 class Choice(Form):
-    """One of several names, which are asked for only when needed, so that laws are imported only then.
+    """One of several names, which are looked up only when needed, so that laws are imported only then.
 
     `more` explains how a name that does not exist can come to exist.
     """

@@ -18,7 +18,7 @@ from pydantic.fields import FieldInfo
 from macroslip.catalogue.forms import IN_FILE
 from macroslip.catalogue.problems import together, unknown_key
 from macroslip.catalogue.section_forms import ABOUT, adapter, fields_of, sections_of, word_of
-from macroslip.catalogue.section_problems import missing, problems_of
+from macroslip.catalogue.section_problems import missing_key, problems_of
 from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
 
@@ -121,7 +121,7 @@ def read_fields(kind: type, data: Mapping[str, Any], place: Place) -> tuple[dict
             except InputError as problem:
                 problems += getattr(problem, "parts", [problem])
         elif field.is_required() and not _meant(key, data, fields):
-            problems.append(missing(key, field, place))
+            problems.append(missing_key(key, field, place))
     return found, problems
 
 

@@ -55,7 +55,7 @@ def unknown_key(key: object, allowed: Iterable[str], *, where: str = "", inside:
 
 
 def together(problems: Sequence[InputError]) -> InputError:
-    """Join problems into one error, so that a user can mend them all at once.
+    """Join problems into one error, so that a user can correct them all at once.
 
     Examples
     --------

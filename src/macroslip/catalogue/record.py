@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import unicodedata
 from collections.abc import Iterator, Mapping
 from importlib import resources
 from importlib.resources.abc import Traversable
@@ -15,15 +14,19 @@ from typing import Any, ClassVar, Self
 from pydantic import BaseModel, ConfigDict, PrivateAttr, ValidationError
 
 from macroslip.catalogue.entry import TAGS, Provenance, is_finite_number, read_entry
-from macroslip.catalogue.fields import allowed_text, dimensions, is_allowed, schema
+from macroslip.catalogue.fields import dimensions, schema
 from macroslip.catalogue.problems import shown, together, unknown_key
+from macroslip.catalogue.record_problems import (
+    lacking_values,
+    missing_keys,
+    unusable_value,
+    unwritable_texts,
+    wide_ranges,
+)
 from macroslip.catalogue.source import Source, parse, read_text
 from macroslip.catalogue.yaml_text import yaml_text
 from macroslip.errors import InputError
 from macroslip.overview import html_overview
-
-LONGEST_TEXT = 2000
-"""Characters that a name, a title or a note may have."""
 
 
 class Record(BaseModel):
@@ -76,44 +79,17 @@ class Record(BaseModel):
             missing = [key for key, detail in details.items() if detail["type"] == "missing"]
             problems = [self._missing(missing, source)] if missing else []
             unusable = (item for item in details.items() if item[0] not in missing)
-            problems += [self._unusable(key, detail, provenance, source) for key, detail in unusable]
+            problems += [unusable_value(type(self), key, detail, provenance, source) for key, detail in unusable]
             raise together(problems) from None
         self._provenance, self._derived = tuple(provenance.items()), derived
-        problems = [*self._unwritable(source), *self._wide(source), *self._inconsistencies(source)]
+        problems = [*unwritable_texts(self, source), *wide_ranges(self, source), *self._inconsistencies(source)]
         if problems:
             raise together(problems)
 
     @classmethod
     def _missing(cls, keys: list[str], source: Source) -> InputError:
-        first, kind = keys[0], dimensions(cls).get(keys[0])
-        if kind is None:
-            form = f"{first}: ..." if source.file else f"{first}=..."
-        else:
-            form = f"{first}: {{value: ..., unit: {kind.choices}}}" if source.file else f"{first}=... [{kind.si_unit}]"
-        return InputError(
-            f"the {cls.noun} has no {', no '.join(keys)}",
-            where=source.file,
-            remedy=f"Add what is missing, in the form {form}",
-        )
-
-    @classmethod
-    def _unusable(
-        cls, key: str, detail: Mapping[str, Any], provenance: Mapping[str, Provenance], source: Source
-    ) -> InputError:
-        if detail["type"] == "extra_forbidden":
-            return unknown_key(key, cls.model_fields, where=source.where(key))
-        field, kind = cls.model_fields[key], dimensions(cls).get(key)
-        if key in provenance and is_finite_number(provenance[key].value):
-            unit = provenance[key].unit
-            written = f"{provenance[key].value}" + ("" if unit == "1" else f" {unit}")
-        else:
-            unit, written = "", shown(detail["input"])
-        return InputError(
-            f"{key} is {written}",
-            where=source.where(key, "value"),
-            allowed=allowed_text(field, kind, unit),
-            remedy=f"It is the {field.description}" + ("; check value and unit." if kind else "."),
-        )
+        """The error for missing keys; a subclass adds other ways to give them."""
+        return missing_keys(cls, keys, source)
 
     def __setattr__(self, key: str, value: Any) -> None:
         if not key.startswith("_"):
@@ -122,32 +98,6 @@ class Record(BaseModel):
                 remedy=f"Make another one: new = old.replace({key}=...).",
             )
         super().__setattr__(key, value)
-
-    def _unwritable(self, source: Source) -> Iterator[InputError]:
-        """Yield text that results could not hold: a NUL ends it there, half a surrogate pair has no UTF-8."""
-        texts = {(key,): getattr(self, key) for key in type(self).model_fields if isinstance(getattr(self, key), str)}
-        notes = {(key, "note"): origin.note for key, origin in self._provenance}
-        for keys, text in (texts | notes).items():
-            if len(text) > LONGEST_TEXT or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in text):
-                yield InputError(
-                    f"{' of '.join(reversed(keys))} is {shown(text)}",
-                    where=source.where(*keys),
-                    allowed=f"at most {LONGEST_TEXT} characters on one line, without control characters",
-                    remedy="Write it as one line of plain text.",
-                )
-
-    def _wide(self, source: Source) -> Iterator[InputError]:
-        """Yield ranges of values that go beyond what the quantity may be."""
-        for key, origin in self._provenance:
-            field, kind = type(self).model_fields[key], dimensions(type(self))[key]
-            for limit in origin.range or ():
-                if not is_allowed(field, kind.to_si(limit, origin.unit)):
-                    yield InputError(
-                        f"the range of {key} goes to {shown(limit)}",
-                        where=source.where(key, "range"),
-                        allowed=allowed_text(field, kind, origin.unit),
-                        remedy="Give a range in which every value is possible.",
-                    )
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         """Yield what is wrong with values that are each within their range."""
@@ -238,7 +188,7 @@ class Record(BaseModel):
         provenance: dict[str, Provenance] = {}
         problems: list[InputError] = []
         if entries and not entries.keys() & cls.model_fields.keys():
-            # Some other file: its keys are not for a message that others may see.
+            # Another kind of file: its keys may be private and are left out of the message.
             raise InputError(
                 f"none of its keys is one of a {cls.noun}",
                 where=source.file,
@@ -269,7 +219,7 @@ class Record(BaseModel):
         *keys : str
             Names of the quantities.
         purpose : str
-            What needs them, for the message: "the physical model", say.
+            What needs them, for the message, for example "the physical model".
 
         Raises
         ------
@@ -286,16 +236,8 @@ class Record(BaseModel):
         macroslip.errors.InputError: bearing mine: it has no mass, which the cage needs. Allowed: ...
         """
         missing = [key for key in keys if getattr(self, key) is None]
-        if not missing:
-            return
-        kinds, fields = dimensions(type(self)), type(self).model_fields
-        raise InputError(
-            f"it has no {', no '.join(missing)}, which {purpose} needs",
-            where=f"{self.noun} {self.name}",
-            allowed="; ".join(f"{key}: {allowed_text(fields[key], kinds[key])}" for key in missing),
-            remedy="Add to its file: "
-            + ", ".join(f"{key}: {{value: ..., unit: {kinds[key].choices}}}" for key in missing),
-        )
+        if missing:
+            raise lacking_values(self, missing, purpose)
 
     def as_dict(self) -> dict[str, Any]:
         """Give the record in the form of a catalogue file, with plain numbers and text only.
@@ -304,7 +246,8 @@ class Record(BaseModel):
         -------
         dict
             Text fields as text, quantities as value and unit as written, tag, note and, where it is known, range.
-            Quantities without a value, and those that follow from others, are left out. `from_dict` turns it back into an equal record.
+            Quantities without a value, and those that follow from others, are left out. `from_dict` makes an equal
+            record of it.
         """
         entries: dict[str, Any] = {}
         for key in type(self).model_fields:
@@ -360,7 +303,7 @@ class Record(BaseModel):
 
 @functools.cache
 def _shipped_record(kind: type[Record], name: str) -> Any:
-    """Read a shipped record. No record ever changes, so all who ask for one share it."""
+    """Read a shipped record. No record ever changes, so all users of one share it."""
     file = f"{name}.yaml"
     return kind._from_entries(*parse((kind._shipped() / file).read_text(encoding="utf-8"), file))
 

@@ -118,7 +118,7 @@ class Variants:
     sections: Mapping[str, type]
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        """The section that the name asks for; in Python, an instance of one of them."""
+        """The section of that name; in Python, an instance of one of them."""
         choices = {
             name: core_schema.no_info_before_validator_function(self._without_key, handler.generate_schema(kind))
             for name, kind in self.sections.items()
@@ -157,7 +157,7 @@ def sections_of(field: FieldInfo) -> list[type]:
 
 
 def _inside(annotation: Any) -> Iterator[Any]:
-    """Yield an annotation and all that it is made of, as the section of `dict[str, Section | None]`."""
+    """Yield an annotation and all that it is made of, such as the section of `dict[str, Section | None]`."""
     yield annotation
     for part in get_args(annotation):
         yield from _inside(part)

@@ -61,7 +61,7 @@ def _walk(kind: Any, loc: tuple[Any, ...]) -> tuple[list[str], FieldInfo | None,
 
 
 def _problem(detail: Mapping[str, Any], kind: Any, place: Place, noun: str) -> InputError:
-    """One thing that pydantic found, in one paragraph."""
+    """One problem that pydantic found, in one paragraph."""
     loc, problem = detail["loc"], detail.get("ctx", {}).get("error")
     keys, field, inside = _walk(kind, loc)
     here = place.inside(*keys)
@@ -77,7 +77,7 @@ def _problem(detail: Mapping[str, Any], kind: Any, place: Place, noun: str) -> I
     if detail["type"] in ("missing", "missing_keyword_only_argument"):
         key = str(loc[-1])
         section_place = place.inside(*keys[:-1]) if keys and keys[-1] == key else here
-        return missing(key, field, section_place, noun)
+        return missing_key(key, field, section_place, noun)
     variants = variants_of(field) if detail["type"].startswith("union_tag") and field is not None else None
     if variants is not None:
         name = detail["input"].get(variants.key) if isinstance(detail["input"], Mapping) else detail["input"]
@@ -98,7 +98,7 @@ def _form_text(field: FieldInfo | None, inside: list[str]) -> str:
     return f"{word_of(field)} or {keys}" if field and word_of(field) else keys
 
 
-def missing(key: str, field: FieldInfo | None, place: Place, noun: str = "") -> InputError:
+def missing_key(key: str, field: FieldInfo | None, place: Place, noun: str = "") -> InputError:
     """The error of a key that is needed and not there."""
     sections = sections_of(field) if field else []
     form = form_of(field) if field else None

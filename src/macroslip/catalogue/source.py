@@ -1,4 +1,4 @@
-"""Text of a catalogue or case file to plain data, with the line on which every key stands."""
+"""Text of a catalogue or case file to plain data, with the line of every key."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a value stands in a file.
+    """The place of a value in a file.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class Place:
         return ", ".join(part for part in (self.source.where(*self.keys), self.key) if part)
 
     def problem(self, what: str, allowed: str = "", remedy: str = "") -> InputError:
-        """An error that stands here."""
+        """An error at this place."""
         return InputError(what, where=self.where, allowed=allowed, remedy=remedy)
 
     def blamed(self, problem: InputError) -> InputError:
@@ -79,14 +79,14 @@ class Place:
 
 
 def read_text(path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> str:
-    """Read a YAML file that somebody has named, whatever the name leads to.
+    """Read a YAML file that a user has named, whatever the name leads to.
 
     Parameters
     ----------
     path : Path
         The file. Only a regular file is opened: a pipe or a device would wait or never end.
     what : str
-        Begin of the message if it cannot be read: "the case file cannot be read", say.
+        Begin of the message if it cannot be read: for example "the case file cannot be read".
     where, allowed, remedy : str
         The rest of that message.
 
@@ -150,7 +150,7 @@ def parse(
     Raises
     ------
     InputError
-        If the text is not YAML, a key stands twice, the file is not one mapping, or it is too long or too deep.
+        If the text is not YAML, a key is given twice, the file is not one mapping, or it is too long or too deep.
     """
     try:
         _check_size(text, file)

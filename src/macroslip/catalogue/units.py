@@ -26,7 +26,7 @@ class Dimension:
     Parameters
     ----------
     units : Mapping[str, Unit]
-        Units by the name that stands in the file.
+        Units by their name in the file.
     """
 
     units: Mapping[str, Unit]
@@ -36,7 +36,7 @@ class Dimension:
 
     @property
     def choices(self) -> str:
-        """The units as they have to stand in a file: a pure number's "1" needs its quotes."""
+        """The units as a file has them: a pure number's "1" needs its quotes."""
         return " or ".join('"1"' if unit == "1" else unit for unit in self.units)
 
     @property

@@ -39,8 +39,8 @@ app.add_typer(bearing)
 app.add_typer(lubricant)
 
 
-def _version(asked: bool) -> None:
-    if asked:
+def _version(requested: bool) -> None:
+    if requested:
         typer.echo(f"macroslip {macroslip.__version__}")
         raise typer.Exit()
 
@@ -57,7 +57,7 @@ def _options(
 def main() -> None:
     """Entry point of the command `macroslip`."""
     for stream in (sys.stdout, sys.stderr):
-        # Where output goes to a file or a pipe, Windows encodes it in a way that lacks most characters.
+        # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     app()

@@ -91,7 +91,7 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
 
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
-    from macroslip.cli.printing import number, table
+    from macroslip.cli.printing import number, print_table
     from macroslip.study.safe_text import safe_text
 
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
@@ -104,4 +104,4 @@ def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
         [number(value) if name in numbers else safe_text(value) for name, value in zip(shown, line, strict=True)]
         for line in shown.itertuples(index=False)
     ]
-    table(title, [(name, name in numbers) for name in shown], rows)
+    print_table(title, [(name, name in numbers) for name in shown], rows)

@@ -14,7 +14,7 @@ from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
-    from macroslip.bearing.estimate import Estimate
+    from macroslip.bearing.estimate import EstimatedBearing
     from macroslip.catalogue.units import Dimension
 
 _BASE = "skf-240-600-bc"
@@ -143,8 +143,8 @@ def _write(path: Path, bearing: Bearing, force: bool) -> None:
         temporary.write_text(bearing.as_yaml(), encoding="utf-8")
 
 
-def _numbers(found: Estimate) -> dict[str, Any]:
-    """Every estimated value with its range, and what the dynamic load rating says of them."""
+def _numbers(found: EstimatedBearing) -> dict[str, Any]:
+    """Every estimated value with its range, and the check by the dynamic load rating."""
     bearing = found.bearing
     return {
         "name": bearing.name,
@@ -172,8 +172,8 @@ def _rating_ratio(bearing: Bearing) -> float | None:
     return rating / published
 
 
-def _report(found: Estimate, output: Path) -> None:
-    from macroslip.cli.printing import table
+def _report(found: EstimatedBearing, output: Path) -> None:
+    from macroslip.cli.printing import print_table
 
     numbers = _numbers(found)
     rows = []
@@ -181,7 +181,7 @@ def _report(found: Estimate, output: Path) -> None:
         unit = "" if one["unit"] == "1" else f" {one['unit']}"
         low, high = one["10 to 90 %"]
         rows.append([key, f"{one['median']:g}{unit}", f"{low:g} to {high:g}{unit}"])
-    table(
+    print_table(
         f"{found.bearing.name}: median and range of four out of five of {numbers['bearings that fit the page']} bearings "
         "that fit the page",
         [("key", False), ("median", True), ("10 to 90 %", False)],

@@ -29,13 +29,15 @@ def _catalogue(
     )
 
     def list(as_json: AsJson = False) -> None:
-        from macroslip.cli.printing import print_json, table
+        from macroslip.cli.printing import print_json, print_table
 
         records = [load().read(name) for name in load().catalogue()]
         if as_json:
             print_json([{"name": record.name, "title": record.title} for record in records])
             return
-        table(f"{noun}s", [("name", False), ("title", False)], [[record.name, record.title] for record in records])
+        print_table(
+            f"{noun}s", [("name", False), ("title", False)], [[record.name, record.title] for record in records]
+        )
 
     def show(
         name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")],
@@ -43,7 +45,7 @@ def _catalogue(
         as_json: AsJson = False,
     ) -> None:
         from macroslip.catalogue import TAGS
-        from macroslip.cli.printing import print_json, table
+        from macroslip.cli.printing import print_json, print_table
 
         record = load().read(name_or_file)
         if yaml:
@@ -61,11 +63,11 @@ def _catalogue(
             for key, origin in record.provenance.items()
         ]
         headings = [("key", False), ("value", True), ("where it comes from", False), ("note", False)]
-        table(f"{record.name}: {record.title}" if record.title else record.name, headings, rows)
+        print_table(f"{record.name}: {record.title}" if record.title else record.name, headings, rows)
         follows = derived(record)
         if follows:
             typer.echo()
-            table("what follows from it", [("quantity", False), ("value", True), ("meaning", False)], follows)
+            print_table("what follows from it", [("quantity", False), ("value", True), ("meaning", False)], follows)
 
     def schema() -> None:
         import json

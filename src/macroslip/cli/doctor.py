@@ -15,7 +15,7 @@ def doctor(
     as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
     """Show versions, the folder of compiled kernels, processors, and what is missing for which command."""
-    from macroslip.cli.printing import print_json, table
+    from macroslip.cli.printing import print_json, print_table
 
     found = examine()
     if as_json:
@@ -26,9 +26,9 @@ def doctor(
     nowhere = "NO FOLDER CAN BE WRITTEN: every run compiles again"
     stored = f"{cache['folder']}, {cache['megabytes']:.3g} MB in {cache['files']} files"
     rows.append(["kernels", stored if cache["folder"] else nowhere])
-    table(f"macroslip {found['version']}", [("", False), ("", False)], rows)
+    print_table(f"macroslip {found['version']}", [("", False), ("", False)], rows)
     typer.echo()
-    table(
+    print_table(
         "packages",
         [("package", False), ("installed", False), ("wanted", False)],
         [[one["package"], one["installed"] or "-", one["wanted"]] for one in found["packages"]],
@@ -38,7 +38,7 @@ def doctor(
         [one["command"], "ready" if not one["missing"] else f"lacks {', '.join(one['missing'])}", one["remedy"]]
         for one in found["commands"]
     ]
-    table("commands that need more", [("command", False), ("", False), ("", False)], rows)
+    print_table("commands that need more", [("command", False), ("", False), ("", False)], rows)
 
 
 def examine() -> dict[str, Any]:
@@ -72,7 +72,7 @@ def _kernels() -> dict[str, Any]:
 
 
 def _packages() -> Iterator[dict[str, str | None]]:
-    """Packages that the program asks for in its metadata: installed version, and the bound."""
+    """Packages that the program requires in its metadata: installed version, and the bound."""
     import importlib.metadata
 
     try:
@@ -96,12 +96,12 @@ def _packages() -> Iterator[dict[str, str | None]]:
 
 
 def _commands() -> list[dict[str, Any]]:
-    from macroslip.cli.needs import COMMANDS, missing
+    from macroslip.cli.needs import COMMANDS, missing_packages
 
     found = []
     for command, needs in COMMANDS.items():
-        lacking = [name for need in needs for name in missing(need)]
-        extras = ",".join(need.extra for need in needs if missing(need))
+        lacking = [name for need in needs for name in missing_packages(need)]
+        extras = ",".join(need.extra for need in needs if missing_packages(need))
         found.append(
             {"command": command, "missing": lacking, "remedy": f"pip install 'macroslip[{extras}]'" if lacking else ""}
         )

@@ -15,7 +15,7 @@ INTERNAL_ERROR, BAD_INPUT, ROLLERS_FAILED, INTERRUPTED = 1, 2, 3, 130
 CASES_FAILED = ROLLERS_FAILED
 
 
-def tell(text: str) -> None:
+def to_stderr(text: str) -> None:
     """Write a line to standard error."""
     typer.echo(text, err=True)
 
@@ -32,32 +32,36 @@ def command(app: typer.Typer, function: Callable[..., None]) -> None:
         try:
             with interrupts_kept():
                 function(*args, **options)
-        except (typer.Exit, BrokenPipeError):  # a reader such as `head` that has seen enough is not an error
+        except (typer.Exit, BrokenPipeError):  # a reader such as `head` that closes the pipe early is not an error
             raise
         except KeyboardInterrupt:
-            tell("interrupted")
+            to_stderr("interrupted")
             raise typer.Exit(INTERRUPTED) from None
         except MacroslipError as error:
             message = str(error)
-            tell(f"error: {' '.join(message.split()) if options.get('quiet') else message}")
+            to_stderr(f"error: {' '.join(message.split()) if options.get('quiet') else message}")
             raise typer.Exit(BAD_INPUT) from None
         except OSError as error:
             place = f"{error.filename}: " if error.filename else ""
-            tell(f"error: {place}{error.strerror or error}. Check the path, the rights to it and the room on the disk.")
+            to_stderr(
+                f"error: {place}{error.strerror or error}. Check the path, the rights to it and the free space on the disk."
+            )
             raise typer.Exit(BAD_INPUT) from None
         except MemoryError:
-            tell("error: the computer has not enough memory for this. Use shorter loads, fewer rollers or no traces.")
+            to_stderr(
+                "error: the computer has not enough memory for this. Use shorter loads, fewer rollers or no traces."
+            )
             raise typer.Exit(BAD_INPUT) from None
         except Exception as error:
             if options.get("quiet"):
                 what = " ".join(f"{type(error).__name__}: {error}".split())
-                tell(f"internal error: {what}. This is a fault of macroslip; without --quiet it shows where.")
+                to_stderr(f"internal error: {what}. This is a fault of macroslip; without --quiet it shows where.")
             else:
                 import traceback
 
                 traceback.print_exc()
                 name = type(error).__name__
-                tell(f"internal error: {name}. This is a fault of macroslip; please report what is above.")
+                to_stderr(f"internal error: {name}. This is a fault of macroslip; please report what is above.")
             raise typer.Exit(INTERNAL_ERROR) from None
 
     app.command()(run)

@@ -1,7 +1,7 @@
 """Ctrl-C is never lost.
 
 Where a `KeyboardInterrupt` arises in a finalizer or in a callback from compiled code, of which compiling makes many, Python
-can raise it nowhere: it reports it and goes on.
+cannot raise it: it prints it and goes on.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _AGAIN = 0.05
 
 @contextmanager
 def interrupts_kept() -> Iterator[None]:
-    """Raise a `KeyboardInterrupt` in the main thread again, if Python could raise it nowhere.
+    """Raise a `KeyboardInterrupt` in the main thread again, if Python could not raise it.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""`macroslip loads inspect`: what a load file holds, how it was read, and what it does to the main bearing."""
+"""`macroslip loads inspect`: what a load file holds, how it was read, and the load on the main bearing."""
 
 from __future__ import annotations
 
@@ -225,10 +225,10 @@ def _print(found: dict[str, Any]) -> None:
 
 
 def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
-    from macroslip.cli.printing import number, table
+    from macroslip.cli.printing import number, print_table
 
     rows = [[name, *(number(float(value)) for value in values.values())] for name, values in statistics.items()]
-    table(title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows)
+    print_table(title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows)
 
 
 def _words(drivetrain: dict[str, Any]) -> str:

@@ -34,12 +34,12 @@ COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
 )
 
 
-def missing(need: Need) -> list[str]:
+def missing_packages(need: Need) -> list[str]:
     """Packages of a need that are not installed.
 
     Examples
     --------
-    >>> missing(Need("nothing", ("json",), "all")), missing(Need("more", ("json", "no_such_package"), "all"))
+    >>> missing_packages(Need("nothing", ("json",), "all")), missing_packages(Need("more", ("json", "no_such_package"), "all"))
     ([], ['no_such_package'])
     """
     return [name for name in need.packages if importlib.util.find_spec(name) is None]
@@ -53,7 +53,7 @@ def require(*needs: Need) -> None:
     MacroslipError
         With the packages and the line that installs them.
     """
-    lacking = {need: missing(need) for need in needs}
+    lacking = {need: missing_packages(need) for need in needs}
     found = {need: names for need, names in lacking.items() if names}
     if not found:
         return

@@ -15,15 +15,15 @@ PIPE_WIDTH = 160
 
 
 def console() -> Console:
-    """Standard output, which takes brackets as brackets and colours nothing by guessing."""
+    """Standard output without markup and without automatic colours."""
     from rich.console import Console
 
     found = Console(markup=False, highlight=False)
     return found if found.is_terminal else Console(markup=False, highlight=False, width=PIPE_WIDTH)
 
 
-def table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
-    """Print a table; the headings say whether a column holds numbers."""
+def print_table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
+    """Print a table; each heading comes with whether its column holds numbers."""
     from rich.table import Table
 
     headings = list(headings)

@@ -11,7 +11,7 @@ DELAY = 1.0
 
 
 @contextmanager
-def progress_bar(
+def command_progress(
     *, quiet: bool, stages: Mapping[str, float] | None = None
 ) -> Iterator[Callable[[str, int, int], None] | None]:
     """Show a bar on standard error while the block runs, if that is a terminal and it takes more than a moment.

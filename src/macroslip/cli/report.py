@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from macroslip.cli.failure import ROLLERS_FAILED, tell
+from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
 from macroslip.cli.needs import FIGURES, require
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
@@ -51,7 +51,7 @@ def report(
     if not quiet:
         typer.echo(f"written: {output}")
     if failed:
-        tell(f"failed: {failed}; the page says which.")
+        to_stderr(f"failed: {failed}; the page lists them.")
         raise typer.Exit(ROLLERS_FAILED)
 
 
@@ -79,7 +79,7 @@ def _of_results(results: Path, title: str | None, weibull: tuple[float, float] |
     try:
         page = results_page(found, title=title or _TITLE)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        # A file may have been changed in more ways than are worth a check each.
+        # A file may have been changed in too many ways to check each.
         raise InputError(
             f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})",
             where=str(results),

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.cli.progress import progress_bar
+from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
+from macroslip.cli.progress import command_progress
 
 HEADLINES = 10
 """Lines of the summary that are printed."""
@@ -26,7 +26,7 @@ def reproduce(
     from macroslip.reproduction.reproduce import REPORT, stages
     from macroslip.reproduction.reproduce import reproduce as study
 
-    with progress_bar(quiet=quiet, stages=stages()) as report:
+    with command_progress(quiet=quiet, stages=stages()) as report:
         summary = study(output, threads=threads, progress=report)
     if not quiet:
         for line in summary["headline"][:HEADLINES]:
@@ -35,5 +35,5 @@ def reproduce(
             typer.echo(f"used again from the last run, whose inputs are the same: {', '.join(summary['reused'])}")
         typer.echo(f"written: {output}; the report: {output / REPORT}")
     if any(summary["failed_rollers"][part] for part in ("study", "single_rollers", "detailed_case", "sensitivity")):
-        tell(f"failed: some rollers did not reach the end; {output}/summary.json says how many in which case.")
+        to_stderr(f"failed: some rollers did not reach the end; {output}/summary.json has their number for each case.")
         raise typer.Exit(ROLLERS_FAILED)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.failure import ROLLERS_FAILED, tell
-from macroslip.cli.progress import progress_bar
+from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
+from macroslip.cli.progress import command_progress
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
@@ -43,7 +43,7 @@ def run(
     from macroslip.result.simulate import simulate
     from macroslip.result.stored import to_netcdf
 
-    with progress_bar(quiet=quiet) as report, _named(case, checked.loads.source):
+    with command_progress(quiet=quiet) as report, _named(case, checked.loads.source):
         progress = report and (lambda done, total: report("rollers", done, total))
         dataset = with_rating(simulate(checked, threads=threads, progress=progress), checked)
     # In memory first: the HDF5 library may bring the whole process down when the disk is full.
@@ -77,11 +77,11 @@ def _named(case: Path, loads: str) -> Iterator[None]:
 
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
-    """What a user looks at first, by row."""
+    """The main results, by row."""
     rows = {}
     for name in dataset.row.values:
         row = dataset.sel(row=name)
-        # Of rollers that failed nothing is known; a window without a complete orbit has no peaks.
+        # Rollers that failed have no results; a window without a complete orbit has no peaks.
         values = (row.energy.sum("interface", skipna=False).dropna("roller"), row.peak_power, row.min_spin_ratio)
         energy, peak, spin = (value.values[~value.isnull().values] for value in values)
         rows[str(name)] = {
@@ -103,8 +103,8 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def _summary(dataset: xr.Dataset) -> None:
-    """Print what a user looks at first, row by row."""
-    from macroslip.cli.printing import number, table
+    """Print the main results, row by row."""
+    from macroslip.cli.printing import number, print_table
 
     found = _numbers(dataset)
     rows = []
@@ -115,7 +115,7 @@ def _summary(dataset: xr.Dataset) -> None:
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
     numbers = "mean energy per roller [J]", "highest peak power [W]", "lowest spin / pure rolling [1]", "failed rollers"
     headings = [("row", False), *((heading, True) for heading in numbers)]
-    table(f"{found['title']}, {window}", headings, rows)
+    print_table(f"{found['title']}, {window}", headings, rows)
     _beside(dataset)
 
 
@@ -137,14 +137,14 @@ def _beside(dataset: xr.Dataset) -> None:
 
 
 def _tell_failures(dataset: xr.Dataset) -> bool:
-    """Tell of every roller that failed when and how; whether there is one."""
+    """Print of every roller that failed when and how; returns whether there is one."""
     from macroslip.integrate.status import Status
 
     failed = [roller for roller in dataset.status.stack(one=("row", "roller")) if roller != Status.COMPLETED]
     for roller in failed:
         row, index = str(roller.row.values), int(roller.roller)
         ended = dataset.sel(row=row, roller=index)
-        tell(
+        to_stderr(
             f"failed: roller {index} of the {row} row at t = {float(ended.end_time):.6g} s with a slip of "
             f"{float(ended.end_slip):.4g} m/s: {Status(int(roller)).sentence}."
         )

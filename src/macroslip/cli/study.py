@@ -1,4 +1,4 @@
-"""`macroslip study`: thousands of cases from one file, stopped and resumed at will."""
+"""`macroslip study`: thousands of cases from one file, which can be stopped and resumed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, tell
+from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
 from macroslip.cli.needs import WORKERS, require
 from macroslip.errors import InputError
 
@@ -48,7 +48,7 @@ def study(
 
     checked = read_study(study)
     for remark in checked.loads.remarks:
-        tell(f"note: {remark}")
+        to_stderr(f"note: {remark}")
     require(*([WORKERS] if workers or scheduler else []))
     if dry_run:
         _dry_run(checked, workers, threads, as_json)
@@ -72,7 +72,7 @@ def study(
                 progress=report,
             )
     except KeyboardInterrupt:
-        tell(f"interrupted; what is computed is kept in {output}. Go on with the same command and --resume.")
+        to_stderr(f"interrupted; what is computed is kept in {output}. Go on with the same command and --resume.")
         raise typer.Exit(INTERRUPTED) from None
     if as_json:
         _summary_as_json(ended, output)
@@ -84,13 +84,13 @@ def study(
 
 
 def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:
-    from macroslip.cli.printing import print_json, table
+    from macroslip.cli.printing import print_json, print_table
     from macroslip.machine import usable_processors
-    from macroslip.study.estimate import estimate
+    from macroslip.study.estimate import estimate_study
     from macroslip.study.progress import duration
     from macroslip.study.safe_text import safe_text
 
-    found = estimate(checked)
+    found = estimate_study(checked)
     parts = [
         (len(checked.loads.loads), "load histories"), (len(checked.bearings), "bearings"),
         (len(checked.lubricants), "lubricants"), (len(checked.models), "models"),
@@ -116,14 +116,14 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
             [f"time here, on {processors} processors", duration(found.seconds / processors)],
             ["disk", size(found.bytes)],
         ]
-    table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
+    print_table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
     typer.echo(
         f"Time and disk are estimated from {found.looked_at} runs of the study, begun here and now."
         if found.looked_at
         else "Time and disk cannot be estimated."
     )
     for problem in found.problems:
-        tell(f"note: {safe_text(problem)}")
+        to_stderr(f"note: {safe_text(problem)}")
 
 
 def size(count: float) -> str:
@@ -159,7 +159,7 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
             nonlocal last
             if time.monotonic() - last >= _LINE_EVERY:
                 last = time.monotonic()
-                tell(progress.line)
+                to_stderr(progress.line)
 
         yield line
         return
@@ -218,10 +218,10 @@ def _failures(ended: Ended, output: Path) -> None:
     (out if out.is_terminal else Console(stderr=True, markup=False, highlight=False, width=PIPE_WIDTH)).print(shown)
     total = ended.progress.failed
     if total > _LISTED:
-        tell(f"... and {total - _LISTED} more, in {output}/summary.parquet and {output}/log.txt.")
+        to_stderr(f"... and {total - _LISTED} more, in {output}/summary.parquet and {output}/log.txt.")
     counts = Counter(outcome for _, outcome, _ in ended.failures)
     kinds = ", ".join(f"{outcome}: {count}" for outcome, count in counts.items())
-    tell(
+    to_stderr(
         f"failed: {total} of {ended.progress.total} runs ({kinds}). "
         + (
             "Stopped there, as --strict says; go on with --resume."

@@ -1,4 +1,4 @@
-"""What a film or traction law may know of the interface it serves."""
+"""Data of an interface that a film or traction law may use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Laws of an interface by name: what a case file may ask for, and what to cite for it."""
+"""Laws of an interface by name: those that a case file may choose, and what to cite for each."""
 
 from __future__ import annotations
 

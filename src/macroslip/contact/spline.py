@@ -35,7 +35,7 @@ class Axis(NamedTuple):
     cells: int
 
 
-#: The axis of a table that knows nothing.
+#: The axis of an empty table.
 NOWHERE = Axis(0.0, 1.0, 0)
 
 
@@ -131,7 +131,7 @@ def tensor_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
 
 
 def no_cells(dimensions: int, channels: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients and marks of the cells of a table that knows no state; all its axes are `NOWHERE`."""
+    """Coefficients and marks of the cells of an empty table; all its axes are `NOWHERE`."""
     none = (0,) * dimensions
     return read_only(np.empty((*none, channels))), read_only(np.empty(none, dtype=np.bool_))
 

@@ -1,8 +1,8 @@
 """Tables kept on disk by content, for every later run and for all workers of a study.
 
-A table's name is a hash of everything it follows from: the laws' values, the box, and the sources that make it. So a
-table is never outdated; it is only no longer asked for, and then among the first to be removed. A file that was cut or
-changed is made again. Where nothing can be stored, in a read-only container say, tables last as long as the process.
+A table's name is a hash of everything it depends on: the laws' values, the box, and the sources that make it. So a
+table is never outdated; it is only no longer used, and then among the first to be removed. A file that was cut or
+changed is made again. Where nothing can be stored, for example in a read-only container, tables last as long as the process.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _guard = threading.Lock()
 
 
 def table_key(*parts: Any) -> str:
-    """Name of a table by all it follows from: numbers, arrays and named tuples of them, and the sources of the laws."""
+    """Name of a table by all it depends on: numbers, arrays and named tuples of them, and the sources of the laws."""
     digest = hashlib.sha256(fingerprint(*KERNEL_PARTS).encode())
     for text in (*own_laws(), *(_described(part) for part in parts)):
         digest.update(text.encode() + b"\0")
@@ -100,7 +100,7 @@ def folder() -> Path:
 def _from_disk_or_made(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarray]:
     with contextlib.ExitStack() as held:
         path = None
-        # No home folder, a read-only or full disk, a file system without locks; and whoever waited in vain makes the
+        # No home folder, a read-only or full disk, a file system without locks; and a process that waited in vain makes the
         # table too: that costs time and nothing else.
         with contextlib.suppress(OSError, RuntimeError, NotImplementedError, Timeout):
             path = folder() / f"{key}{_ENDING}"

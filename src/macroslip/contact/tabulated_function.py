@@ -1,4 +1,4 @@
-"""What film and traction laws share that are ordinary functions of arrays: asking, splines, and refusing what does not do."""
+"""Common parts of film and traction laws that are ordinary functions of arrays: evaluation, splines, and checks."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ class Function(NamedTuple):
         return states, self.at(states)
 
     def check(self, coefficients: np.ndarray, states: list[np.ndarray], expected: np.ndarray) -> None:
-        """Refuse a function that the splines miss.
+        """Refuse a function that the splines do not follow.
 
         Parameters
         ----------
@@ -131,7 +131,7 @@ class Function(NamedTuple):
         Raises
         ------
         InputError
-            With the state at which it is missed most.
+            With the state of the largest error.
         """
         # A spline has one coefficient before its first node.
         places = [

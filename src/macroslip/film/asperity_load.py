@@ -121,7 +121,7 @@ def asperity_share(law, load, entrainment_speed, film_thickness):
     entrainment_speed : float
         u_e > 0 [m/s].
     film_thickness : float
-        h > 0 [m], with all corrections; only the formula in Λ asks for it, so only that one knows of starvation.
+        h > 0 [m], with all corrections; only the formula in Λ uses it, so only that one accounts for starvation.
 
     Notes
     -----

@@ -91,7 +91,7 @@ film_law.register_type(CorrectedFilm, thickness=thickness, in_range=in_range)
 
 
 def prepare_film(name: str, interface: Interface, *, starvation: float = 1.0, inlet_heating: bool = False) -> Any:
-    """The film law called `name`, prepared for an interface, with the factors asked for.
+    """The film law called `name`, prepared for an interface, with the chosen factors.
 
     Parameters
     ----------

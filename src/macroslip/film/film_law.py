@@ -1,4 +1,4 @@
-"""What a film law is to the kernels, and the list of those that exist.
+"""Film laws: their interface to the kernels, and the list of those that exist.
 
 A law is a `NamedTuple` of numbers prepared for one interface, together with compiled functions of it. Which functions
 belong to a law follows from its type, when the kernel is compiled; so a law costs nothing at run time, and the kernel
@@ -70,7 +70,7 @@ def register_name(
 
 
 def register_type(law: type, *, thickness: Callable, in_range: Callable) -> None:
-    """Say which compiled functions belong to a `NamedTuple` class that has no name of its own in case files.
+    """Register the compiled functions of a `NamedTuple` class that has no name of its own in case files.
 
     For classes that hold another law and change what it gives; parameters are those of `register`.
     """

@@ -9,13 +9,13 @@ N Moes' film over the density ratio,
 
 where w rises from 0 to 1 over the decade of W below the lower end of Masjedi and Khonsari's range. Inside it w is 1.
 
-Roughness adds to the gap what Masjedi and Khonsari's formula says, S times its roughness term, which goes with
+Roughness adds to the gap by Masjedi and Khonsari's formula, S times its roughness term, which goes with
 W^−0.364 U^−0.043. One decade below their ranges of W and U it is taken as constant: extrapolated, it would let the
 film of a stopping roller grow without bound.
 
 The equivalent line contact w = 3Q/(4a) is right where the contact is elastic. In a rigid contact pressure spreads
 beyond the Hertz ellipse, at most to the roller's length, and the film is thicker than this; for cage contacts and
-unloaded rollers the film is therefore an estimate from below, where the inlet is flooded and the pocket leaves room.
+unloaded rollers the film is therefore an estimate from below, where the inlet is flooded and the pocket is wide enough.
 """
 
 from __future__ import annotations

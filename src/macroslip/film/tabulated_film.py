@@ -1,6 +1,6 @@
 """A film law given as an ordinary function of arrays: tabulated once for each interface, and looked up after that.
 
-The table is a cubic spline of ln h over ln Q and ln u_e. Outside it ln h goes on with the slope that it has at the edge.
+The table is a cubic spline of ln h over ln Q and ln u_e. Outside it ln h is continued with its slope at the edge.
 """
 
 from __future__ import annotations
@@ -74,14 +74,14 @@ def register_function(name: str, film_thickness: Callable, *, reference: str) ->
         Name in case files.
     film_thickness : callable
         `film_thickness(interface, load [N], entrainment_speed [m/s]) -> h [m]`, with arrays of one shape; positive, and
-        smooth in both: neither derivatives nor compilation are asked for.
+        smooth in both: neither derivatives nor compilation are needed.
     reference : str
         What to cite where the law was used.
 
     Raises
     ------
     InputError
-        If the name is taken by a law of another module; and when a case asks for the law, if what the function returns
+        If the name is taken by a law of another module; and when a case uses the law, if what the function returns
         is of another shape, not positive, or not smooth.
 
     Notes

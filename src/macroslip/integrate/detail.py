@@ -207,7 +207,7 @@ def _book_passage(record, model, at, forces, slip, passage):
 
 
 def book_passage(record, model, at, forces, slip, passage):
-    """Book stations, places and extremes, and where asked for the quadrature's error, for a passage that ends in a state."""
+    """Book stations, places, extremes and, if the passage requests it, the quadrature's error at the state that ends it."""
 
 
 def _is_curved(model) -> bool:

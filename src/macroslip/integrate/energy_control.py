@@ -1,8 +1,8 @@
-"""What the energy of a step may be off by: the method's embedded estimate, and what that one number may miss.
+"""Error of the energy of a step: the method's embedded estimate, and the errors that this one number can miss.
 
-Energy is a sum over three instants of a step. Where power is smooth the embedded estimate is far above what the sum is
-off by. Where power has a kink inside the step, or falls to zero at its end with a slope without bound, both are of the
-same size, and the estimate, one number, may be small by accident.
+Energy is a sum over three instants of a step. Where power is smooth, the embedded estimate is far above the error of the
+sum. Where power has a kink inside the step, or falls to zero at its end with an infinite slope, estimate and error are of
+the same size, and the estimate may be small by accident.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from macroslip.ring.orbit import instant, interval_of
 
 @jit_part
 def missed_way(path, state, step):
-    """What the method's quadrature misses of the way of the rings past the roller in a step [m], known exactly.
+    """Error of the method's quadrature for the way of the rings past the roller in a step [m]; it is known exactly.
 
     Speed is linear between the samples of the loads, and friction follows it: kinks of both lie at the same instants.
     """

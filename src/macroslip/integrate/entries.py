@@ -85,7 +85,7 @@ def _trace(model, given, record):
     write_trace(record, model, given.index, state.at, state.forces, state.slip)
 
 
-#: What each entry runs, is given, and leaves.
+#: For each entry: the function, the type of its argument, and the type of its result.
 _ENTRIES = {
     "station": (_station, types.AT_PLACE, types.STATION),
     "forces": (_forces, types.AT_SLIP, types.FORCES),
@@ -96,7 +96,7 @@ _ENTRIES = {
     "trace": (_trace, types.TRACED_TYPE, types.RECORD_TYPE),
 }
 
-#: What a sealed roller has of its own of a roller's numbers.
+#: Numbers of a roller that its sealed model repeats.
 _GEOMETRY = [name for name in SealedModel._fields if name in RollerModel._fields]
 
 _compiled: dict[Any, dict[str, Any]] = {}
@@ -153,4 +153,4 @@ def sealed(model: RollerModel) -> SealedModel:
 
 
 def _forget(model: RollerModel) -> None:
-    """Nothing: to be called with a model keeps it until then."""
+    """Do nothing. The finalizer that calls this keeps the model alive until then."""

@@ -15,9 +15,9 @@ from macroslip.roller.forces import net_force
 def first_guess(path, state, step, zone, memory):
     """Slip at the stages [m/s] to start Newton's iteration from.
 
-    Where slip is smooth the polynomial of the step before goes on. Else, that of a roller which drifts under small forces,
-    changed as the forces at the start say; that of one stuck to the cage, which keeps its spin; else the slip before the
-    step; then, for one that follows its loads, what `held_slip` makes of it.
+    Where slip is smooth, the polynomial of the step before is continued. Otherwise a roller that drifts under small forces
+    continues with the acceleration of the forces at the start, and one stuck to the cage keeps its spin; any other starts
+    from the slip before the step, which `held_slip` changes with the load if the roller follows its loads.
     """
     model, h, slip, forces = path.model, step.length, state.slip, state.forces
     at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3

@@ -98,7 +98,7 @@ def integrate_fixed_step(path, slip, end, record):
             raise_peak(record, orbit, 1, outer)
             raise_peak(record, orbit, 2, cage)
             note_state_of(record, model, reached, forces, slip, span)
-            # Rectangles: the state a step is evaluated at stands for the whole step.
+            # Rectangles: the state at which a step is evaluated counts for the whole step.
             if rule.implicit:
                 add_rolling(record, forces.rolling_power, span)
                 book_mechanisms_of(record, model, reached, forces, slip, span)

@@ -1,4 +1,4 @@
-"""How far a loaded contact slips: up to where traction surely rises with slip, and how a held roller follows its loads."""
+"""Slip of loaded contacts: where traction is sure to rise with slip, and how a held roller follows its loads."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from numba.extending import overload
 
 from macroslip.compiled import jit, jit_part
 from macroslip.film.film_law import film_thickness
-from macroslip.integrate.tuning import MOST_QUICKENING, STEEPEST, TELLING
+from macroslip.integrate.tuning import LEAST_CHANGE, MOST_QUICKENING, STEEPEST
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, CurvedContact, is_curved, raceway_force
 from macroslip.traction.traction_law import rising_slip
 
 
 @jit
 def steady_slip(contact, load, entrainment_speed, variation):
-    """Slip [m/s] up to which traction of a contact surely rises with slip, where microslip varies by `variation` [m/s].
+    """Slip [m/s] up to which traction of a contact is sure to rise with slip, where microslip varies by `variation` [m/s].
 
     Film thickness is that at `entrainment_speed` [m/s], the highest in question: a thick film heats up first.
     """
@@ -47,7 +47,7 @@ def _slip_variation(contact, load, ring_speed):
 
 
 def slips_everywhere(contact):
-    """Whether a gripped contact slips in most places all the same, by microslip."""
+    """Whether most places of a gripped contact slip, by microslip."""
     return isinstance(contact, CurvedContact) and contact.shape.microslip
 
 
@@ -102,11 +102,11 @@ def held_slip(microslip, slip, at, later, exponent):
 
 @jit
 def held_exponent(at, slip, later, later_slip, exponent):
-    """The power of load with which the slip of a held roller has just changed; `exponent`, where that cannot be told."""
+    """The power of load with which the slip of a held roller has just changed; `exponent` where it cannot be measured."""
     if at.elastic_load <= 0.0 or later.elastic_load <= 0.0:
         return exponent
     change = math.log(later.elastic_load / at.elastic_load)
     ratio = later_slip * at.ring_speed / (slip * later.ring_speed) if slip * later.ring_speed != 0.0 else 0.0
-    if abs(change) < TELLING or ratio <= 0.0:
+    if abs(change) < LEAST_CHANGE or ratio <= 0.0:
         return exponent
     return min(max(math.log(ratio) / change, -STEEPEST), STEEPEST)

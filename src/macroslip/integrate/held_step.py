@@ -87,14 +87,14 @@ def solve_held(path, state, step, exponent, bend):
     Returns
     -------
     Stages
-        Not converged where Newton's iteration should start from a better guess than one can be had.
+        Not converged where Newton's iteration would need a better guess than is available.
     """
     model, scale, slip, at = path.model, step.scale, state.slip, state.at
     d2, d3 = step.at2.ring_speed - at.ring_speed, step.at3.ring_speed - at.ring_speed
     force_part = force_tolerance(path.limits.tolerance, True)
     v2 = held_slip(True, slip, at, step.at2, exponent)
     f2 = forces_of(model, step.at2, v2)
-    # The middle first, with the end as far ahead as the middle: what it teaches makes the guess of the end a good one.
+    # The middle first, with the end as far ahead as the middle: its solution makes a good guess of the end.
     s2 = v2 - slip - d2
     first = scale * 2.0 * s2 + net_force(f2)
     ahead = v2 - first / (2.0 * scale + f2.slope)

@@ -1,7 +1,7 @@
 """Where on its way a roller is loaded, so that no step of an integrator can pass over a load zone or over its edge.
 
-Every interval between load samples belongs to one of three classes. `FREE`: no elastic load all through; nothing but
-the smooth body forces acts. `FIRM`: so much load all through that slip relaxes within a small part of a millisecond;
+Every interval between load samples belongs to one of three classes. `FREE`: no elastic load throughout; only the
+smooth body forces act. `FIRM`: so much load throughout that slip relaxes within a small part of a millisecond;
 the slip then follows the instant's balance of forces. `EDGE`: anything else; here steps must end at samples and at the
 instant the load begins or ends.
 """
@@ -98,7 +98,7 @@ def classify(model, motion, start_angle, firm, classes):
 def edge_time(model, motion, start_angle, interval, start, end):
     """Time [s] just after the interference changes sign between `start` and `end` of one interval.
 
-    It is `end` if the signs there are the same; a load that comes and goes in between is not seen.
+    It is `end` if the signs there are the same; a load that comes and goes in between is missed.
     """
     first = interference_at(model, motion, start_angle, interval, start)
     last = interference_at(model, motion, start_angle, interval, end)

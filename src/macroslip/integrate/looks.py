@@ -1,4 +1,4 @@
-"""When a roller's contacts are looked at station by station: what that costs would otherwise exceed the forces.
+"""When a roller's contacts are evaluated station by station (a look): at every step that would cost more than the forces.
 
 Between two looks the energies of the raceways are kept. A look spreads them over the way since the one before, half of
 them as power lay along the roller at that one and half as it lies now, and raises the extremes of the orbit.
@@ -89,7 +89,7 @@ def _density(power, load):
 
 @jit_part
 def _values(state):
-    """What decides of a look, in a state."""
+    """Values of a state by which a look is decided."""
     at, slip = state.at, state.slip
     inner, outer, _ = state.powers
     entrainment = max(abs(at.ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
@@ -99,7 +99,7 @@ def _values(state):
 
 @jit_part
 def _is_due(now, looks):
-    """Whether a power differs by what matters in its orbit, or anything is a new highest."""
+    """Whether a power has changed enough for its orbit, or a value is a new highest one."""
     highest = looks.highest
     due = abs(now.inner - looks.inner) > LOOK_CHANGE * highest.inner
     due |= abs(now.outer - looks.outer) > LOOK_CHANGE * highest.outer

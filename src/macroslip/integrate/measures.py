@@ -1,4 +1,4 @@
-"""What the laws of a roller say of its state: frictional powers, range of the film law, and the traces."""
+"""Values of a roller's state by its laws: frictional powers, range of the film law, and traces."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _film(contact, load, speed):
 
 
 def skew_moment(detail):
-    """Skew moment of a contact [N m]; NaN for a plain one, which knows of none."""
+    """Skew moment of a contact [N m]; NaN for a plain one, which has none."""
     return math.nan if detail is None else detail.skew
 
 

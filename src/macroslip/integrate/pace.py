@@ -1,4 +1,4 @@
-"""How the integration goes on: the step to try next, and the barrier it must not cross."""
+"""The next step of the integration: its length, and the barrier that it must not cross."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def next_stretch(path, state, pace, stops, classes, record):
     sample_step = path.motion.time[interval + 1] - path.motion.time[interval]
     jumps = not has_microslip(path.model)
     last, step = interval, pace.step
-    # With microslip the power of a held roller has a kink at every sample; without, that of a cage it hardly leans on.
+    # With microslip the power of a held roller has a kink at every sample; without, that of a cage that carries little.
     kinks = zone == FIRM and (not jumps or _follows_acceleration(state))
     if zone != EDGE and step > 2.0 * sample_step and not kinks:
         while last < classes.size - 1 and classes[last + 1] == zone and path.motion.time[last + 1] < stops[next_stop]:
@@ -112,7 +112,7 @@ def _rebalanced(path, state, record):
     """A firmly held roller just after a sample, where the shaft's acceleration changes at once.
 
     The transition takes the relaxation time, for which `firm_interference` gives a bound; here it takes none. A roller
-    that still skids, or has not settled yet, goes its own way.
+    that still skids, or has not settled yet, is left as it is.
     """
     model, motion, interval = path.model, path.motion, state.interval
     speed_change = motion.shaft_speed[interval + 1] - motion.shaft_speed[interval]

@@ -1,4 +1,4 @@
-"""What the integration of a roller is given, where it is, and the step it tries: three bundles that travel together."""
+"""Input of a roller's integration, its present state, and the step that it tries, one bundle each."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Limits(NamedTuple):
     Attributes
     ----------
     tolerance : float
-        Relative accuracy asked of slip (against the raceway speed) and of energy per step [-].
+        Relative tolerance of slip (against the raceway speed) and of energy per step [-].
     max_steps : int
         Steps after which the integration gives up.
     speed_scale : float
@@ -33,7 +33,7 @@ class Limits(NamedTuple):
     firm : float
         Interference from which on the roller is firmly held [m].
     interrupt : ndarray of int8, shape (1,)
-        Looked at in every step; anything but zero ends the integration. The caller sets it from another thread.
+        Read in every step; any value but zero ends the integration. The caller sets it from another thread.
     """
 
     tolerance: float
@@ -77,7 +77,7 @@ class Path(NamedTuple):
     Attributes
     ----------
     model : SealedModel
-        In plain Python a RollerModel will do.
+        In plain Python also a RollerModel.
     motion : Motion
     start_angle : float
         Position φ at the first sample [rad].

@@ -28,7 +28,7 @@ from macroslip.reference import by_reference
 
 
 class Memory(NamedTuple):
-    """What a step leaves to the next, for its first guess.
+    """Results of a step that the next one needs for its first guess.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ def integrate_radau(path, slip, stops, classes, record):
         next_trace = write_traces(record, path.model, next_trace, state.time, state.at, state.forces, state.slip)
         if state.time >= pace.barrier:
             if state.time == record.edges[0]:
-                # What the window holds is known as well as if the history began with it.
+                # Errors in the window are bounded as if the history began with it.
                 spent = 0.0
             state, pace = next_stretch(path, state, pace, stops, classes, record)
             if pace.next_stop == stops.size:
@@ -171,7 +171,7 @@ def _rejected(path, state, pace, step, tried, factor):
         # The same step with three stages.
         return paced(pace, pace.step, pace.barrier, True)
     if tried.solved and has_microslip(path.model):
-        # What is too long there is a step over the kink of the loads at a sample, whose error is of second order.
+        # A step that is too long there crosses the kink of the loads at a sample, so that its error is of second order.
         factor = SAFETY / math.sqrt(tried.error)
     part = max(LEAST_PART, factor) if tried.solved else UNSOLVED_PART
     return shortened(path, state, pace, part * step.length)
@@ -179,7 +179,7 @@ def _rejected(path, state, pace, step, tried, factor):
 
 @jit_part
 def _learnt(memory, state, after, step, stages, zone):
-    """What an accepted step leaves to the next."""
+    """Results of an accepted step for the next one."""
     exponent = memory.exponent
     if zone == FIRM:
         exponent = held_exponent(state.at, state.slip, after.at, after.slip, exponent)
@@ -193,7 +193,7 @@ def _with_bend(memory, bend):
 
 @jit_part
 def _halted(limits, record):
-    """COMPLETED as long as the integration may go on; otherwise why not."""
+    """COMPLETED as long as the integration may go on; otherwise the status that ends it."""
     if limits.interrupt[0] != 0:
         return INTERRUPTED
     if record.count[0] + record.count[1] >= limits.max_steps:

@@ -1,4 +1,4 @@
-"""Which root of an implicit step is right: the one that joins the present slip as the step shrinks to zero.
+"""The right root of an implicit step: the one that approaches the present slip as the step shrinks to zero.
 
 Below the slip at which some part of a contact passes its peak of traction, forces rise with slip and the stage equations
 have one root. Above it, a step is accepted only where slip changes so little, and traction falls so gently, that the

@@ -1,4 +1,4 @@
-"""A roller as the integrators see it: the numbers of its geometry, and its laws by their addresses.
+"""A roller as the integrators use it: the numbers of its geometry, and the addresses of its laws.
 
 The integrators are compiled once, for all laws; what a law does is compiled once, for all integrators. Each function here
 does for a `SealedModel` in a kernel what its namesake does for a `RollerModel`, which plain Python may give it too.
@@ -37,14 +37,14 @@ class Entries(NamedTuple):
 
 
 class SealedModel(NamedTuple):
-    """A `RollerModel` whose contacts and films the integrators cannot see.
+    """A `RollerModel` whose contacts and films are hidden from the integrators.
 
     Attributes
     ----------
     radius, mobility, stiffness, cos_contact_angle, sin_contact_angle, radial_play, orbit_ratio, outer_radius : float
         As in `RollerModel`.
     microslip : bool
-        Whether a gripped contact slips in most places all the same.
+        Whether most places of a gripped contact slip.
     curved : bool
         Whether contacts have mechanisms and places to book.
     inner_power, outer_power : PowerRule
@@ -128,7 +128,7 @@ class Value(NamedTuple):
     value: float
 
 
-#: What a plain contact adds to its force: nothing, and no skew moment is known.
+#: Details of a plain contact: zero, and no skew moment.
 PLAIN = Detail(0.0, np.nan, 0.0)
 _NO_STATION = Station(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _NO_FORCES = SlipForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), PLAIN, PLAIN, PLAIN)
@@ -154,7 +154,7 @@ _call_traced = calling(TRACED_TYPE, RECORD_TYPE)
 
 
 def has_microslip(model):
-    """Whether a gripped roller slips in most places all the same."""
+    """Whether most places of a gripped roller's contacts slip."""
     return slips_everywhere(model.inner)
 
 

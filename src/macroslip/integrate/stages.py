@@ -57,7 +57,7 @@ class Stages(NamedTuple):
 
 @jit_part
 def force_tolerance(tolerance, microslip):
-    """Part of the sum of force magnitudes that may stay unbalanced, by the tolerance asked of the integration."""
+    """Part of the sum of force magnitudes that may stay unbalanced, by the tolerance of the integration."""
     if not microslip:
         return FORCE_TOLERANCE
     return max(FORCE_TOLERANCE, min(MICROSLIP_FORCE_SHARE * tolerance, MICROSLIP_FORCE_TOLERANCE))
@@ -113,7 +113,7 @@ def solve_stages(path, state, step, guess, smooth, bend):
             break
         if not math.isfinite(size) or (iteration > 2 and size > 0.9 * unbalanced):
             break
-        # Newton's residuals shrink quadratically: the next one is foreseen from the last two, or with a known bend from
+        # Newton's residuals shrink quadratically: the next one is predicted from the last two, or with a known bend from
         # the first correction, and where it is small enough the forces follow to first order, without an evaluation.
         if iteration > 0:
             foreseen = size * size / unbalanced

@@ -1,4 +1,4 @@
-"""How the integration of a roller can end; each way with the sentence a user sees."""
+"""How the integration of a roller can end, each with the sentence that is shown to the user."""
 
 from __future__ import annotations
 

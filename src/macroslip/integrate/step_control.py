@@ -1,4 +1,4 @@
-"""How long a step may be: bounds given beforehand, and the error it is found to have."""
+"""Length of a step: bounds that are known beforehand, and the estimated error of a step that was tried."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from macroslip.roller.forces import net_force
 def first_cusp(state, free, step):
     """Part of a step at which traction first has a cusp because a light contact's load passes through zero; else 1.
 
-    At the cage it is foreseen with the traction at the start, whose change is small against the roller's weight. A
+    At the cage it is predicted with the traction at the start, whose change is small against the roller's weight. A
     `free` roller has another where it leans over from one raceway to the other. Where the shaft turns back all friction
     has one.
     """
@@ -49,7 +49,7 @@ def _lean(at):
 
 @jit_part
 def defect_error(path, state, step, stages, looks):
-    """Error of slip [m/s] that the equation's defect between the stages tells of, at `looks` places.
+    """Error of slip [m/s] by the equation's defect between the stages, at `looks` places.
 
     The embedded estimate is one number and may vanish by accident, especially where grip does so between two stages.
     """

@@ -1,6 +1,6 @@
 """Where on the raceways energy is dissipated: energy and largest power per area, by angle and place along the roller.
 
-The outer raceway stands still, and the angle of a place on it is φ, from +X0 towards +Y0. The inner raceway turns with
+The outer raceway is at rest, and the angle of a place on it is φ, from +X0 towards +Y0. The inner raceway turns with
 the shaft, and the angle of a place on it is counted from where +X0 was at the first sample: φ less the shaft's angle.
 """
 

@@ -12,13 +12,13 @@ from __future__ import annotations
 #: First step of the history and first step after entering an edge of the load zone [s]. Judgement: error control
 #: corrects either within three steps.
 FIRST_STEP, EDGE_STEP = 1e-2, 1e-3
-#: Largest part of an orbit turned in one step [rad], so that no step sees gravity's direction only where it is alike:
-#: in a coast steps of a tenth of an orbit keep the tolerance.
+#: Largest part of an orbit turned in one step [rad], so that a step has stages under different directions of gravity:
+#: in a coast, steps of a tenth of an orbit keep the tolerance.
 LONGEST_TURN = 0.6
 #: Most growth of a step, its least part after an error, and its part after stages that were not solved; the first two
 #: as in Hairer and Wanner's RADAU5, IV.8, the third a judgement.
 GROWTH, LEAST_PART, UNSOLVED_PART = 5.0, 0.2, 0.25
-#: Safety factor on the step that the error asks for (Hairer and Wanner, IV.8: 0.8 to 0.9).
+#: Safety factor on the step that the error allows (Hairer and Wanner, IV.8: 0.8 to 0.9).
 SAFETY = 0.8
 #: Part of the longest step above which steps end on the cusps of light contacts. Needed for slip in coasts and peaks to
 #: converge on the bundled histories: a long step across the zero of the cage force hid it from the embedded estimate.
@@ -42,7 +42,7 @@ NO_ENERGY = 1e-9
 #: Part of a sample interval below which energy is not controlled more finely: power jumps with the shaft's acceleration
 #: at every sample. Judgement.
 SHORT_PART = 0.05
-#: Parts of a step between the stages at which the equation's defect is looked at, and its weight as an error. With
+#: Parts of a step between the stages at which the equation's defect is evaluated, and its weight as an error. With
 #: them slip in coasts and peaks converge with the tolerance on all bundled histories; without, not all do.
 DEFECT_NODES = (0.83, 0.4)
 DEFECT_WEIGHT = 0.25
@@ -63,10 +63,10 @@ ITERATIONS = 12
 #: Part of the sum of force magnitudes that may stay unbalanced at a stage. A friction force of this part of the
 #: traction still decides energy where microslip is off.
 FORCE_TOLERANCE = 1e-9
-#: The same with microslip, whose power does not hang on the balance of two large forces: half of the tolerance asked
-#: for, and at most this. At 2e-4, errors of energy on the bundled histories are 1e-5 with it.
+#: The same with microslip, whose power does not hang on the balance of two large forces: half of the integration's
+#: tolerance, and at most this. At 2e-4, errors of energy on the bundled histories are 1e-5 with it.
 MICROSLIP_FORCE_SHARE, MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
-#: Safety factor on the residual foreseen from the curvature of the forces in earlier steps, and what is left of that
+#: Safety factor on the residual predicted from the curvature of the forces in earlier steps, and what is left of that
 #: curvature when a newer one is smaller. With them a held roller takes 3.7 evaluations a step on average, not 6.
 BEND_SAFETY, FORGET = 3.0, 0.5
 #: Part of the sum of force magnitudes up to which the second of two residuals may be left to a last correction without
@@ -77,7 +77,7 @@ LAST_REST = 0.5
 #: Step over relaxation time from which on a held roller's step has two stages, and the part of the sum of force magnitudes
 #: up to which it counts as being at its balance. Judgement: FIRM rollers at the bundled 20 Hz have 50 and more.
 QUASI_STATIC, SETTLED_FORCE = 30.0, 0.02
-#: Most iterations of a held step; where they do not do, the step is tried with three stages.
+#: Most iterations of a held step; where they are not enough, the step is tried with three stages.
 HELD_ITERATIONS = 4
 #: Step over relaxation time from which on a roller with microslip is taken to follow its loads, for a first guess.
 #: Judgement; a poor guess costs an evaluation and no accuracy.
@@ -87,10 +87,10 @@ MOST_AHEAD = 3.0
 #: Power of the load with which the middle of a held contact slips where stress is at its limit: that of the drop of the
 #: contour at the end of the ellipse.
 LIMIT_EXPONENT = 2.0 / 3.0
-#: Change of ln Q below which a step says nothing of the exponent, and how far the exponent may reasonably be. Judgement.
-TELLING, STEEPEST = 1e-3, 3.0
+#: Change of ln Q below which a step does not give the exponent, and the largest exponent that is accepted. Judgement.
+LEAST_CHANGE, STEEPEST = 1e-3, 3.0
 #: Largest change of speed in a step, as a factor, over which slip is taken to be in proportion to it. Out of standstill
-#: the slip before the step is the tolerance of its balance and says nothing of its proportion to speed.
+#: the slip before the step is the tolerance of its balance and not in proportion to speed.
 MOST_QUICKENING = 5.0
 #: Most iterations of the secant method of backward Euler; it is held in a bracket that halves.
 SECANT_ITERATIONS = 200

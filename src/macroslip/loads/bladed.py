@@ -175,7 +175,7 @@ def _group_with(names: tuple[str, ...], groups: list[Group], path: Path) -> Grou
 
 
 def _fields(path: Path) -> list[tuple[str, str]]:
-    """Keys and values of a header; what stands on further lines belongs to the key before."""
+    """Keys and values of a header; further lines belong to the key before."""
     if path.stat().st_size > 10_000_000:
         raise InputError("the header is larger than 10 MB", where=str(path), remedy="Check that it is one.")
     fields: list[tuple[str, str]] = []

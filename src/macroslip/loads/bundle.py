@@ -3,12 +3,12 @@
 Each record becomes ``cases/<name>.parquet``: 600 s at 20 Hz, float32, with its provenance in the schema metadata.
 
 The filter. 50 Hz becomes 20 Hz by inserting a zero after every sample (100 Hz), a symmetric Kaiser-window FIR, and
-keeping every fifth value. Symmetry means no delay: sample i of the result stands at i/20 s, and every second one
+keeping every fifth value. Symmetry means no delay: sample i of the result is at i/20 s, and every second one
 coincides with a sample of the source. Measured on the 337 taps (± 1.68 s): the gain is within 1.0e-4 of 1 up to 8.5
 Hz, half at 9.25 Hz, and below 1.0e-4 (−80 dB) from 10 Hz on. As 10 Hz is the new Nyquist frequency, nothing folds
 back above that level; a default of about 53 dB with half gain at 10 Hz would fold the band above 10 Hz onto 8.4 to 10
 Hz. Before the first and after the last sample the record is continued by its point reflection in that sample, which
-keeps value and slope; within 1.68 s of either end the result therefore rests partly on that continuation.
+keeps value and slope; within 1.68 s of either end the result therefore depends partly on that continuation.
 """
 
 from __future__ import annotations

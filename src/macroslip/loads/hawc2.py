@@ -1,6 +1,6 @@
 """Hub loads from the output of HAWC2: ``.sel`` with ``.dat`` (text or binary), or the HDF5 format gtsdf.
 
-HAWC2 writes what the user's input file asks for. Needed are force and moment at the hub's end of the shaft in the shaft's
+HAWC2 writes the channels that the user's input file lists. Needed are force and moment at the hub's end of the shaft in the shaft's
 own axes, and the bearing's angle and speed:
 
     mbdy forcevec shaft 4 2 shaft ;
@@ -81,7 +81,7 @@ def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
     if angle is None:
         raise InputError("there is no angle of the shaft's bearing", where=where, remedy=_REMEDY)
     force, moment, turned = _to_fixed(force, moment, angle[0], where)
-    how = f"turned back by {turned[0]} {angle[1]}, sign {turned[1]} as the rotor's weight asks"
+    how = f"turned back by {turned[0]} {angle[1]}, sign {turned[1]} by the rotor's weight"
     reading = [f"force and moment: main body shaft, node {node}, {how}"]
     result = {"time": output.time, "force": force, "moment": moment}
     speed = _channel(output, r"omega|rotor speed|angle_?\s*speed", "speed", where)
@@ -203,7 +203,7 @@ def _read_sel(path: Path) -> Output:
 
 
 def _channel_line(line: str) -> tuple[str, str, str]:
-    """Name, unit and description of a channel, which stand in fixed columns."""
+    """Name, unit and description of a channel, which are in fixed columns."""
     body = line.expandtabs()
     return body[12:43].strip(), body[43:54].strip(), body[54:].strip()
 

@@ -163,7 +163,7 @@ class HubLoads:
     def bundled(cls, case: str) -> HubLoads:
         """One of the load cases that come with the package, 600 s at 20 Hz; `bundled_cases` lists them.
 
-        Simulated with OpenFAST for the WindPACT 1.5 MW turbine; ``cases/README.md`` beside this module tells how.
+        Simulated with OpenFAST for the WindPACT 1.5 MW turbine; ``cases/README.md`` beside this module describes how.
 
         Examples
         --------

@@ -173,7 +173,7 @@ class _Channels:
 
 
 def _check_weight(fy: NDArray, fz: NDArray, where: str) -> None:
-    # The file does not tell AzimB1Up. A value other than zero turns the rotor's weight away from -z: plain to see.
+    # The file does not contain AzimB1Up. A value other than zero turns the rotor's weight away from -z.
     mean_y, mean_z = float(fy.mean()), float(fz.mean())
     if np.isfinite(mean_y + mean_z) and mean_z >= -abs(mean_y):
         raise InputError(

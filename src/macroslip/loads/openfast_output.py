@@ -41,7 +41,7 @@ def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
         # A scale of zero makes values that are not finite; those are reported with their channel and time.
         with np.errstate(all="ignore"):
             data, info, _ = load_binary_output(str(path))
-    except Exception as error:  # the reader raises whatever its parsing stumbles over
+    except Exception as error:  # the reader raises any error of its parsing
         raise InputError(
             f"not readable as OpenFAST binary output ({error})",
             where=str(path),
@@ -95,7 +95,7 @@ def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
     try:
         with _plain_text(path) as plain:
             data, info = load_ascii_output(str(plain))
-    except Exception as error:  # the reader raises whatever its parsing stumbles over
+    except Exception as error:  # the reader raises any error of its parsing
         raise InputError(
             f"not readable as OpenFAST text output ({_first_bad_line(path) or error})",
             where=str(path),

@@ -21,7 +21,7 @@ LATEST_TIME = 1e10
 """Largest time stamp [s], about 300 years: seconds since 1970 are allowed, milliseconds are not."""
 
 MAGNITUDE_LIMITS = {"shaft_speed": (100.0, "rad/s"), "force": (1e8, "N"), "moment": (1e9, "N m")}
-"""Magnitudes beyond which only a mistaken unit is left as an explanation.
+"""Magnitudes beyond which the unit must be a mistake.
 
 100 rad/s is 955 rpm: rotors on a main bearing stay below some 10 rad/s, generators behind a gearbox turn faster than
 the limit. 1e8 N is the weight of 10 000 t, about ten times the heaviest rotor, and 1e9 N m about ten times the
@@ -29,7 +29,7 @@ extreme bending moment of a 20 MW rotor. Values below the limits can still carry
 are refused.
 """
 
-#: Samples of a constant load beyond which only a mistaken duration is left as an explanation.
+#: Samples of a constant load beyond which the duration must be a mistake.
 _MOST_SAMPLES = 20_000_000
 
 
@@ -79,7 +79,7 @@ def validate(record: Any, vectors: Mapping[str, Sequence[str]]) -> None:
 
 
 def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, source: str) -> dict[str, NDArray]:
-    """Keep the samples with ``start <= time <= end`` [s]; None stands for the end of the record on that side.
+    """Keep the samples with ``start <= time <= end`` [s]; None is the end of the record on that side.
 
     Works on arrays that are not validated yet, so that a bad stretch of a file can be cut away on reading.
     """
@@ -90,7 +90,7 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
     if start is None and end is None:
         return columns
     stamps = columns["time"][np.isfinite(columns["time"])]
-    if stamps.size < 2:  # nothing to cut; validation says what is wrong
+    if stamps.size < 2:  # nothing to cut; validation reports the fault
         return columns
     first, last = float(stamps.min()), float(stamps.max())
     slack = 1e-6 * (last - first) / (stamps.size - 1)  # a stamp such as 0.30000000000000004 s must not lose its sample
@@ -209,7 +209,7 @@ def _check_time(time: NDArray, source: str) -> None:
             f"time reaches {latest:.6g} s, with steps of {typical:.6g} s",
             where=source,
             allowed=f"magnitudes up to {LATEST_TIME:g} s, and steps that numbers of this size resolve",
-            remedy="Time is in seconds. Convert stamps of an epoch, in microseconds say, and count from the start.",
+            remedy="Time is in seconds. Convert stamps of an epoch, such as microseconds, and count from the start.",
         )
     bad = np.flatnonzero(steps > GAP_FACTOR * typical)
     if bad.size:

@@ -10,12 +10,12 @@ from pathlib import Path
 from macroslip.errors import InputError
 from macroslip.files import check_regular
 
-#: What to do about a file that no reader can make sense of.
+#: What to do about a file that no reader understands.
 DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it holds."
 
 
 def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
-    """Return the path and its lower-case extension, or tell what is wrong with it.
+    """Return the path and its lower-case extension, or raise what is wrong with it.
 
     Parameters
     ----------

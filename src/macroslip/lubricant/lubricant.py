@@ -47,7 +47,7 @@ class Lubricant(Record):
     reference_pressure_viscosity at a reference_temperature. The values at the inlet then follow. `at` gives the lubricant
     at another temperature.
 
-    Attributes are in SI units (K, Pa s, m2/s, 1/Pa, 1/K, W/(m K), kg/m3); `provenance` says for each where it comes from.
+    Attributes are in SI units (K, Pa s, m2/s, 1/Pa, 1/K, W/(m K), kg/m3); `provenance` gives the source of each.
 
     Raises
     ------
@@ -65,7 +65,7 @@ class Lubricant(Record):
     derivable: ClassVar[frozenset[str]] = frozenset(_SOURCES)
 
     name: str = Field(min_length=1, description="short name of the lubricant, used in results")
-    title: str = Field(default="", description="one line that says what lubricant it is")
+    title: str = Field(default="", description="one line that describes the lubricant")
     base_oil: str = Field(default="", description=f"family of the base oil: {', '.join(BASE_OILS)}")
     thickener: str = Field(default="", description="thickener of a grease; only the base oil enters the contacts here")
 

@@ -47,7 +47,7 @@ def roelands(viscosity: float, pressure_viscosity: float, pressure: float) -> fl
 
     Z is such that d ln eta/dp is alpha_p at p = 0, as Barus' law has it everywhere; for Z < 1 Roelands' viscosity is
     below Barus' at every pressure. Fitted to oils up to about 1 GPa; above, real viscosities rise faster again, of which
-    the stress of a film that thins under shear feels the logarithm.
+    only the logarithm enters the stress of a film that thins under shear.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Numbers that stand beside slip: static safety, rating lives, pressures, film ratio, minimum load, load spectra."""
+"""The usual ratings beside slip: static safety, rating lives, pressures, film ratio, minimum load, load spectra."""
 
 from macroslip.rating.rate import rate
 from macroslip.rating.roller_load import roller_load_history

@@ -1,4 +1,4 @@
-"""What the raceways meet: largest load and pressure, and how thick the film is over the roughness."""
+"""Loads of the raceways: largest load and pressure, and how thick the film is over the roughness."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every part of a rating reads: the published ratings, and the loads with what follows from them at once."""
+"""Common input of all parts of a rating: the published ratings, and the loads with derived series."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class History(NamedTuple):
     roller_load : ndarray, shape (2, Z, n)
         Q [N].
     duration, revolutions : ndarray, shape (n,)
-        Time [s] and turns of the shaft [-] that every sample stands for.
+        Time [s] and turns of the shaft [-] that every sample represents.
     radial, axial, equivalent : ndarray, shape (n,)
         Fr, Fa and P [N].
     """
@@ -61,7 +61,7 @@ class History(NamedTuple):
 
     @property
     def hours_a_revolution(self) -> float:
-        """Mean time of a turn of the shaft [h]; NaN where it stands."""
+        """Mean time of a turn of the shaft [h]; NaN for a shaft at rest."""
         turned = self.revolutions.sum()
         return self.duration.sum() / turned / _HOUR if turned > 0.0 else math.nan
 

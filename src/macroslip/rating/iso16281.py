@@ -22,7 +22,7 @@ REDUCTION = 0.83
 WEIBULL_SLOPE = 9.0 / 8.0
 """e of line contacts."""
 LAMINAE = 30
-"""Laminae over the whole length of a roller, as many as the standard asks for at least."""
+"""Laminae over the whole length of a roller, the least number that the standard requires."""
 
 
 class RingRatings(NamedTuple):
@@ -85,7 +85,7 @@ def ring_ratings(
 def damage_series(load, semi_axis, roller_length, rating, stationary):
     """Damage of one ring of one row over a history, (Q_e/Q_c)^(9/2), from the loads of all its rollers.
 
-    Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of one that stands. Along
+    Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of one at rest. Along
     the roller it is the mean over laminae, on each of which a load Q_j counts that spread over the whole length would give
     what it bears per length: that of Hertz' ellipse, of which what is left carries all where it would reach beyond the ends.
     The mean is the standard's sum with q_c = Q_c (1/n)^(7/9).
@@ -101,7 +101,7 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     rating : float
         Q_c of the ring [N], without the division by `REDUCTION`.
     stationary : bool
-        Whether the ring stands still relative to the load.
+        Whether the ring is at rest relative to the load.
 
     Returns
     -------

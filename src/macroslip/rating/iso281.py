@@ -110,7 +110,7 @@ def mean_equivalent_load(equivalent_load: ArrayLike, revolutions: ArrayLike) -> 
 
 
 def reference_viscosity(speed: float, pitch: float) -> float:
-    """Kinematic viscosity that the standard asks for, nu1 = 45000 n^-0.83 Dpw^-0.5 mm2/s (n in rpm, Dpw in mm).
+    """Kinematic viscosity that the standard requires, nu1 = 45000 n^-0.83 Dpw^-0.5 mm2/s (n in rpm, Dpw in mm).
 
     From 1000 rpm on it is 4500 n^-0.5 Dpw^-0.5.
 

@@ -1,4 +1,4 @@
-"""The load that a maker asks for so that rollers do not skid."""
+"""The least load that makers require so that rollers do not skid."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def minimum_load(static_load_rating: float) -> float:
     Returns
     -------
     float
-        P_min [N]. A rule of thumb: it knows neither speed nor lubricant.
+        P_min [N]. A rule of thumb: it depends on neither speed nor lubricant.
 
     References
     ----------

@@ -115,7 +115,7 @@ def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
 
 
 def _viscosity_ratio(bearing: Bearing, lubricant: Lubricant, history: History) -> float:
-    """Kappa at the mean speed; NaN where the shaft stands."""
+    """Kappa at the mean speed; NaN for a shaft at rest."""
     mean_speed = 2.0 * math.pi * history.revolutions.sum() / history.duration.sum()
     if mean_speed == 0.0:
         return math.nan
@@ -131,7 +131,7 @@ def _static(bearing: Bearing, history: History) -> dict[str, tuple]:
     return {
         "static_equivalent_load": variable(float(equivalent.max()), "N", "largest static equivalent load P0"),
         "static_safety": variable(float(safety), "1", "static safety factor C0/P0, the least"),
-        "minimum_load": variable(least, "N", "least load P that the maker asks for, 0.01 C0"),
+        "minimum_load": variable(least, "N", "least load P that the maker requires, 0.01 C0"),
         "share_below_minimum_load": variable(below, "1", "share of time in which P is below the minimum load"),
     }
 

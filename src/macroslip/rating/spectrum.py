@@ -10,7 +10,7 @@ LEVELS = 256
 
 
 def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Time that every sample stands for [s]: half of the intervals at either side.
+    """Time that every sample represents [s]: half of the intervals at either side.
 
     Examples
     --------
@@ -29,7 +29,7 @@ def load_duration(load: NDArray[np.float64], weight: NDArray[np.float64], edges:
     load : ndarray, shape (n,)
         Load [N].
     weight : ndarray, shape (n,)
-        Time or revolutions each sample stands for.
+        Time or revolutions that each sample represents.
     edges : ndarray, shape (k + 1,)
         Rising edges of the classes [N] that contain all loads.
 

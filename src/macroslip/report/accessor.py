@@ -48,7 +48,7 @@ def open_result(path: str | Path) -> xr.Dataset:
 
 @xr.register_dataset_accessor("macroslip")
 class Macroslip:
-    """What macroslip adds to a result: `plot`, and a summary where it is shown."""
+    """What macroslip adds to a result: `plot`, and a summary for its display."""
 
     def __init__(self, result: xr.Dataset):
         self._result = result

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-#: Code of a value that is not known.
+#: Code of an unknown value.
 MISSING = 65535
 _TOP = 65534
-#: Power below which the scale does not tell values apart [W].
+#: Power below which the scale does not distinguish values [W].
 LEAST_POWER = 1e-5
 #: Name in a scene, heading, unit shown, factor from SI, whether the scale is logarithmic.
 QUANTITIES = (

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def provenance_section(
     datasets: Mapping[str, xr.Dataset], *, seconds: Mapping[str, float] | None = None, reused: tuple[str, ...] = ()
 ) -> Section:
-    """A section that says how every number of a page came about.
+    """The section on the origin of every number of a page.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def provenance_section(
 
 
 def _program(datasets: Mapping[str, xr.Dataset], seconds: Mapping[str, float] | None, reused: tuple[str, ...]) -> Table:
-    sources = sorted({one.attrs.get("source", "not said") for one in datasets.values()})
+    sources = sorted({one.attrs.get("source", "not given") for one in datasets.values()})
     rows = [("computed by", ", ".join(sources))]
     rows += [(f"this page: {key}", str(value)) for key, value in machine().items() if value is not None]
     if seconds:
@@ -83,7 +83,7 @@ def _input_tables(datasets: Mapping[str, xr.Dataset], part: str) -> list[Table]:
     for text, names in found.items():
         of = f" ({', '.join(names)})" if len(found) > 1 else ""
         value = json.loads(text)
-        rows = tuple((key, _told(one)) for key, one in value.items())
+        rows = tuple((key, _input_text(one)) for key, one in value.items())
         further = Table(("input", "value (SI units)"), rows, f"Further input{of}")
         tables.append(_record(value, f"{part}{of}") if part else further)
     return tables
@@ -120,7 +120,7 @@ def _loads(datasets: Mapping[str, xr.Dataset]) -> Table:
     return Table(("", "loads", "samples", "from [s]", "to [s]", "SHA-256 begins"), tuple(dict.fromkeys(rows)), "Loads")
 
 
-def _told(value: Any) -> str:
+def _input_text(value: Any) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{key} {_told(one)}" for key, one in value.items())
+        return ", ".join(f"{key} {_input_text(one)}" for key, one in value.items())
     return "none" if value is None else str(value)

@@ -1,4 +1,4 @@
-"""Numbers beside slip: the rating of the bearing that a result holds, as tables and pictures."""
+"""The rating of the bearing that a result holds, as tables and pictures."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _BEARING = {
     "equivalent_load": "mean equivalent load P",
     "fatigue_load_limit": "fatigue load limit C_u",
     "share_below_fatigue_load_limit": "time with P below C_u",
-    "minimum_load": "minimum load the maker asks for",
+    "minimum_load": "minimum load the maker requires",
     "share_below_minimum_load": "time with P below it",
     "viscosity_ratio": "viscosity ratio κ at the mean speed",
     "life_modification": "life modification factor a_ISO",
@@ -33,7 +33,7 @@ _LOADS = {"radial": (BLUE, "-"), "axial": (ORANGE, "--"), "equivalent": (BLACK, 
 
 
 def rating_blocks(result: xr.Dataset) -> tuple[Block, ...]:
-    """What a result says of the bearing beside slip; nothing where it was not rated.
+    """The ratings in a result; nothing where it was not rated.
 
     Parameters
     ----------
@@ -46,14 +46,14 @@ def rating_blocks(result: xr.Dataset) -> tuple[Block, ...]:
         return ()
     contamination = float(result.attrs["rating_contamination"])
     lives = [
-        (f"{name}, load {words}", shown(result[variable].sel(load_along_roller=along)))
+        (f"{name}, load {words}", rating_text(result[variable].sel(load_along_roller=along)))
         for along, words in (("hertz", "as in a Hertz contact"), ("uniform", "even along the roller"))
         for variable, name in (("reference_life", "reference life, ISO/TS 16281"),
                                ("modified_reference_life", "modified reference life"))
     ]  # fmt: skip
-    whole = tuple((name, shown(result[variable])) for variable, name in _BEARING.items()) + tuple(lives)
+    whole = tuple((name, rating_text(result[variable])) for variable, name in _BEARING.items()) + tuple(lives)
     ranges = tuple(
-        (f"{load} load", *(shown(result.damage_equivalent_load.sel(load=load, wohler_exponent=one))
+        (f"{load} load", *(rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one))
                            for one in result.wohler_exponent.values))
         for load in result["load"].values.tolist()
     )  # fmt: skip
@@ -61,7 +61,7 @@ def rating_blocks(result: xr.Dataset) -> tuple[Block, ...]:
     return (
         Paragraph(
             "Over all loads of the case, as if they repeated for ever; lives weigh loads by revolutions. The "
-            f"contamination factor is {contamination:g}, an assumption. A rating knows loads, speed and viscosity, "
+            f"contamination factor is {contamination:g}, an assumption. A rating depends on loads, speed and viscosity, "
             "not slip."
         ),
         Table(("bearing", "value"), whole),
@@ -110,7 +110,7 @@ def rating_summary(study: xr.Dataset) -> tuple[Block, ...]:
         values = study[name].dropna("case")
         if values.size:
             ends = (values.min(keep_attrs=True), values.median(keep_attrs=True), values.max(keep_attrs=True))
-            rows.append((str(study[name].attrs["long_name"]), *map(shown, ends)))
+            rows.append((str(study[name].attrs["long_name"]), *map(rating_text, ends)))
     rated = int(study.static_safety.notnull().sum())
     return (
         Paragraph(f"Ratings of {rated} of {study.sizes['case']} runs, each as if its loads repeated for ever."),
@@ -118,13 +118,13 @@ def rating_summary(study: xr.Dataset) -> tuple[Block, ...]:
     )
 
 
-def shown(value: xr.DataArray) -> str:
-    """A number with its unit, as a reader wants it: kN, hours with years, per cent.
+def rating_text(value: xr.DataArray) -> str:
+    """A number with its unit, in usual units: kN, hours with years, per cent.
 
     Examples
     --------
     >>> import xarray as xr
-    >>> shown(xr.DataArray(87660.0, attrs={"units": "h"})), shown(xr.DataArray(1.5e5, attrs={"units": "N"}))
+    >>> rating_text(xr.DataArray(87660.0, attrs={"units": "h"})), rating_text(xr.DataArray(1.5e5, attrs={"units": "N"}))
     ('8.77e+04 h (10 years)', '150 kN')
     """
     number, units = float(value), value.attrs.get("units", "")

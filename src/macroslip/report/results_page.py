@@ -71,7 +71,7 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
         group = name if len(results) > 1 else ""
         sections += _of_result(result, profiles.get(name), number, group, first)
         if whole := whole_blocks(result, results):
-            gist = "cage, pockets and books where the rollers move in their pockets"
+            gist = "cage, pockets and balances where the rollers move in their pockets"
             suffix = f"-{number}" if number else ""
             sections.append(Section(f"whole{suffix}", "Orbit and spin together", whole, gist, group))
     for number, (name, study) in enumerate(studies.items()):
@@ -120,7 +120,7 @@ def _cases(studies: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
 
 
 def _profiles(results: Mapping[str, xr.Dataset]) -> tuple[dict[str, dict[str, xr.Dataset]], dict[str, str]]:
-    """What the traces give, and why the others give nothing."""
+    """What the traces give, and the reason where they give nothing."""
     profiles, notes = {}, {}
     for name, result in results.items():
         try:

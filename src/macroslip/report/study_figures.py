@@ -56,7 +56,7 @@ def groups(values: xr.DataArray) -> list[int]:
 
 
 def group_labels(dataset: xr.Dataset, group: int) -> list[str]:
-    """What tells a group from the others; nothing if there is one."""
+    """What distinguishes a group from the others; nothing if there is one."""
     if dataset.sizes["group"] < 2:
         return []
     found = []
@@ -64,7 +64,7 @@ def group_labels(dataset: xr.Dataset, group: int) -> list[str]:
         value = str(one.values[group]) if one.dims == ("group",) and np.unique(one.values).size > 1 else ""
         # A parameter that only other models set has no value.
         if value not in ("", "nan"):
-            # The names of parameters have a dot; those of bearings, lubricants and models speak for themselves.
+            # The names of parameters have a dot; those of bearings, lubricants and models need no name.
             found.append(f"{str(name).rpartition('.')[2]} {_short(value)}" if "." in str(name) else value)
     return found
 

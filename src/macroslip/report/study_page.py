@@ -19,7 +19,7 @@ from macroslip.report.study_figures import EXCEEDED, groups, plot_exceedance, pl
 from macroslip.report.study_opening import study_opening
 from macroslip.report.surface_section import lifetime_blocks
 from macroslip.study.exceedance import exceedance
-from macroslip.study.export import table
+from macroslip.study.export import as_table
 from macroslip.study.lifetime import lifetime_energy, worst
 from macroslip.study.outcome import Outcome
 from macroslip.study.store import MANIFEST
@@ -100,7 +100,7 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weights | None = None,
     if "status" in study:
         sections.append(provenance_section({study.attrs["title"] or "study": study}))
     file = Verbatim(_without_folders(study.attrs["study"]), "The study as it was read, as JSON")
-    sections.append(Section("study", "The study file", (file,), "what was asked for"))
+    sections.append(Section("study", "The study file", (file,), "the study as it was read"))
     return render(title, _subtitle(study, title), study_opening(study, life, curves), sections)
 
 
@@ -158,7 +158,7 @@ def _overview(study: xr.Dataset) -> list[Block]:
 
 
 def _lifetime(life: xr.Dataset, weights: Weights | None, years: float) -> list[Block]:
-    shown = table(life, ["lifetime_energy"])
+    shown = as_table(life, ["lifetime_energy"])
     words = (
         f"Energy dissipated by a roller in {years:g} years, mean over the rollers of the row. {_weighted(weights)} The "
         f"wind speeds of the study are {100.0 * float(life.covered):.0f} % of all time; the rest counts as no energy."
@@ -193,7 +193,7 @@ def _exceedance(curves: xr.Dataset, weights: Weights | None) -> list[Block]:
 def _worst(study: xr.Dataset) -> list[Block]:
     blocks: list[Block] = []
     for name in _WORST:
-        found = table(worst(study, name, count=_WORST_COUNT), [name])
+        found = as_table(worst(study, name, count=_WORST_COUNT), [name])
         about = study[name].attrs["long_name"]
         blocks.append(_frame(found.drop(columns=[one for one in _LEFT_OUT if one in found]), f"By {name}: {about}"))
     return blocks

@@ -77,7 +77,7 @@ def map_blocks(energy: xr.DataArray, density: xr.DataArray, of: str) -> tuple[Bl
     """Maps of energy per area [J/m²] and largest power per area [W/m²] of every raceway."""
     found: list[Block] = [
         Paragraph(
-            "Looking along the shaft, angles count from the bottom along the orbit. The outer raceway stands still. The "
+            "Looking along the shaft, angles count from the bottom along the orbit. The outer raceway is at rest. The "
             "inner one turns; its angle is counted on the ring, from the place that was at the bottom at the first "
             "sample. Rolling friction is dissipated in the oil and is no part of the maps. No threshold of damage is "
             "marked, since none can be traced to a primary source."

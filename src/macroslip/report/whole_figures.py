@@ -42,7 +42,7 @@ def plot_force_by_position(axes: Axes, result: xr.Dataset, row: str) -> Axes:
 
 
 def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
-    """Residuals of the books over time, each over what has passed through by the end.
+    """Residuals of the balances over time, each over what has passed through by the end.
 
     Parameters
     ----------

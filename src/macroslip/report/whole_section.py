@@ -1,4 +1,4 @@
-"""A bearing whose rollers and cages move together: books, cage slip, pockets, and what an imposed orbit would have given."""
+"""A bearing whose rollers and cages move together: balances, cage slip, pockets, and a comparison with imposed orbits."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def _pictures(result: xr.Dataset) -> Pictures:
         pictures.append(
             picture(
                 lambda axes: draw.plot_residuals(axes, result),
-                "What does not close in the books of momentum and energy over time",
+                "Residuals of the balances of momentum and energy over time",
                 legend="above",
             )
         )

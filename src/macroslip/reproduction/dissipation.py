@@ -1,4 +1,4 @@
-"""Where inside the contacts a study's energy goes: by interface, mechanism and station, and what loads say of it."""
+"""Where inside the contacts a study's energy goes: by interface, mechanism and station, and how it follows the loads."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PARTS = (
 
 
 def knows_mechanisms(study: xr.Dataset) -> bool:
-    """Whether the study was computed with contacts that tell mechanisms apart."""
+    """Whether the study was computed with contacts that distinguish mechanisms."""
     return "mechanism_energy" in study
 
 
@@ -138,24 +138,24 @@ def reasons(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, str]:
             f"correlation of energy per orbit with thrust {rank:.2f})"
         ),
         "rows": (
-            "thrust takes the load off the upwind row: its rollers carry load during "
+            "thrust unloads the upwind row: its rollers carry load during "
             f"{float(loaded.min()):.2g} to {float(loaded.max()):.2g} % of the time and spend "
             f"{ends(per_orbit.sel(row='upwind'))} J an orbit {span}, of it {float(cage.sel(row='upwind').min()):.0f} to "
-            f"{float(cage.sel(row='upwind').max()):.0f} % at the cage; what an unloaded roller spends is decided by the oil "
-            "between which it lies, and by how much of it there is"
+            f"{float(cage.sel(row='upwind').max()):.0f} % at the cage; the energy of an unloaded roller depends on the oil "
+            "around it, and on how much there is"
         ),
         "peaks": (
-            "downwind the largest power of an orbit is microslip's at the inner raceway under the largest load, not a "
-            f"snap's, {ends(peak.sel(row='downwind'))} W {span}; upwind it is {ends(peak.sel(row='upwind'))} W"
+            "downwind the largest power of an orbit is that of microslip at the inner raceway under the largest load, not "
+            f"that of a snap, {ends(peak.sel(row='downwind'))} W {span}; upwind it is {ends(peak.sel(row='upwind'))} W"
         ),
         "peak ratio": (
             "the downwind row's power hardly changes, and the upwind row's rises from "
-            f"{ends(peak.sel(row='upwind'))} W {span} because thrust lets go of it more often (under load {ends(loaded)} % of "
+            f"{ends(peak.sel(row='upwind'))} W {span} because it is under load more often ({ends(loaded)} % of "
             "the time)"
         ),
         "static": (
-            "power at the raceways follows the load of the moment, and the energy of an orbit its mean: what the "
-            "static load lacks is thrust, not time"
+            "power at the raceways follows the load of the moment, and the energy of an orbit its mean: the static "
+            "load gives less because it lacks thrust, not because it is constant"
         ),
         "cage": (
             f"the raceways take {100.0 - float(cage.sel(row='downwind').max()):.1f} % or more of the "

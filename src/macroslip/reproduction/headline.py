@@ -39,19 +39,19 @@ def tolerance_line(experiment: xr.Dataset) -> str:
     ratio, tolerance = one.ratio.values, one.stopping_tolerance.values
     if not np.isfinite(ratio).all():
         return f"Backward Euler against its stopping tolerance: {UNKNOWN}, an integration failed."
-    said = [three_digits(value) for value in ratio]
+    times = [three_digits(value) for value in ratio]
     beyond = np.flatnonzero(ratio >= 100.0)
     if beyond.size and beyond[0] > 0:
         k = int(beyond[0])
         passes = (
-            f"passes 100 times between a relative change of {tolerance[k - 1]:.0e} ({said[k - 1]} times) and "
-            f"{tolerance[k]:.0e} ({said[k]} times)"
+            f"passes 100 times between a relative change of {tolerance[k - 1]:.0e} ({times[k - 1]} times) and "
+            f"{tolerance[k]:.0e} ({times[k]} times)"
         )
     else:
-        passes = f"is {said[-1]} times at a relative change of {tolerance[-1]:.0e}"
+        passes = f"is {times[-1]} times at a relative change of {tolerance[-1]:.0e}"
     return (
         f"Backward Euler at {1e3 * experiment.attrs['step_s']:g} ms, downwind roller: with an iteration on spin that "
-        f"stops early, energy over the static one {passes}; it is {said[0]} at {tolerance[0]:.0e} and "
+        f"stops early, energy over the static one {passes}; it is {times[0]} at {tolerance[0]:.0e} and "
         f"{float(one.ratio_converged):.3g} converged."
     )
 

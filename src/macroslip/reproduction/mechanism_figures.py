@@ -1,4 +1,4 @@
-"""What dissipates inside the contacts, and what that does to the paper's figures 4 and 5."""
+"""Dissipation inside the contacts, and the paper's figures 4 and 5 under every model."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def mechanisms_figure(parts: xr.Dataset) -> Figure:
     figure, axes = new_figure(8.6, 3.9, 1, 3)
     for one, row in zip(axes, ("downwind", "upwind"), strict=False):
         plot_parts(one, parts.part_energy, row)
-    plot_stations(axes[2], parts.station_energy, "downwind", shown(parts))
+    plot_stations(axes[2], parts.station_energy, "downwind", shown_cases(parts))
     axes[2].legend(frameon=False, fontsize=7, loc="upper right")
     legend_above(figure, axes[0], ncols=3)
     return figure
@@ -120,7 +120,7 @@ def models_figure(numbers: Mapping[str, xr.Dataset]) -> Figure:
     return figure
 
 
-def shown(parts: xr.Dataset) -> tuple[str, ...]:
+def shown_cases(parts: xr.Dataset) -> tuple[str, ...]:
     """A case of the lowest, the middle and the highest wind speed, of turbulence B where there is one."""
     speeds = np.unique(parts.wind_speed.values)
     chosen = dict.fromkeys(float(speeds[k]) for k in (0, speeds.size // 2, -1))

@@ -16,7 +16,7 @@ ENERGY_REFERENCE, PEAK_REFERENCE = "12C", "14A"
 def paper_numbers(study: xr.Dataset) -> xr.Dataset:
     """Row values, their normalised forms and the ratios between rows.
 
-    A row's energy is the mean over its rollers of E_in + E_out + E_cage (34); the spread over rollers stands beside it.
+    A row's energy is the mean over its rollers of E_in + E_out + E_cage (34); the spread over rollers is given with it.
     P_max is the largest power (33) at any interface in an orbit; mean and standard deviation (of the whole population)
     are over all (roller, orbit) samples of a row. A row is normalised by its own value in the reference case.
 

@@ -79,7 +79,9 @@ def _models(runs: Mapping[str, ModelRun], inside: Mapping[str, ModelRun]) -> Sec
         ]
         shown.append(
             picture(
-                lambda axes, parts=parts: draw.plot_stations(axes, parts.station_energy, "downwind", draw.shown(parts)),
+                lambda axes, parts=parts: draw.plot_stations(
+                    axes, parts.station_energy, "downwind", draw.shown_cases(parts)
+                ),
                 "Energy along the roller, downwind row",
                 legend="below",
                 height=4.2,
@@ -158,7 +160,7 @@ def _uncertainty(name: str, summary: xr.Dataset) -> list[Block]:
             "Lines: 5 to 95 % of the samples; bar across: median. Squares, in the order of the lines: rank "
             f"correlations, filled where they are no chance (p < {DRIVER_LEVEL:g}), and Sobol' indices of the logarithm: "
             "the square is the total index, the filled part that of first order, and the number on the right the part of "
-            "the variance that the polynomial behind the indices foretells of samples it has not seen.",
+            "the variance that the polynomial behind the indices predicts for samples it was not fitted to.",
         ),
         Table(
             (
@@ -169,15 +171,15 @@ def _uncertainty(name: str, summary: xr.Dataset) -> list[Block]:
                 "95 %",
                 "driven by (rank correlation)",
                 "Sobol' index of first order (total)",
-                "foretold",
+                "predicted",
             ),
             tuple(rows),
             "Results over the sample",
         ),
         Paragraph(
             "A statement is robust if every sample shows it, and robustly not so if none does. Indices are those of a "
-            "sparse polynomial of second degree fitted to the sample; of the variance it does not foretell nothing is "
-            "known."
+            "sparse polynomial of second degree fitted to the sample; the variance that it does not predict is "
+            "unexplained."
         ),
         Points(trends),
         Table(("value", "range", "tag", "why"), ranges, "What was varied"),

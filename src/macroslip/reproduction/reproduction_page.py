@@ -115,7 +115,7 @@ def _sensitivity(runs: Mapping[str, ModelRun]) -> Section:
     blocks: list[Block] = [
         Paragraph(
             "Case 14B with one value changed at a time, everything else as it is, from a run of its own for every bar. "
-            "The value that was set stands at its bar; low values are hatched."
+            "The value that was set is written at its bar; low values are hatched."
         )
     ]
     for name, run in runs.items():

@@ -1,4 +1,4 @@
-"""How much energy and peak power depend on values that are not known well: one at a time, from real runs."""
+"""Sensitivity of energy and peak power to values that are uncertain: one at a time, each from a run of its own."""
 
 from __future__ import annotations
 
@@ -103,11 +103,11 @@ def sensitivity(directory: Path, case: Case) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over (variation, level): value, in the unit that the coordinate `unit` says; over (variation, level, row):
+        Over (variation, level): value, in the unit of the coordinate `unit`; over (variation, level, row):
         energy [J] in the window, mean over the rollers; peak_power [W], mean over rollers and orbits of the largest
         power at any interface per orbit; failed, the number of failed rollers. A mean that a failed roller enters is
         NaN. Low and high are the lowest and the highest value that the model does not refuse, because a contact ellipse
-        would reach past the roller's ends, say; the coordinate `refused` over variation has those that it does refuse.
+        would reach past the roller's ends, for example; the coordinate `refused` over variation has those that it does refuse.
         Where the study has no value on a side, it is that of the base case.
     """
     import xarray as xr

@@ -27,7 +27,7 @@ def plot_tornado(axes: Axes, table: xr.Dataset, quantity: str, row: str) -> Axes
 
     Notes
     -----
-    The axis is logarithmic, so that half and double reach equally far. The value that was set stands at the end of its
+    The axis is logarithmic, so that half and double reach equally far. The value that was set is written at the end of its
     bar; the low value's bar is hatched.
     """
     one = table.sel(row=row)

@@ -52,7 +52,7 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
     Parameters
     ----------
     loads : BearingLoads
-        The shaft must not stand still or turn back.
+        The shaft must not stop or turn back.
     row : str
         "downwind" or "upwind".
     roller : int
@@ -80,7 +80,7 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
     case = Case(loads=loads, rollers=[roller])
     angle_at_samples = _angle_from_bottom(loads, case, row, roller)
     start, end = _turn(loads, angle_at_samples, time)
-    # What comes after the turn has no bearing on it.
+    # The history after the turn has no influence.
     until = loads.window(None, float(loads.time[np.searchsorted(loads.time, end)]))
     step = (end - start) / (_POINTS * _FINE)
     # Rounding may put the last trace time past the end of the turn by one unit in the last place.
@@ -177,7 +177,7 @@ def inflexion_angle(turn: xr.Dataset) -> float:
     angle, free = turn.angle.values, turn.roller_load.values == 0.0
     slope = np.gradient(turn.spin_speed.values, angle)
     middle = slice(1, -1)
-    # Neighbours of a loaded sample feel the load through the difference quotient.
+    # The load affects neighbours of a loaded sample through the difference quotient.
     inside = free[middle] & free[2:] & free[:-2]
     inside &= np.roll(inside, 1) & np.roll(inside, -1)
     maximum = inside & (slope[middle] >= slope[:-2]) & (slope[middle] > slope[2:])
@@ -188,14 +188,14 @@ def inflexion_angle(turn: xr.Dataset) -> float:
 def _angle_from_bottom(loads: BearingLoads, case: Case, row: str, roller: int) -> np.ndarray:
     """Angle of the roller along its orbit from the bottom at the load samples, rising without wrap [rad]."""
     if loads.shaft_speed.min() <= 0.0:
-        raise InputError("the shaft stands still or turns back", where=loads.source, allowed="speeds above 0")
+        raise InputError("the shaft stops or turns back", where=loads.source, allowed="speeds above 0")
     begin = initial_angles(row, case.bearing.rollers_per_row)[roller] + 0.5 * np.pi
     return begin + travel(loads.time, loads.shaft_speed, geometry.orbit_ratio(case.bearing))
 
 
 def _turn(loads: BearingLoads, angle: np.ndarray, time: float) -> tuple[float, float]:
     """Start and end [s] of the turn from bottom to bottom that holds `time`."""
-    # A roller that has just come to the bottom begins a turn, whatever rounding says.
+    # A roller that has just come to the bottom begins a turn, whatever the rounding.
     turns = np.floor(np.interp(time, loads.time, angle) / (2.0 * np.pi) + 1e-9)
     marks = 2.0 * np.pi * np.array([turns, turns + 1.0])
     if marks[0] < angle[0] - 1e-9 or marks[1] > angle[-1]:

@@ -1,4 +1,4 @@
-"""Sobol' indices from a sample: a sparse polynomial fitted to it, with the error of the fit, stands for the model."""
+"""Sobol' indices from a sample: a sparse polynomial, fitted to it with a measured error, replaces the model."""
 
 from __future__ import annotations
 
@@ -57,10 +57,10 @@ def _candidates(count: int) -> NDArray[np.int64]:
 
 
 def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
-    """The sparse polynomial of second degree that foretells the values of a sample best.
+    """The sparse polynomial of second degree that predicts the values of a sample best.
 
     Terms are taken up one by one, each the one that most lowers what is left; the number of terms is that at which leaving
-    one sample out is foretold best.
+    one sample out is predicted best.
 
     Parameters
     ----------
@@ -99,10 +99,10 @@ def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
     return Polynomial(degrees[best], coefficients)
 
 
-def explained(places: NDArray[np.float64], values: NDArray[np.float64]) -> float:
-    """Part of the variance that the fit foretells of samples it has not seen [1], below 1; 0 and less: nothing.
+def explained_variance(places: NDArray[np.float64], values: NDArray[np.float64]) -> float:
+    """Part of the variance that the fit predicts for samples it was not fitted to [1], below 1; 0 and less: nothing.
 
-    The sample is divided into ten parts; each is foretold by a fit to the other nine.
+    The sample is divided into ten parts; each is predicted by a fit to the other nine.
     """
     order = np.random.default_rng(0).permutation(len(values))
     error = 0.0
@@ -128,8 +128,8 @@ def sobol_indices(places: NDArray[np.float64], values: NDArray[np.float64]) -> t
     total : ndarray, shape (values,)
         The same with all in which it takes part [1].
     float
-        Part of the variance that the fit foretells, from `explained`: indices are those of the fit, and of what is left
-        nothing is known.
+        Part of the variance that the fit predicts, from `explained_variance`: indices are those of the fit; the rest of
+        the variance is unexplained.
 
     References
     ----------
@@ -141,11 +141,11 @@ def sobol_indices(places: NDArray[np.float64], values: NDArray[np.float64]) -> t
     polynomial = fit(places, values)
     if len(polynomial.coefficients) == 1:
         nothing = np.zeros(places.shape[1])
-        return nothing, nothing.copy(), explained(places, values)
+        return nothing, nothing.copy(), explained_variance(places, values)
     found = stats.sobol_indices(
         func=lambda x: polynomial(x.T)[None],
         n=_SOBOL_SAMPLES,
         dists=[stats.uniform()] * places.shape[1],
         rng=np.random.default_rng(1),
     )
-    return found.first_order.ravel(), found.total_order.ravel(), explained(places, values)
+    return found.first_order.ravel(), found.total_order.ravel(), explained_variance(places, values)

@@ -1,4 +1,4 @@
-"""What a fixed step and an iteration that stops early do to energy and power, beside the converged values.
+"""Effect of a fixed step, and of an iteration that stops early, on energy and power, beside the converged values.
 
 Two properties of backward Euler on the spin, measured and not ascribed to anyone: an iteration that stops on a relative
 change of spin leaves force unbalanced, which (32) turns into cage force; and a fixed step does not resolve the

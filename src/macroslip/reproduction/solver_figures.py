@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-#: Ratio to the static energy from which on a point says it.
+#: Ratio to the static energy from which on a point is labelled with it.
 RAISED = 2.0
 _ANGLE = "angle from the bottom [°]"
 

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from macroslip.bearing import Bearing
-from macroslip.reproduction.uncertain_values import UNITS, VALUES, UncertainValue, in_file_units
+from macroslip.reproduction.uncertain_value import UNITS, UncertainValue, in_file_units
+from macroslip.reproduction.uncertain_values import VALUES
 
 #: Seed and number of points of the sample.
 SEED, POINTS = 20261122, 128

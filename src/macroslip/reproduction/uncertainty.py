@@ -1,4 +1,4 @@
-"""How sure the study's results are: a sample over the values that are estimates, all changed together."""
+"""Uncertainty of the study's results: a sample over the values that are estimates, all changed together."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.reproduction.uncertain_values import UNITS, VALUES, UncertainValue
+from macroslip.reproduction.uncertain_value import UNITS, UncertainValue
+from macroslip.reproduction.uncertain_values import VALUES
 from macroslip.study.outcome import Outcome
 from macroslip.study.reader import open_study
 
@@ -34,7 +35,7 @@ def uncertainty(directory: Path) -> xr.Dataset:
         case, row): peak_power [W], mean over rollers and orbits of the largest power at any interface per orbit; over
         (sample, case): window_energy [J], both rows; torque [N m], sliding torque of both rows' contacts, mean over the
         turns of the shaft; and friction_power [W] of the whole bearing with rolling and drag. Over (sample, parameter):
-        value, in the unit of the coordinate `unit`, of a choice its number; NaN for the base values. outcome over (sample): position in `OUTCOMES`; what did not complete is NaN, and `reason` says why.
+        value, in the unit of the coordinate `unit`, of a choice its number; NaN for the base values. outcome over (sample): position in `OUTCOMES`; what did not complete is NaN, and `reason` gives the cause.
         Sample 0 are the base values, which are no part of the statistics.
     """
     import xarray as xr

@@ -1,4 +1,4 @@
-"""How far results reach over the ranges of estimated values, and which values move them."""
+"""Spread of results over the ranges of estimated values, and the values that drive it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
     """Range of 5 to 95 % and median of every quantity over its value with the base values, on a logarithmic axis.
 
-    Takes what `macroslip.reproduction.uncertainty_summary.uncertainty_summary` gives. Beside the names stand the median and
+    Takes what `macroslip.reproduction.uncertainty_summary.uncertainty_summary` gives. Beside the names are the median and
     the ends of the range in the quantity's own unit.
     """
     places = np.arange(summary.sizes["quantity"])[::-1]
@@ -72,8 +72,8 @@ def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
 def plot_indices(axes: Axes, summary: xr.Dataset) -> Axes:
     """Sobol' indices of every quantity's logarithm: the area of a square is the total index, filled up to the first order.
 
-    Takes what `macroslip.reproduction.uncertainty_summary.uncertainty_summary` gives. On the right stands the part of the
-    variance that the polynomial behind the indices foretells.
+    Takes what `macroslip.reproduction.uncertainty_summary.uncertainty_summary` gives. On the right is the part of the
+    variance that the polynomial behind the indices predicts.
     """
     first, total, known = summary.first_order.values, summary.total_order.values, summary.explained.values
     for q in range(total.shape[0]):
@@ -87,7 +87,7 @@ def plot_indices(axes: Axes, summary: xr.Dataset) -> Axes:
         if np.isfinite(known[q]):
             axes.annotate(f"{known[q]:.2f}", (total.shape[1] - 0.2, place), va="center", fontsize=8)
     _grid(axes, summary, beyond=1.6)
-    return finish(axes, "varied value", "", "Sobol' index, and part foretold")
+    return finish(axes, "varied value", "", "Sobol' index, and part predicted")
 
 
 def uncertainty_figure(summary: xr.Dataset) -> Figure:

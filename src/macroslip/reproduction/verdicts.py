@@ -126,7 +126,7 @@ def peak_power_over_wind_speed(numbers: xr.Dataset) -> Statement:
 
 
 def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None) -> Statement:
-    """Mean peak power of the downwind over the upwind row; `steps` from `step_size` says what a fixed step does."""
+    """Mean peak power of the downwind over the upwind row; `steps` from `step_size` has the effect of a fixed step."""
     ratio = numbers.peak_power_ratio
     mean = _by_wind_speed(ratio)
     highest_at = float(mean.wind_speed[int(np.argmax(mean.values))])

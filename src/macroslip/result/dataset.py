@@ -1,7 +1,7 @@
 """The result of a case as a labelled dataset.
 
 Dimensions: `row` (downwind, upwind), `roller`, `interface` (inner, outer, cage), `orbit` (complete orbits in the window)
-and, where traces were asked for, `time`. Contacts with microslip or asperities add `raceway` (inner, outer), `mechanism`,
+and, with traces, `time`. Contacts with microslip or asperities add `raceway` (inner, outer), `mechanism`,
 `station`; their maps of the raceways add `angle`, `slip_sign` and `film_regime`.
 """
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from macroslip.case.case import Case
     from macroslip.roller.model import RollerModel
 
-#: Works every result rests on.
+#: Works that every result is based on.
 CITATIONS = (
     "Hart et al., Dynamic modelling of slip in a wind turbine spherical roller main bearing",
     "Johnson, Contact Mechanics, Cambridge University Press (1985), doi:10.1017/CBO9781139171731",
@@ -163,7 +163,7 @@ def _of_integrator(records: list[list[RollerRecord]]) -> dict[str, np.ndarray]:
 
 
 def _contact_details(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
-    """What only contacts with microslip or asperities know."""
+    """Variables of contacts with microslip or asperities only."""
     extreme = _gathered(records, failed, "extreme")
     with np.errstate(invalid="ignore"):
         extreme[np.isinf(extreme)] = np.nan
@@ -181,7 +181,7 @@ def _contact_details(records: list[list[RollerRecord]], failed: np.ndarray) -> d
 
 
 def _traces(trace: np.ndarray, model: RollerModel, *, curved: bool) -> dict[str, np.ndarray]:
-    """Turn raw channels into the traces users know."""
+    """Turn raw channels into the traces of a result."""
     channel = dict(zip(TRACES, np.moveaxis(trace, -1, 0), strict=True))
 
     def stack(name: str, places: tuple[str, ...]) -> np.ndarray:
@@ -202,7 +202,7 @@ def _traces(trace: np.ndarray, model: RollerModel, *, curved: bool) -> dict[str,
 
 
 def roller_coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[str, Any]:
-    """Rows, rollers, interfaces and orbits, and places and mechanisms where contacts tell them apart."""
+    """Rows, rollers, interfaces and orbits, and places and mechanisms where contacts distinguish them."""
     numbers = list(case.roller_numbers)
     angles = np.array([initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in ROWS])
     about = {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"}
@@ -219,7 +219,7 @@ def roller_coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[s
 
 
 def _contact_coordinates(bearing: Bearing) -> dict[str, Any]:
-    """Places and mechanisms that contacts with microslip or asperities tell apart."""
+    """Places and mechanisms that contacts with microslip or asperities distinguish."""
     edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
     middles = 0.5 * (edges_along[1:] + edges_along[:-1])
     return {

@@ -116,7 +116,7 @@ def tabulated_power(temperatures: Sequence[float], powers: Sequence[float]) -> C
     References
     ----------
     F. N. Fritsch, J. Butland, "A method for constructing local monotone piecewise cubic interpolants", SIAM Journal on
-    Scientific and Statistical Computing 5 (1984) 300-304, as SciPy has it.
+    Scientific and Statistical Computing 5 (1984) 300-304, as implemented in SciPy.
 
     Examples
     --------

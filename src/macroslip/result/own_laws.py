@@ -1,4 +1,4 @@
-"""Laws of one's own, tried over the states of a case before its first step: a wrong one gives plausible numbers, or no end."""
+"""Laws of one's own, tried over the states of a case before its first step: a wrong one may give plausible numbers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba.core.errors import NumbaError
+from numba import NumbaError
 
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
@@ -37,7 +37,7 @@ _CAGE_SHARE = 0.01
 _THINNEST, _THICKEST = 1e-9, 1e-3
 #: Time [s] that a law may take for one state, with compiling.
 _LONGEST = 120.0
-#: Lines of the compiler's messages that say nothing.
+#: Lines of the compiler's messages without information.
 _FAILED = "Failed in nopython mode pipeline"
 #: Begin of the last call of a law [s].
 _begun = [0.0]
@@ -47,7 +47,7 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
     """Refuse a law of the user's own that breaks what the integrator relies on, with the state at which it does.
 
     Film has to be finite and positive; traction finite, of the sign of the slip, and without jumps at zero; derivatives
-    have to be those of the law. Laws of the package are tested elsewhere, and not looked at.
+    have to be those of the law. Laws of the package are tested elsewhere, and not tried here.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
 
 
 def _in_time(check: Callable[[], None], laws: Laws) -> None:
-    """Run a check in a thread that is left alone if a law comes to no end: compiled code hears no interrupt."""
+    """Run a check in a thread that is abandoned if a law does not return: compiled code cannot be interrupted."""
     problems: list[BaseException] = []
 
     def run() -> None:
@@ -166,7 +166,7 @@ def _check_derivative(
 
     here = moved(0.0)
     sides = [(here - moved(-1.0)) / change, (moved(1.0) - here) / change]
-    # What rounding and curvature leave of a difference counts as nothing.
+    # A difference within rounding and curvature counts as zero.
     slack = _AGREE * max(map(abs, sides)) + 1e-9 * abs(here) / change
     if not min(sides) - slack <= derivative <= max(sides) + slack:
         raise _wrong(
@@ -177,7 +177,7 @@ def _check_derivative(
 
 
 def _called(law_of: str, count: int, function: Callable[..., Any], *arguments: Any) -> tuple[float, ...]:
-    """The `count` numbers that the law gives, with what goes wrong in it put down to the law."""
+    """The `count` numbers that the law gives, with any error in it reported as the law's."""
     _begun[0] = time.monotonic()
     try:
         found = function(*arguments)
@@ -194,7 +194,7 @@ def _called(law_of: str, count: int, function: Callable[..., Any], *arguments: A
 
 
 def _reason(error: NumbaError) -> str:
-    """What the compiler stumbled over, and the line of the law: of pages of text, two lines."""
+    """The compiler's reason, and the line of the law: two lines out of pages of text."""
     text = str(error)
     lines = [line.strip() for line in text.splitlines() if line.strip() and not line.startswith(_FAILED)]
     reason = " ".join(lines[: 2 if lines[:1] and lines[0].endswith(":") else 1])

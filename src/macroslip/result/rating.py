@@ -21,7 +21,7 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     Parameters
     ----------
     case : Case
-        Its laws do not matter: a rating knows only loads, speed and viscosity. Nor does its window.
+        Its laws do not matter: a rating depends only on loads, speed and viscosity. Nor does its window.
     contamination : float
         e_C of ISO 281 [-], above 0 and at most 1.
 

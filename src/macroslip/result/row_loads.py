@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from macroslip.case.case import Case
 
-#: Of so many samples of the ring balance one is looked at.
+#: One of so many samples of the ring balance is used.
 _EVERY = 5
 
 

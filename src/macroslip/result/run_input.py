@@ -1,4 +1,4 @@
-"""What a result says of its own input."""
+"""The input of a result, from its attributes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class RunInput(NamedTuple):
-    """What a result says of its own input."""
+    """The input of a result, from its attributes."""
 
     bearing: Bearing
     models: dict[str, RollerModel]
@@ -35,7 +35,7 @@ def run_input(result: xr.Dataset) -> RunInput:
     Raises
     ------
     InputError
-        If the dataset says nothing of its input.
+        If the dataset has no input.
     """
     try:
         settings = json.loads(result.attrs["input"])

@@ -42,9 +42,9 @@ def simulate_whole_bearing(
     motion : Motion
         Of the inner ring.
     times : Times
-        With those of traces as outputs, if any were asked for.
+        With those of traces as outputs, if there are any.
     evaluated : callable
-        From rollers by row to those that are integrated, by tables say, and the result's attributes on that.
+        From rollers by row to those that are integrated, for example by tables, and the result's attributes on that.
     notes : dict
         Attributes of the result on its accuracy, by name.
     drag_power : float
@@ -69,7 +69,7 @@ def simulate_whole_bearing(
     if case.traces is None:
         times = times._replace(outputs=np.unique(np.concatenate([motion.time[:1], times.edges, [times.end]])))
     start, interrupt = pure_rolling(bearing, case.cage), np.zeros(1, dtype=np.int8)
-    # The kernel runs in a thread of its own, so that an interrupt is heard here. It is compiled here, by a run without a
+    # The kernel runs in a thread of its own, so that an interrupt arrives here. It is compiled here, by a run without a
     # step: an interrupt could not end that in the thread, and it takes minutes.
     run_whole_bearing(bearing, motion, start, times._replace(outputs=times.outputs[:1]), max_steps=0)
     with ThreadPoolExecutor(1) as pool:

@@ -1,6 +1,6 @@
-"""Results as netCDF files: written with a checksum for every block of numbers, and looked through when they are read.
+"""Results as netCDF files: written with a checksum for every block of numbers, and checked when they are read.
 
-HDF5's Fletcher checksum is verified by every reader of the format: a flipped bit in a number is an error and no number.
+HDF5's Fletcher checksum is verified by every reader of the format: a flipped bit in a number is an error, not a wrong number.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _LARGEST_BLOCK = 2**26
 def to_netcdf(result: xr.Dataset) -> bytes:
     """The content of a netCDF file with a result, with checksums.
 
-    Numbers without dimension and text have none; the format knows of none for them.
+    Numbers without dimension and text have none; the format has none for them.
     """
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in result.variables.items():
@@ -74,7 +74,7 @@ def _kinds(result: xr.Dataset) -> str:
         if name not in result:
             continue
         found = tuple(dim for dim in result[name].dims if dim != "case")
-        # A selection of one row, say, has lost that dimension everywhere.
+        # A selection, of one row for example, has lost that dimension everywhere.
         if found != tuple(dim for dim in expected if dim in result.dims):
             return f"{name} is over ({', '.join(map(str, found))}), not ({', '.join(expected)})"
         if result[name].dtype.kind not in "fiu":

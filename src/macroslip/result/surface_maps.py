@@ -1,7 +1,7 @@
 """Where on the raceways energy is dissipated: maps over the angle on the raceway and the place along the roller.
 
 The maps belong to the bearing, not to a roller: what all simulated rollers of a row leave at a place of the raceway. The
-outer raceway stands still, so its angle is φ; the inner one turns, and its angle is counted on the ring, from where +X0
+outer raceway is at rest, so its angle is φ; the inner one turns, and its angle is counted on the ring, from where +X0
 was at the first sample. Energies are stored, in J, so that sums over a map are the energies of `simulate`; over
 `cell_area` they are energies per area.
 """

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 _CLOSE, _FIRST_RISE, _MOST = 0.2, 30.0, 10
 
 
-def friction_power(result: xr.Dataset) -> float:
+def bearing_friction_power(result: xr.Dataset) -> float:
     """Mean friction power of the whole bearing over the window [W]: sliding, rolling, cage and drag.
 
         P = Z/n Σ (E + E_rolling)/t + P_drag
 
-    of n simulated rollers a row that stand for all Z.
+    of n simulated rollers a row that represent all Z.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def friction_power(result: xr.Dataset) -> float:
         raise InputError(
             "a roller failed, so that the friction of the bearing is not known",
             where="temperature: balance",
-            remedy="Give a temperature, or mend what made the roller fail.",
+            remedy="Give a temperature, or remove what made the roller fail.",
         )
     span = result.attrs["window_end"] - result.attrs["window_start"]
     energy = float(result.energy.sum() + result.rolling_energy.sum())
@@ -120,10 +120,10 @@ def balanced(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     temperature of a bearing, so the balance is that of their mean power if it lasted.
     """
     heat = case.heat
-    assert heat is not None, "the case asks for no balance"
+    assert heat is not None, "the case has no balance"
     known: dict[float, float] = {}
     while True:
         temperature, settled = next_temperature(known, heat)
         if settled:
             return replace(case, temperature=temperature)
-        known[temperature] = friction_power(simulate(replace(case, temperature=temperature, traces=None)))
+        known[temperature] = bearing_friction_power(simulate(replace(case, temperature=temperature, traces=None)))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def traced_power(result: xr.Dataset) -> xr.DataArray:
     """Frictional power |F Δu| (33) at every time of the traces [W], over (row, roller, time, interface).
 
-    A result that traces power itself, as a law with slip that varies inside the contact must, is taken at its word.
+    A result that traces power itself, which laws with slip that varies inside the contact require, is used as it is.
     """
     import xarray as xr
 

@@ -47,7 +47,7 @@ class _Collector:
         self.put(name, dims, values, units, long_name, **attributes)
 
     def by_roller(self, values: np.ndarray) -> np.ndarray:
-        """(n, …) to (row, roller, …) for the rollers asked for; NaN after a failure."""
+        """(n, …) to (row, roller, …) for the chosen rollers; NaN after a failure."""
         found = np.array(values, dtype=float).reshape(len(ROWS), self.count, *values.shape[1:])[:, self.numbers]
         if self.failed:
             found[:] = np.nan
@@ -100,7 +100,7 @@ def whole_dataset(
 
 
 def _put_common(out: _Collector, record: BearingRecord, status: int, shape: tuple[int, int]) -> None:
-    """What a result on imposed orbits has too."""
+    """Variables that a result on imposed orbits has too."""
     rollers = ("row", "roller")
     for name in ("energy", "rolling_energy", "orbit_energy", "peak_power"):
         out.put_known(name, out.by_roller(getattr(record, name)))
@@ -121,7 +121,7 @@ def _put_common(out: _Collector, record: BearingRecord, status: int, shape: tupl
 
 
 def _put_details(out: _Collector, record: BearingRecord) -> None:
-    """What only contacts with microslip or asperities know, as in a result on imposed orbits."""
+    """Variables of contacts with microslip or asperities only, as in a result on imposed orbits."""
     details = record.details
     with np.errstate(invalid="ignore", divide="ignore"):
         extreme = np.where(np.isinf(details.extreme), np.nan, details.extreme)

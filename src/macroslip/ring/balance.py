@@ -20,7 +20,7 @@ from macroslip.compiled import jit, jit_lawless
 
 #: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts as failed.
 _WARM_ITERATIONS, _COLD_ITERATIONS = 40, 200
-#: Push [m] after which no roller will be met any more (thrust on a bearing without contact angle).
+#: Push [m] after which no roller will be touched any more (thrust on a bearing without contact angle).
 _LONGEST_PUSH = 1e3
 
 

@@ -22,7 +22,7 @@ _SAMPLED_PITCH = 0.25
 #: Part of the load that the ring balance may leave unbalanced, and the force [N] below which that does not matter.
 _BALANCE_TOLERANCE = 1e-8
 _NEGLIGIBLE_FORCE = 1e-3
-#: Samples balanced between two looks for an interrupt: a few tenths of a second.
+#: Samples balanced between two checks for an interrupt: a few tenths of a second.
 _SAMPLES_AT_A_TIME = 20_000
 
 

@@ -61,7 +61,7 @@ class RacewayContact(NamedTuple):
 
 
 class CageContact(NamedTuple):
-    """A cage contact, which slides alike all over.
+    """A cage contact, whose slip is the same all over.
 
     Force on the roller [N], its derivatives by slip [N s/m] and by load [-], frictional power and its part by asperities [W].
     """
@@ -82,7 +82,7 @@ def _forces(contact, load, ring_speed, slip):
 
 @jit
 def _plain_contact(contact, load, ring_speed, slip):
-    """A contact that slides alike all over: its laws know all derivatives."""
+    """A contact whose slip is the same all over: its laws give all derivatives."""
     if load <= 0.0:
         return RacewayContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     mean_speed = ring_speed - 0.5 * slip

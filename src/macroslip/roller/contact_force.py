@@ -1,9 +1,9 @@
 """Traction of one contact of a roller: film, traction and, in a curved contact, microslip and asperities together.
 
-Two kinds of contact exist. A `PlainContact` slides alike all over, as in the paper's model; the kernels made of it know
-nothing of the rest. A `CurvedContact` has a slip field over the stations along the roller's axis, and asperities that
+Two kinds of contact exist. A `PlainContact` has the same slip all over, as in the paper's model; its kernels contain
+nothing else. A `CurvedContact` has a slip field over the stations along the roller's axis, and asperities that
 share the load. Which kind a roller has follows from the types in its model when the kernel is compiled. A curved contact
-may have a table of what its laws give, which is asked first.
+may have a table of what its laws give, which is looked up first.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class CurvedContact(NamedTuple):
     roughness : float
         Composite RMS roughness [m].
     table : RacewayTable or PlaneTable
-        Of a raceway's contact or of the cage's, from `macroslip.roller.tables`; knows nothing unless one was made.
+        Of a raceway's contact or of the cage's, from `macroslip.roller.tables`; empty unless one was made.
     """
 
     film: Any
@@ -260,7 +260,7 @@ def raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainmen
 
 
 def cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
-    """Traction of the cage contact, which slides alike all over: F [N], dF/dΔu [N s/m], ∂F/∂Q [-] and a `Detail`."""
+    """Traction of the cage contact, whose slip is the same all over: F [N], dF/dΔu [N s/m], ∂F/∂Q [-] and a `Detail`."""
     if isinstance(contact, CurvedContact):
         return _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope)
     return (*contact_force(contact, load, slip, entrainment_speed, entrainment_slope), None)

@@ -20,7 +20,7 @@ from macroslip.roller.films import Films, NoFilms
 from macroslip.roller.plane_table import no_plane_table
 from macroslip.roller.play_table import no_play_table
 from macroslip.roller.raceway_table import no_raceway_table
-from macroslip.rolling import law as rolling_law
+from macroslip.rolling import rolling_law
 from macroslip.rolling.gap import GapShape
 from macroslip.traction import traction_law as traction_law
 from macroslip.traction.asperity_friction import AsperityFriction
@@ -121,7 +121,7 @@ def fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
 
 
 def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, microslip: bool) -> ContactShape:
-    """How slip varies over an interface; the cage's contact slides alike all over.
+    """How slip varies over an interface; on the cage's contact it is the same all over.
 
     The sign of ζ is that of the roller's axis z'. With z' = z cos α − y sin α (s = +1) the ring's surface at the station ζ
     is ζ sin α nearer to the bearing axis, which gives v the term +s (Ω_in − Ω) sin α ζ; ζ counted the other way round
@@ -161,7 +161,7 @@ def prepare_contact(
     Returns
     -------
     PlainContact or CurvedContact
-        Plain where no chosen mechanism needs more, so that the paper's kernels carry nothing else.
+        Plain where no chosen mechanism needs more, so that the paper's kernels contain nothing else.
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """The oil around a roller: rolling resistance of its contacts and the shear of the films outside them.
 
-What is here stands beside the traction of the contacts. For `NoFilms` every function compiles to zeros.
+These forces are added to the traction of the contacts. For `NoFilms` every function compiles to zeros.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Films(NamedTuple):
     pocket_gap : float
         Largest gap between roller and spar [m].
     inner_table, outer_table, cage_table : PlaneTable
-        Of the oil of the raceway contacts and in the pocket, from `macroslip.roller.tables`; know nothing unless they were
+        Of the oil of the raceway contacts and in the pocket, from `macroslip.roller.tables`; empty unless they were
         made.
     play_table : PlayTable
         Of what films carry where a roller has play; likewise.

@@ -1,4 +1,4 @@
-"""Forces on one roller: what its place on the orbit gives it, and what its slip adds.
+"""Forces on one roller: those of its place on the orbit, and those of its slip.
 
 Signs follow the roller frame: x tangential, against a positive orbit; a tangential force that drives the spin ω up is
 positive in the spin equation. Δu = u2 − u1 at every interface (28)-(31).
@@ -198,7 +198,7 @@ def net_force(forces):
 
 @jit_part
 def magnitude(forces):
-    """|F_i| + |F_o| + |F_c| with rolling resistance [N], which says what of the net force is rounding."""
+    """|F_i| + |F_o| + |F_c| with rolling resistance [N], the scale of rounding in the net force."""
     return abs(forces.inner) + abs(forces.outer) + abs(forces.cage) + abs(forces.resistance)
 
 

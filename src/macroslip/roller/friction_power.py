@@ -1,4 +1,4 @@
-"""Frictional power of a roller's contacts, and what of it asperities dissipate."""
+"""Frictional power of a roller's contacts, and the part of it that asperities dissipate."""
 
 from __future__ import annotations
 

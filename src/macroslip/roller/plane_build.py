@@ -59,7 +59,7 @@ def pocket_values(films, loads, speeds, values):
 
 
 def _plane(tabled: Callable, quantities: int, highest_load: float, box: TableBox) -> PlaneTable:
-    """A table of as many quantities of the kernel `tabled(table)`, which asks the laws what the table does not know."""
+    """A table of `quantities` results of the kernel `tabled(table)`, which falls back on the laws."""
     kernel = tabled(no_plane_table())
     load = axis(math.log(_LEAST_LOAD), math.log(highest_load), _LOAD_SPACING)
     bounds = _LEAST_SPEED * box.highest_speed, _MOST_SPEED * box.highest_speed
@@ -111,7 +111,7 @@ def cage_table(contact: CurvedContact, box: TableBox) -> tuple[PlaneTable, np.nd
     Returns
     -------
     PlaneTable, ndarray
-        With the median and the largest relative error of force at random states, and the share it knows.
+        With the median and the largest relative error of force at random states, and the share of states that it holds.
     """
 
     def tabled(table: PlaneTable) -> Callable:

@@ -1,7 +1,7 @@
 """What depends on load and one speed as a table: friction of the cage's contact, and the oil of a raceway contact.
 
-Cubic splines over ln Q and the logarithm of the speed. A cell in which they miss the laws by more than they may is marked;
-there, as outside the table, the laws themselves are asked.
+Cubic splines over ln Q and the logarithm of the speed. A cell in which their error is too large is marked;
+there, as outside the table, the laws themselves are evaluated.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class PlaneTable(NamedTuple):
         Of ln Q and of the logarithm of the speed.
     coefficients : ndarray, shape (loads + 2, speeds + 2, 4)
     good : ndarray of bool, shape of the cells
-        Whether the splines stand in for the laws in a cell.
+        Whether the splines are used in a cell in place of the laws.
     """
 
     load: Axis
@@ -37,7 +37,7 @@ class PlaneTable(NamedTuple):
 
 
 class PlaneValues(NamedTuple):
-    """Whether a table knows a state, its splines, and their derivatives by the places in a cell along load and speed."""
+    """Whether a table holds a state, its splines, and their derivatives by the places in a cell along load and speed."""
 
     known: bool
     value: tuple[float, float, float, float]
@@ -46,7 +46,7 @@ class PlaneValues(NamedTuple):
 
 
 def no_plane_table() -> PlaneTable:
-    """A table that knows no state."""
+    """An empty table."""
     return PlaneTable(NOWHERE, NOWHERE, *no_cells(2, CHANNELS))
 
 

@@ -23,8 +23,8 @@ from macroslip.roller.films import Films
 from macroslip.roller.plane_table import plane_values
 from macroslip.roller.play_table import tabled_load
 from macroslip.rolling.film import light_film
-from macroslip.rolling.law import LOWEST_SPEED
 from macroslip.rolling.martin import FLOW
+from macroslip.rolling.resistance import LOWEST_SPEED
 
 #: Part of the elastic load below which what films carry without play is left out: it would count for e^−30 of itself.
 _FADED = 1.0 / 30.0

@@ -1,7 +1,7 @@
 """What films carry where a roller has play, as a table: the load q depends on play, body force and ring speed.
 
 Cubic splines of ln q, one for a body force that points outward and one for inward, over ln(p + p0), ln(|B| + B0) and
-ln |u2|. A cell in which they miss the law by more than they may is marked; there, as outside the table, it is solved for.
+ln |u2|. A cell in which their error is too large is marked; there, as outside the table, the equation is solved.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class PlayTable(NamedTuple):
         Of ln(p + p0), ln(|B| + B0) and ln |u2|.
     coefficients : ndarray, shape (plays + 2, forces + 2, speeds + 2, 4)
     good : ndarray of bool, shape of the cells
-        Whether the splines stand in for the law in a cell.
+        Whether the splines are used in a cell in place of the law.
     """
 
     play: Axis
@@ -41,7 +41,7 @@ class PlayTable(NamedTuple):
 
 
 def no_play_table() -> PlayTable:
-    """A table that knows no state."""
+    """An empty table."""
     return PlayTable(NOWHERE, NOWHERE, NOWHERE, *no_cells(3, CHANNELS))
 
 
@@ -49,7 +49,7 @@ def no_play_table() -> PlayTable:
 def tabled_load(table, play, body, ring_speed):
     """Load q [N] of the film that no body force presses on, from play p ≥ 0 [m], B [N] and u2 [m/s].
 
-    NaN where the table does not know the state.
+    NaN where the table does not hold the state.
     """
     if table.play.cells == 0 or ring_speed == 0.0:
         return math.nan

@@ -73,7 +73,7 @@ def raceway_table(contact: CurvedContact, box: TableBox) -> RacewayTable:
 
     Notes
     -----
-    Held rollers do not slip as much as light ones; what the table holds of such states is not asked for.
+    Held rollers do not slip as much as light ones; the table's values for such states are not used.
     """
     shape, fluid = contact.shape, contact.traction.table.fluid
     stretch = _STRETCH * fluid.exponent * fluid.index / fluid.reference_pressure * contact.traction.pressure
@@ -91,7 +91,7 @@ def raceway_table(contact: CurvedContact, box: TableBox) -> RacewayTable:
         return loads, grid[1], grid[1] * grid[2]
 
     values = values_at(partial(raceway_values, contact), states(axis_nodes), CHANNELS)
-    # Along the slip the last known value goes on.
+    # Along the slip the last known value is repeated.
     last = np.maximum.accumulate(np.where(np.isnan(values[..., :1]), 0, np.arange(values.shape[2])[:, None]), axis=2)
     values = np.take_along_axis(values, np.broadcast_to(last, values.shape), axis=2)
     everywhere = read_only(np.ones((load.cells, speed.cells, ratio.cells), dtype=np.bool_))
@@ -128,7 +128,7 @@ def _deviations(
 
 
 def raceway_errors(contact: CurvedContact, table: RacewayTable, box: TableBox) -> np.ndarray:
-    """Median and largest relative error of force and power at random states where rollers go, and the share it knows.
+    """Median and largest relative error of force and power at usual random states, and the share that the table holds.
 
     States are even in the logarithms of load and speed. Rollers with more than `_HELD_LOAD` slip up to `_USUAL_RATIO` of
     the ring's speed, lighter ones up to all of it. An error of force counts as when cells are judged.

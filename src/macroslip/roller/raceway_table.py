@@ -5,8 +5,8 @@ sides of the lines of pure rolling matter. The coordinates are ln Q + k Q^(1/3),
 x_v the ratio of slip to ring speed at which the two lines of pure rolling merge, and the quantities pull/Q, lag/Q^(5/3),
 skew/Q^(4/3) and power of asperities/(Q^(5/3) |u2|), cubic splines all four. Traction is odd under (u2, Δu) → (−u2, −Δu).
 
-A cell in which the splines miss the laws by more than they may is marked, and there, as outside the table, the laws
-themselves are asked. So a table changes the time a look-up takes, and nothing else beyond its measured error.
+A cell in which the splines' error is too large is marked; there, as outside the table, the laws themselves are
+evaluated. A table changes the time of an evaluation, and results by no more than its measured error.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class RacewayTable(NamedTuple):
         1 where the roller's axis is tilted as that of the table's, −1 where the other way: the sign of the skew moment.
     coefficients : ndarray, shape (loads + 2, speeds + 2, ratios + 2, 4)
     good : ndarray of bool, shape of the cells
-        Whether the splines stand in for the laws in a cell.
+        Whether the splines are used in a cell in place of the laws.
     """
 
     load: Axis
@@ -55,7 +55,7 @@ class RacewayTable(NamedTuple):
 
 
 class TableForce(NamedTuple):
-    """What a table gives: whether it knows the state, and force, lag [N], skew moment [N m] and asperities' power [W].
+    """What a table gives: whether it holds the state, and force, lag [N], skew moment [N m] and asperities' power [W].
 
     The slopes are by slip at constant ring speed [N s/m].
     """
@@ -75,7 +75,7 @@ class TableSlopes(NamedTuple):
     Attributes
     ----------
     known : bool
-        Whether the table knows the state.
+        Whether the table holds the state.
     value, by_load, by_speed, by_slip : tuple of 3 float
         Force and lag [N] and skew moment [N m], and their derivatives [1/N, s/m].
     asperity_power : float
@@ -91,7 +91,7 @@ class TableSlopes(NamedTuple):
 
 
 def no_raceway_table() -> RacewayTable:
-    """A table that knows no state."""
+    """An empty table."""
     return RacewayTable(NOWHERE, NOWHERE, NOWHERE, 0.0, 0.0, 1.0, *no_cells(3, CHANNELS))
 
 
@@ -126,7 +126,7 @@ def table_slopes(table, load, ring_speed, slip):
     Returns
     -------
     TableSlopes
-        Zeros where the table does not know the state.
+        Zeros where the table does not hold the state.
     """
     cell, places, root, size = _cell_of_state(table, load, ring_speed, slip)
     none = (0.0, 0.0, 0.0)
@@ -165,7 +165,7 @@ def table_force(table, load, ring_speed, slip):
     Returns
     -------
     TableForce
-        Zeros where the table does not know the state.
+        Zeros where the table does not hold the state.
     """
     found = table_slopes(table, load, ring_speed, slip)
     (pull, lag, skew), (pull_slope, lag_slope, _) = found.value, found.by_slip

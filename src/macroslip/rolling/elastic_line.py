@@ -26,7 +26,7 @@ _ORDER_INLET = 10.0
 _ORDER_WHOLE = 3.64
 
 
-class Inlet(NamedTuple):
+class InletFilm(NamedTuple):
     """The inlet alone: Biboulet and Houpert's elastic limit and Goksem and Hargreaves' piezoviscous one.
 
     Attributes
@@ -111,7 +111,7 @@ def log_elastic(law, log_load, log_material):
     return _FUNCTIONS[type(law)](log_load, log_material)
 
 
-_FUNCTIONS = {Inlet: log_inlet, WholeFilm: log_whole_film}
+_FUNCTIONS = {InletFilm: log_inlet, WholeFilm: log_whole_film}
 
 
 @overload(log_elastic)
@@ -126,7 +126,7 @@ def line_rolling(law, load, material):
 
     Parameters
     ----------
-    law : Inlet or WholeFilm
+    law : InletFilm or WholeFilm
     load, material : float
         M and L, > 0.
 
@@ -137,9 +137,9 @@ def line_rolling(law, load, material):
 
     Examples
     --------
-    >>> round(line_rolling(WholeFilm(), 11.0, 13.4), 3), round(line_rolling(Inlet(), 11.0, 13.4), 3)
+    >>> round(line_rolling(WholeFilm(), 11.0, 13.4), 3), round(line_rolling(InletFilm(), 11.0, 13.4), 3)
     (1.611, 1.151)
-    >>> round(line_rolling(Inlet(), 1e-4, 13.4) * 100.0, 4)
+    >>> round(line_rolling(InletFilm(), 1e-4, 13.4) * 100.0, 4)
     1.4705
     """
     log_force, _, _ = log_elastic(law, math.log(load), math.log(material))

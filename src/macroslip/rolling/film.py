@@ -13,7 +13,7 @@ _LOG_FLOW = math.log(FLOW)
 
 
 @jit_inline
-def log_film(log_rigid, log_load, log_material):
+def log_blended_film(log_rigid, log_load, log_material):
     """Ln N of Moes' blend where the rigid, isoviscous limit is that of the contact itself.
 
     N = {(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(−7/2) + H_EP^(−7/2))^(−2s/7)}^(1/s), s = (7 + 8 exp(−2 H_EI/H_RI))/5,
@@ -38,7 +38,7 @@ def log_film(log_rigid, log_load, log_material):
 
     Examples
     --------
-    >>> round(math.exp(log_film(math.log(3.0), 0.0, math.log(10.0))[0]), 4)
+    >>> round(math.exp(log_blended_film(math.log(3.0), 0.0, math.log(10.0))[0]), 4)
     6.9701
     """
     log_elastic = math.log(2.621) - 0.2 * log_load
@@ -63,13 +63,13 @@ def log_film(log_rigid, log_load, log_material):
 def light_film(law, log_load, log_speed):
     """Ln h of the film of the volume flow [ln m] and its derivatives by ln Q and by ln u.
 
-    Moes' blend of a contact `law` (`law.Rolling`), its rigid and isoviscous limit that of the gap of finite length with
+    Moes' blend of a contact `law` (`rolling_law.Rolling`), its rigid and isoviscous limit that of the gap of finite length with
     its fullness: 1.2257 h0. From ln Q [ln N] and ln u [ln m/s].
     """
     unit = math.log(law.viscosity * law.gap.fullness) + log_speed
     log_gap, gap_slope, _, _, _, _ = film_at_load(law.gap, log_load - unit)
     scale = law.log_film + 0.5 * log_speed
-    height, by_rigid, by_m, by_l = log_film(
+    height, by_rigid, by_m, by_l = log_blended_film(
         log_gap + _LOG_FLOW - scale,
         law.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed,
         law.log_material + 0.25 * log_speed,

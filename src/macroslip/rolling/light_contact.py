@@ -14,8 +14,8 @@ from macroslip.compiled import jit
 from macroslip.film.moes import joined
 from macroslip.rolling.film import light_film
 from macroslip.rolling.gap import film_at_gap, film_at_load
-from macroslip.rolling.law import LOWEST_SPEED, RollingForces, rolling_resistance
 from macroslip.rolling.martin import FLOW
+from macroslip.rolling.resistance import LOWEST_SPEED, RollingForces, rolling_resistance
 
 _LOG_FLOW = math.log(FLOW)
 

@@ -21,7 +21,7 @@ from macroslip.study.reader import open_study
 from macroslip.study.settings import RECORDS
 from macroslip.study.study import Run, Study
 
-#: Digits of a temperature [K]: enough, and the same on every machine, so that a study that goes on finds its runs again.
+#: Digits of a temperature [K]: enough, and the same on every machine, so that a resumed study finds its runs again.
 _DIGITS = 3
 
 
@@ -67,8 +67,8 @@ def balanced(study: Study, directory: Path, compute: Callable[[Study, Path], Non
         found = {group: next_temperature(known[group], heats[group]) for group in examples}
         if all(settled for _, settled in found.values()):
             return replace(study, heat=None, weights=None, temperatures=_rounded({g: t for g, (t, _) in found.items()}))
-        # What has settled is not computed again a little off: its nearest temperature is there already.
-        asked = {
+        # A group that has settled keeps the nearest temperature that is there already.
+        chosen = {
             group: min(known[group], key=lambda place, at=at: abs(place - at)) if settled else at
             for group, (at, settled) in found.items()
         }
@@ -79,11 +79,11 @@ def balanced(study: Study, directory: Path, compute: Callable[[Study, Path], Non
             cycles=False,
             heat=None,
             weights=None,
-            temperatures=_rounded(asked),
+            temperatures=_rounded(chosen),
         )
         compute(trial, directory)
         for group, power in _mean_powers(trial, directory, weights).items():
-            known[group][asked[group]] = power
+            known[group][chosen[group]] = power
 
 
 def _heat(study: Study, run: Run) -> Heat:
@@ -91,7 +91,9 @@ def _heat(study: Study, run: Run) -> Heat:
     records = {noun: getattr(study, f"{noun}s")[getattr(run, noun)] for noun in RECORDS}
     case, _ = template(study.case, list(run.settings), records, folder=study.folder)
     if case.heat is None:
-        raise InputError("the temperature is to balance, and nothing says how the bearing loses heat", where="heat")
+        raise InputError(
+            "the temperature is to balance, and the heat that the bearing loses is not given", where="heat"
+        )
     return case.heat
 
 

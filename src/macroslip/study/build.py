@@ -20,7 +20,7 @@ from macroslip.study.settings import Setting, replaced, with_settings
 
 #: Keys of the base case's loads: what to read of each file, and the speed of files that have none.
 CUT_KEYS = ("start", "end", "shaft_speed")
-#: Stands in for the loads until they are read: so long that any window lies within it.
+#: Used in place of the loads until they are read: so long that any window lies within it.
 _ANY_LOADS = BearingLoads(np.array([-1e10, 1e10]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
 
 
@@ -31,7 +31,7 @@ class _TemplateBuilder(CaseBuilder):
         self.records = records
         names = {noun: record.name for noun, record in records.items()}
         self.cut: dict[str, float] = {}
-        # The source is named only because a case has to have one; `loads` below does not look at it.
+        # The source is named only because a case has to have one; `loads` below does not use it.
         loads = (mapping.get("loads") or {}) | {"file": "-"}
         super().__init__({**mapping, **names, "loads": loads}, source, folder)
 

@@ -1,7 +1,7 @@
 """Workers of a Dask cluster: one that is started here, on the loopback interface, or one that runs elsewhere.
 
 A bounded number of tasks is in flight, whatever the size of the study, so that the scheduler and this process need
-bounded memory. Where cases are short and workers many, several runs travel together.
+bounded memory. Where cases are short and workers many, several runs are sent together.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from macroslip.study.workers import Done
 LOOPBACK = "127.0.0.1"
 #: Tasks in flight for each thread of a worker: one under way, one waiting.
 _AHEAD = 2
-#: Tasks a second that one scheduler and one client are asked for; they can do some five times as many.
+#: Tasks a second given to one scheduler and one client; they can do some five times as many.
 _TASKS_PER_SECOND = 100.0
-#: Longest time for which runs travel together [s].
+#: Longest time of runs that are sent together [s].
 _LONGEST_BUNDLE = 20.0
-#: Longest time until a scheduler answers [s].
+#: Longest time until a scheduler responds [s].
 _ANSWER = 20.0
 _GONE = "the scheduler is gone. Nothing that was reported done is lost; go on with --resume."
 #: Time between looks at who has joined [s].
@@ -42,7 +42,7 @@ _LOOK = 1.0
 
 
 def check_installed() -> None:
-    """Tell how to install what a cluster needs."""
+    """Raise the error that names the packages which a cluster needs and how to install them."""
     missing = [name for name in ("distributed", "cryptography") if importlib.util.find_spec(name) is None]
     if missing:
         remedy = "pip install 'macroslip[cluster]', or leave out --workers and --scheduler."
@@ -62,14 +62,14 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
     scheduler : str, optional
         Address of a scheduler that runs, such as `tcp://10.0.0.1:8786`.
     note : callable
-        Called with a line that the user should know.
+        Called with a line for the user.
     """
     import dask
     from distributed import Client
 
-    # What matters of Dask's own messages is reported by the study itself.
+    # The study itself reports what is important in Dask's own messages.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    # Profiles of workers are looked at by a dashboard only, and there is none.
+    # Profiles of workers are for a dashboard only, and there is none.
     with dask.config.set({"distributed.worker.profile.enabled": False}):
         if scheduler is None:
             with (
@@ -86,7 +86,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
             return
         try:
             client = Client(scheduler, timeout=_ANSWER, set_as_default=False)
-        except OSError:  # since it was looked for
+        except OSError:  # since the check above
             raise MacroslipError(_GONE) from None
         with client:
             yield Dask(client, note)
@@ -109,13 +109,13 @@ def _started_here(workers: int | None) -> Any:
             silence_logs=logging.CRITICAL,
         )
     except KeyboardInterrupt:
-        # When the process ends Dask would stumble over workers that have not started yet; they end with it anyway.
+        # When the process ends, Dask would fail over workers that have not started yet; they end with it anyway.
         atexit.unregister(close_clusters)
         raise
 
 
 def _kill(local: Any) -> None:
-    """End workers at once: asked to end, they would finish the roller under way first."""
+    """End workers at once: on a request to end they would finish the roller under way first."""
     for nanny in local.workers.values():
         nanny.auto_restart = False
         if nanny.pid is not None:
@@ -124,7 +124,7 @@ def _kill(local: Any) -> None:
 
 
 def look_for(scheduler: str) -> None:
-    """See whether a scheduler answers, before there is a client: one that cannot connect cannot be closed either.
+    """Check that a scheduler responds, before there is a client: one that cannot connect cannot be closed either.
 
     Raises
     ------
@@ -173,7 +173,7 @@ class Dask:
     ----------
     client : distributed.Client
     note : callable
-        Called with a line that the user should know.
+        Called with a line for the user.
     """
 
     def __init__(self, client: Any, note: Callable[[str], None]):
@@ -225,7 +225,7 @@ class Dask:
         self._done.add(future)
 
     def _lost(self, future: Any, result: Any, tasks: list[dict[str, Any]]) -> list[Done]:
-        """What to do about tasks that gave no result."""
+        """Handle tasks that gave no result."""
         from distributed import KilledWorker
 
         error = result[1] if isinstance(result, tuple) else result
@@ -235,7 +235,7 @@ class Dask:
             raise MacroslipError(
                 f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?"
             )
-        if len(tasks) > 1:  # one of them is to blame
+        if len(tasks) > 1:  # one of them is the cause
             for task in tasks:
                 self._send([task])
             return []
@@ -244,7 +244,7 @@ class Dask:
         return [(task, {"run": task["run"], "outcome": Outcome.FAILED, "reason": reason})]
 
     def _look(self) -> int:
-        """Number of threads of all workers, looked up once in a while; tells who has come and gone."""
+        """Number of threads of all workers, looked up from time to time; notes the workers that have joined and left."""
         if time.monotonic() - self._looked > _LOOK:
             threads = self._client.nthreads()
             present = set(threads)

@@ -2,8 +2,8 @@
 
 Raceways and rollers meet a load cycle at every pass, whatever the turbine does; what rainflow adds are the slow cycles
 of the bearing's load as a whole. Two are counted. Cycles of the axial load move load from one row of rollers to the
-other and back, and a row that is unloaded is a row that slips. Cycles of the radial load are what housing, shaft and
-ring seats feel.
+other and back, and a row that is unloaded is a row that slips. Cycles of the radial load load housing, shaft and
+ring seats.
 """
 
 from __future__ import annotations

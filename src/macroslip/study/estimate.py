@@ -1,4 +1,4 @@
-"""What a study will take: time and disk, from a few runs begun here and now."""
+"""Time and disk of a study, from a few runs that are begun here."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from macroslip.study.study import Run, Study
 if TYPE_CHECKING:
     from macroslip.case.case import Case
 
-#: Runs that are looked at, and the time of each that is simulated [s]; half of it as well, for the slope.
+#: Runs that are tried, and the time of each that is simulated [s]; half of it as well, for the slope.
 _LOOKED_AT = 3
 _STRETCH = 60.0
 #: A line of the journal and of the tables [bytes].
@@ -26,14 +26,14 @@ _CYCLES_BYTES = 8 * (len(COMPONENTS) + 1) * RANGE_EDGES.size
 
 
 @dataclass(frozen=True)
-class Estimate:
+class StudyEstimate:
     """Time and disk of a study.
 
     Parameters
     ----------
     runs : int
     looked_at : int
-        Runs it rests on; 0: none could be begun, and the rest is NaN.
+        Runs that it is based on; 0: none could be begun, and the rest is NaN.
     simulated_seconds : float
         Length of one load history, mean of those [s].
     seconds : float
@@ -52,11 +52,11 @@ class Estimate:
     problems: tuple[str, ...]
 
 
-def estimate(study: Study) -> Estimate:
+def estimate_study(study: Study) -> StudyEstimate:
     """Begin a few runs, spread over the study, and scale time and size to all of them.
 
     Each is simulated for 30 and for 60 s of its loads, with one thread; what grows is scaled to its whole length. Loads
-    of other lengths, and parameters that change the work, are not seen. The first use of the kernels is left out.
+    of other lengths, and parameters that change the work, are not accounted for. The first use of the kernels is left out.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def estimate(study: Study) -> Estimate:
 
     Returns
     -------
-    Estimate
+    StudyEstimate
     """
     lengths, seconds, sizes, problems = [], [], [], []
     chosen = sorted({round(part * (len(study) - 1) / max(_LOOKED_AT - 1, 1)) for part in range(_LOOKED_AT)})
@@ -93,7 +93,7 @@ def estimate(study: Study) -> Estimate:
         return sum(values) / len(values) if values else float("nan")
 
     runs, others = len(study), _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
-    return Estimate(
+    return StudyEstimate(
         runs, len(lengths), mean(lengths), runs * mean(seconds), runs * (mean(sizes) + others), tuple(problems)
     )
 

@@ -101,7 +101,7 @@ def exceedance(
             "energy_orbits": (dims, found["energy"][..., kept], _about("1/year", "orbits whose energy exceeds it")),
             "power_orbits": (dims, found["power"][..., kept], _about("1/year", "orbits whose peak power exceeds it")),
             "orbits": (dims[:2], every, _about("1/year", "orbits of a roller")),
-            "runs": (("group", "bin"), used, _about("1", "runs that the counts rest on")),
+            "runs": (("group", "bin"), used, _about("1", "runs that were counted")),
             "left_out": (("group", "bin"), left_out, _about("1", "runs without a result, or without an orbit")),
         },
         bins.coordinates(study) | {

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 FORMATS = ("csv", "parquet")
 
 
-def table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
-    """Some variables of a dataset with all coordinates they have, one line a value; units stand in the headings.
+def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
+    """Some variables of a dataset with all coordinates they have, one line a value; units are in the headings.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     --------
     >>> import xarray as xr
     >>> one = xr.Dataset({"energy": ("row", [1.0, 2.0], {"units": "J"})}, {"row": ["downwind", "upwind"]})
-    >>> list(table(one, ["energy"]).columns)
+    >>> list(as_table(one, ["energy"]).columns)
     ['row', 'energy [J]']
     """
     part = dataset[list(names)]
@@ -59,7 +59,7 @@ def tables(
     width: float = 2.0,
     by: Sequence[str] = (),
 ) -> dict[str, pd.DataFrame]:
-    """All tables of a study by name; docs/studies.md tells their columns.
+    """All tables of a study by name; docs/studies.md lists their columns.
 
     Parameters
     ----------
@@ -73,27 +73,29 @@ def tables(
     """
     summary = study.drop_vars([name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}])
     by_row = [name for name, one in summary.data_vars.items() if "row" in one.dims]
-    found = {"cases": table(summary, [*by_row, *(name for name in summary.data_vars if name not in by_row)])}
+    found = {"cases": as_table(summary, [*by_row, *(name for name in summary.data_vars if name not in by_row)])}
     failed = summary.isel(case=np.flatnonzero(summary.outcome.values != str(Outcome.COMPLETED)))
     found["failures"] = failed.drop_vars([*failed.data_vars, "row"]).to_dataframe().reset_index()
-    found["worst"] = table(worst(study), by_row)
+    found["worst"] = as_table(worst(study), by_row)
     spread = percentiles(study, field=field, width=width, by=by)
-    found["percentiles"] = table(spread, [name for name in spread.data_vars if name != "runs"])
+    found["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
     if weights is None:
         return found
     life = lifetime_energy(study, weights, years=years, field=field, width=width, by=by)
-    found["lifetime"] = table(
+    found["lifetime"] = as_table(
         life.assign(covered=life.covered.broadcast_like(life.lifetime_energy)), ["lifetime_energy", "covered"]
     )
-    found["bins"] = table(
+    found["bins"] = as_table(
         life.assign({name: life[name].broadcast_like(life.power) for name in _OF_BINS}),
         ["power", "bin_energy", *_OF_BINS],
     )
     if {"orbit_energy", "peak_power"} <= set(study.data_vars):
         curves = exceedance(study, weights, field=field, width=width, by=by)
-        found["exceedance"] = table(curves, ["energy_orbits", "power_orbits"])
+        found["exceedance"] = as_table(curves, ["energy_orbits", "power_orbits"])
     if "load_cycles" in study:
-        found["cycles"] = table(load_spectrum(study, weights, years=years, field=field, width=width, by=by), ["cycles"])
+        found["cycles"] = as_table(
+            load_spectrum(study, weights, years=years, field=field, width=width, by=by), ["cycles"]
+        )
     return found
 
 

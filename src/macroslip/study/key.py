@@ -1,4 +1,4 @@
-"""What a result is filed under: a hash of everything it depends on."""
+"""Key of a stored result: a hash of everything it depends on."""
 
 from __future__ import annotations
 

@@ -29,8 +29,8 @@ def lifetime_energy(
         E = T Σ_b p_b P_b,    P_b = (1/N_b) Σ_{c in b} E_c / t_c
 
     with the lifetime T, the probability p_b of bin b, the energy E_c (`energy_mean`) of its N_b runs and the length t_c
-    of their windows. Time outside the bins of the study contributes nothing; `covered` says how much of all time the
-    bins are.
+    of their windows. Time outside the bins of the study contributes nothing; `covered` is the share of all time in the
+    bins.
 
     Parameters
     ----------
@@ -45,8 +45,8 @@ def lifetime_energy(
     Returns
     -------
     xarray.Dataset
-        Over (group, row): `lifetime_energy` [J], NaN where a bin has no run to rest on. Over (group, bin, row): `power`
-        [W], `bin_energy` [J], the bin's part of the sum. Over (group, bin): `runs`, those it rests on, and `left_out`,
+        Over (group, row): `lifetime_energy` [J], NaN where a bin has no run. Over (group, bin, row): `power`
+        [W], `bin_energy` [J], the bin's part of the sum. Over (group, bin): `runs`, those that were used, and `left_out`,
         those that failed or are missing. Over bin: `probability`; and `covered`, their sum.
 
     Raises
@@ -84,7 +84,7 @@ def lifetime_energy(
                 "J", f"energy dissipated by a roller in {years:g} years, mean over the rollers of the row")),
             "bin_energy": (("group", "bin", "row"), parts, _about("J", "part of the bin in it")),
             "power": (("group", "bin", "row"), power, _about("W", "energy of a roller per time, mean over runs")),
-            "runs": (("group", "bin"), used, _about("1", "runs that the means rest on")),
+            "runs": (("group", "bin"), used, _about("1", "runs of the means")),
             "left_out": (("group", "bin"), left_out, _about("1", "runs without a result for all rollers")),
             "probability": ("bin", probability, _about("1", "share of time in the bin")),
             "covered": ((), probability.sum(), _about("1", "share of time in all bins")),
@@ -141,7 +141,7 @@ def percentiles(
         found = np.stack([bins.as_array(runs.quantile(quantile)) for quantile in quantiles], axis=-1)
         data[name] = (("group", "bin", "row", "quantile"), found, about)
     _, used, _ = _bin_means(bins, rate.transpose("case", "row").values)
-    data["runs"] = (("group", "bin"), used, _about("1", "runs that the quantiles rest on"))
+    data["runs"] = (("group", "bin"), used, _about("1", "runs of the quantiles"))
     coordinates = {"row": study.row, "quantile": ("quantile", list(quantiles), _about("1", "share of runs below"))}
     title = {"title": f"Percentiles over runs: {study.attrs.get('title', '')}"}
     return xr.Dataset(data, bins.coordinates(study) | coordinates, title)

@@ -51,12 +51,12 @@ class LoadList:
     Parameters
     ----------
     source : str
-        `file`, `bearing_file` or `bundled`: the key of a case file under which a name stands.
+        `file`, `bearing_file` or `bundled`: the key of a case file for such a name.
     loads : sequence of Load
     units : mapping of str to str
         Units of the fields.
     remarks : sequence of str
-        What the user should know: files left out.
+        Notes for the user: files left out.
     """
 
     source: str
@@ -187,5 +187,7 @@ def _from_table(path: Path) -> list[Load]:
     loads = [Load(row["file"], {name: value for name, value in row.items() if name != "file"}) for row in rows]
     name, times = Counter(load.name for load in loads).most_common(1)[0]
     if times > 1:
-        raise InputError(f"the file {safe_text(name)} stands {times} times", where=where, remedy="Keep one row of it.")
+        raise InputError(
+            f"the file {safe_text(name)} is listed {times} times", where=where, remedy="Keep one row of it."
+        )
     return loads

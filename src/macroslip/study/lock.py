@@ -23,7 +23,7 @@ def locked(directory: Path) -> Iterator[None]:
     """Hold the folder for the length of the block.
 
     The lock belongs to the open file, not to its presence: when the process ends in any way, the system lifts it, and a
-    file that is left behind holds nothing. What the file contains only tells others who holds it.
+    file that is left behind holds nothing. Its content only names the holder to other processes.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def locked(directory: Path) -> Iterator[None]:
 
 
 def _write(path: Path, text: str) -> None:
-    """Say who holds the lock. The first byte is the lock's: Windows lets nobody else read or write what is locked."""
+    """Write who holds the lock. The first byte is the lock's: Windows lets no other process read or write what is locked."""
     # Where the system refuses, or the disk is full, the lock holds without it.
     with contextlib.suppress(OSError), path.open("r+", encoding="utf-8") as file:
         file.truncate(1)
@@ -61,7 +61,7 @@ def _write(path: Path, text: str) -> None:
 
 
 def _holder(path: Path) -> str:
-    """Who holds the lock, as far as the file tells."""
+    """Who holds the lock, as far as the file has it."""
     try:
         with path.open(encoding="utf-8") as file:
             file.seek(1)

@@ -27,7 +27,7 @@ class Log(logging.FileHandler):
         self.handle(logging.LogRecord("macroslip", logging.INFO, __file__, 0, text, None, None))
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802, the name is logging's
-        """Go on: a full disk is found out, and reported, where results are stored."""
+        """Continue: a full disk is reported where results are stored."""
 
     def close(self) -> None:
         """Close the file."""

@@ -1,4 +1,4 @@
-"""How a run of a study can end; each way with the sentence a user sees."""
+"""How a run of a study can end, each with the sentence that is shown to the user."""
 
 from __future__ import annotations
 

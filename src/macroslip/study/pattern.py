@@ -27,7 +27,7 @@ class Pattern:
     ----------
     text : str
         Fields are `{name}` (text without slash), `{name:d}` (whole number) and `{name:g}` (number); wildcards are `*`,
-        `?` and `**/`. A field that stands twice has to have the same value in both places.
+        `?` and `**/`. A field that occurs twice must have the same value in both places.
 
     Raises
     ------
@@ -103,7 +103,7 @@ class Pattern:
                 allowed="the path of load files, with fields and wildcards",
                 remedy="Name the files in it: runs/*.outb, for example.",
             )
-        # What stands before the first wildcard is a plain folder, which may lead upwards ("../runs").
+        # The part before the first wildcard is a plain folder, which may lead upwards ("../runs").
         while len(parts) > 1 and not re.search(r"[*?\[]", parts[0]):
             base, start = base / parts[0], start / parts[0]
             parts = parts[1:]

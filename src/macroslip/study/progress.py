@@ -50,8 +50,8 @@ class Progress:
     def rate(self) -> float:
         """Runs computed a second, over the last ten minutes; 0 before the first.
 
-        Runs whose results were there already take next to no time and come before all others where a study is
-        resumed: with them the rate would tell nothing of the rest.
+        Runs whose results were there already take hardly any time and come before all others where a study is
+        resumed: with them the rate would not hold for the rest.
         """
         now = time.monotonic()
         while len(self._marks) > 1 and now - self._marks[0][0] > _SPAN:

@@ -31,7 +31,7 @@ VARIABLES = {
 
 
 def rating_values(case: Case) -> dict[str, float]:
-    """The numbers of a case; NaN where it asks for none, or its bearing lacks what a rating needs."""
+    """The numbers of a case; NaN for a case without a rating, or a bearing that lacks what a rating needs."""
     nothing = dict.fromkeys(VARIABLES, math.nan)
     if not case.rating:
         return nothing

@@ -1,4 +1,4 @@
-"""All results of a study as one labelled dataset that reads what is asked for when it is asked for."""
+"""All results of a study as one labelled dataset that reads values when they are accessed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from xarray.backends import BackendArray
-from xarray.core import indexing
+from xarray.core import indexing  # the documented interface for arrays of a backend, in spite of its name
 
 from macroslip.bearing.frames import ROWS
 from macroslip.files import reading
@@ -32,8 +32,8 @@ _LABELLED = ("roller",)
 def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     """Open all results of a study, also while it is being computed.
 
-    Labels and summary are read at once. Everything else is read, and its checksum compared, when its values are asked
-    for; select cases first, or `.chunk({"case": 50})` with dask, where all together would not fit into memory.
+    Labels and summary are read at once. Everything else is read, and its checksum compared, when its values are
+    accessed; select cases first, or `.chunk({"case": 50})` with dask, where all together would not fit into memory.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     Raises
     ------
     InputError
-        If the folder holds no study; and when values are asked for, if a stored result is gone or damaged.
+        If the folder holds no study; and when values are accessed, if a stored result is gone or damaged.
     """
     directory = Path(directory).absolute()
     with reading(directory, REMEDY):
@@ -142,7 +142,7 @@ def _summary(found: Recorded) -> dict[str, Any]:
 
 
 def _details(directory: Path, found: Recorded) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
-    """Variables, coordinates and attributes of the results, opened as far as is needed to know what there is."""
+    """Variables, coordinates and attributes of the results, opened as far as is needed to list them."""
     import xarray as xr
 
     if not found.stored.any():
@@ -197,7 +197,7 @@ class _Shared:
 
 
 class _Stacked(BackendArray):
-    """One variable of all results, with the cases as first dimension; a result is read when a value of it is wanted."""
+    """One variable of all results, with the cases as first dimension; a result is read when a value of it is accessed."""
 
     def __init__(self, shared: _Shared, name: str, dims: tuple[str, ...]):
         self._shared, self._name, self._dims = shared, name, dims
@@ -239,5 +239,5 @@ class _Stacked(BackendArray):
 
 @functools.lru_cache(maxsize=8)
 def _read(opened: str, directory: Path, key: str, checksum: str) -> xr.Dataset:
-    """A result; the last few of an opened study are kept: several variables of a case are often wanted in turn."""
+    """A result; the last few of an opened study are kept: several variables of a case are often read in turn."""
     return read_result(directory, key, checksum)

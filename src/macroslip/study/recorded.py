@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 TEXTS = {"outcome": str(Outcome.MISSING), "reason": "", "key": "", "detail": "", "layout": ""}
 #: Columns of numbers: those of rows end in the row's name.
 NUMBERS = [f"{name}_{row}" for name in ROW_VARIABLES for row in ROWS] + list(CASE_VARIABLES)
-#: Key of the summary's metadata that tells of which journal it was made.
+#: Key of the summary's metadata with the journal it was made of.
 STATE = b"journal"
 _BLOCK = 5000
 #: Length of keys and checksums.
@@ -80,7 +80,7 @@ def recorded(directory: Path, runs: Sequence[str]) -> Recorded:
 
 
 def journal_state(path: Path) -> bytes:
-    """What tells a journal from a longer one, and from another: its length, and a hash of its end."""
+    """Identity of a journal, which differs for a longer one and for another: its length, and a hash of its end."""
     try:
         with path.open("rb") as file:
             length = file.seek(0, os.SEEK_END)
@@ -136,7 +136,7 @@ class _Journal:
         if "detail" in record:
             self.results[key] = len(self.texts)
             self._append(record)
-        # Otherwise the record says that this run has the result of another one.
+        # Otherwise the record gives this run the result of another one.
         self.failures.pop(run, None)
         self.keys[run] = key
 

@@ -1,4 +1,4 @@
-"""Names from files and folders, made fit to be shown."""
+"""Names from files and folders, made safe to print."""
 
 from __future__ import annotations
 

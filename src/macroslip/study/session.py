@@ -62,7 +62,7 @@ class Session:
 
     @contextmanager
     def opened(self) -> Iterator[None]:
-        """With log and journal open for the length of the block; the log tells how it was left."""
+        """With log and journal open for the length of the block; the log records how it ended."""
         self._log = Log(self.directory / LOG)
         try:
             self._begin()
@@ -145,7 +145,7 @@ class Session:
         }
 
     def _check(self, result: dict[str, Any]) -> None:
-        """What concerns the study and not the run."""
+        """Handle what concerns the study and not the run."""
         if "stop" in result:
             raise MacroslipError(
                 f"{result['stop']} Nothing that was reported done is lost. Mend it, and go on with --resume."
@@ -157,7 +157,7 @@ class Session:
             )
 
     def _sound(self, result: dict[str, Any]) -> bool:
-        """Whether the result that a worker found is the one that the journal knows."""
+        """Whether the result that a worker found is the one in the journal."""
         known = self._latest.stored.get(bytes.fromhex(result["key"]))
         if known == bytes.fromhex(result["detail"]):
             return True

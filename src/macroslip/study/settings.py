@@ -27,11 +27,11 @@ from macroslip.lubricant import Lubricant
 if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
-#: What has values of its own, each of which can be replaced.
+#: Records with values of their own, each of which can be replaced.
 RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
 #: Keys that change several values of a record together, with the quantity whose units they have.
 _TOGETHER = {"lubricant.at": "inlet_temperature"}
-#: Keys of a case that have a place of their own in a study.
+#: Keys of a case that have a key of their own in a study.
 _ELSEWHERE = {"loads": "loads", "bearing": "bearings", "lubricant": "lubricants"}
 _QUANTITY = re.compile(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,])\s*(?P<unit>\S.*?)\s*")
 

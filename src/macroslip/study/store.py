@@ -28,7 +28,7 @@ REMEDY = "Write it again with macroslip study STUDY.yaml -o DIR --resume; result
 _EMPTY = "variables_without_values"
 #: Folder of the runs by which the temperature of a study is found; a study of its own.
 BALANCE_RUNS = "balance"
-#: Everything a study's folder may hold; in a folder with other things no study begins.
+#: Everything a study's folder may hold; in a folder with other files no study begins.
 OURS = {MANIFEST, RUNS, JOURNAL, SUMMARY, LOG, CASES, BALANCE_RUNS, "lock"}
 
 
@@ -42,8 +42,8 @@ def case_path(directory: Path, key: str) -> Path:
 def to_bytes(result: xr.Dataset) -> bytes:
     """A dataset as the content of a netCDF file: classic format with 64-bit offsets.
 
-    HDF5 takes 75 ms for a result of this size, this format 2 ms, and it needs no library that may bring the process
-    down. It has no 64-bit integers: those that need them become floats.
+    HDF5 takes 75 ms for a result of this size, this format 2 ms, and it needs no library that may end the
+    process. It has no 64-bit integers: those that need them become floats.
     """
     import numpy as np
 
@@ -81,7 +81,7 @@ def checksum(content: bytes) -> str:
 
 
 def layout(result: xr.Dataset) -> dict[str, Any]:
-    """What a reader has to know of a result before it opens it.
+    """What a reader needs of a result before it opens it.
 
     Returns
     -------
@@ -128,7 +128,7 @@ def read_result(directory: Path, key: str, expected: str) -> xr.Dataset:
 
 
 def write_manifest(directory: Path, manifest: dict[str, Any]) -> str:
-    """Write the manifest durably; gives its checksum, by which workers tell that they read the same."""
+    """Write the manifest durably; gives its checksum, by which workers verify that they read the same."""
     content = json.dumps({"format": FORMAT, **manifest}, indent=1, ensure_ascii=False).encode()
     write_durably(directory / MANIFEST, content)
     return checksum(content)

@@ -52,7 +52,7 @@ class Run:
 
     @property
     def name(self) -> str:
-        """Hash of what tells this run from the others of its study: 32 hexadecimal digits."""
+        """Hash of what distinguishes this run from the others of its study: 32 hexadecimal digits."""
         labels = [self.load.name, self.bearing, self.lubricant, self.model]
         parameters = sorted((setting.key, setting.text) for setting in self.settings)
         return hashlib.sha256(json.dumps([labels, parameters]).encode()).hexdigest()[:32]
@@ -66,7 +66,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Study:
-    """What a study file says, checked.
+    """Content of a study file, checked.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class Study:
         """Yield the runs, those with the same loads together, so that any stretch of them is a sample of the whole.
 
         Load files come sorted by wind speed, and rough wind takes several times as long as calm wind: in their own
-        order the rate so far would not tell how long the rest takes.
+        order the rate so far would not hold for the rest.
         """
         # Multiples of the golden ratio are spread evenly over [0, 1), so that neighbours by them lie far apart.
         order = sorted(range(len(self.loads.loads)), key=lambda number: number * _GOLDEN % 1.0)

@@ -35,7 +35,7 @@ _REMEDY = "Write a study file that runs with: macroslip init --example study"
 def read_study(path: str | PathLike[str]) -> Study:
     """Read a study file.
 
-    Bearings and lubricants are read here and now; load files are looked for, but not opened.
+    Bearings and lubricants are read here and now; load files are listed, but not opened.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def read_study(path: str | PathLike[str]) -> Study:
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
     data, source = parse(text, str(path), _REMEDY)
     keys = [key for key in data if key in _OF_A_CASE]
-    # A single one is a slip of the pen, for which the closest key of a study is named.
+    # A single one is a misspelling, for which the closest key of a study is named.
     if len(keys) > 1 and "case" not in data:
         raise InputError(
             f"the keys {', '.join(keys)} are those of a case",
@@ -170,15 +170,15 @@ def _check_weights(weights: Weighting, heat: Heat | None, loads: Sequence[Load])
 
 
 def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sample | None:
-    """The sample, with the ranges of the study's bearing and lubricant where it asks for them."""
+    """The sample, with the ranges of the study's bearing and lubricant where it takes them."""
     sample = variations.sample
-    asked = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
-    if sample is None or not asked:
+    open_nouns = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
+    if sample is None or not open_nouns:
         return sample
     if base is None:  # what is wrong with the case comes first
         return None
     found = {}
-    for noun in asked:
+    for noun in open_nouns:
         known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
         if len(known) > 1:
             raise InputError(
@@ -191,7 +191,7 @@ def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sa
 
 
 def _name(case: Mapping[str, Any], noun: str, record: Record) -> str:
-    """What the study calls the base case's bearing or lubricant."""
+    """The study's name for the base case's bearing or lubricant."""
     return case.get(noun) or record.name
 
 

@@ -25,7 +25,7 @@ KINDS = ("hub", "main-bearing")
 
 @dataclass(frozen=True)
 class BaseCase(Form):
-    """The keys of a case file; what stands under them is checked by the reader of case files."""
+    """The keys of a case file; their values are checked by the reader of case files."""
 
     form = "the keys of a case file, of loads only start, end and shaft_speed"
 
@@ -78,7 +78,7 @@ class SettingsList(Form):
     form = "a list of sections such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
     def read(self, value: Any, info: Any) -> list[list[Setting]]:
-        """Check every item; a key has one unit throughout, so that its values can stand in one column."""
+        """Check every item; a key has one unit throughout, so that its values fit in one column."""
         if not isinstance(value, list) or not value:
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         items, problems = [], []
@@ -139,7 +139,7 @@ class Variables(Texts):
 
 
 @input_section("grid", "values of one parameter")
-class Axis:
+class GridAxis:
     """Values of one parameter."""
 
     values: Annotated[list[Any], Values("values of the parameter")]
@@ -153,7 +153,7 @@ def _written(key: str, value: Any) -> Setting:
     return setting
 
 
-def _axis(key: str, axis: Axis) -> list[Setting]:
+def _axis(key: str, axis: GridAxis) -> list[Setting]:
     """The settings of one parameter, checked."""
     settings = [Setting(key, value, axis.unit) for value in axis.values]
     for setting in settings:
@@ -175,11 +175,11 @@ class StudyLoads:
 
 
 _Grid = Annotated[
-    dict[str, Axis],
+    dict[str, GridAxis],
     MappingOf(
         "values of each parameter, of which every combination is run",
         "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",
-        Axis,
+        GridAxis,
         _axis,
     ),
 ]

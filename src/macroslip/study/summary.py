@@ -10,7 +10,7 @@ import numpy as np
 
 from macroslip.bearing.geometry import orbit_ratio
 from macroslip.integrate.status import Status
-from macroslip.result.thermal_balance import friction_power
+from macroslip.result.thermal_balance import bearing_friction_power
 from macroslip.study.rating_values import VARIABLES as RATING_VARIABLES
 from macroslip.study.rating_values import rating_values
 
@@ -129,7 +129,7 @@ def case_values(result: xr.Dataset, case: Case) -> dict[str, float]:
 
 def _friction_power(result: xr.Dataset) -> float:
     """Mean friction power of the whole bearing [W]; NaN where a roller failed."""
-    return math.nan if bool((result.status != Status.COMPLETED).any()) else friction_power(result)
+    return math.nan if bool((result.status != Status.COMPLETED).any()) else bearing_friction_power(result)
 
 
 def _orbit_energy(result: xr.Dataset) -> np.ndarray:

@@ -87,14 +87,14 @@ class Latest:
                 self.learn(record)
 
     def learn(self, record: dict[str, Any]) -> None:
-        """Take note of a record."""
+        """Add a record."""
         run, key = bytes.fromhex(record["run"]), bytes.fromhex(record.get("key", ""))
         if "outcome" in record and not Outcome(record["outcome"]).stored:
             self.keys.pop(run, None)
             return
         if "detail" in record:
             self.stored[key] = bytes.fromhex(record["detail"])
-        # Otherwise the record says that this run has the result of another one.
+        # Otherwise the record gives this run the result of another one.
         self.keys[run] = key
 
 

@@ -22,7 +22,7 @@ from macroslip.study.settings import RECORDS, Setting
 
 METHODS = ("latin-hypercube", "sobol")
 SCALES = ("linear", "log")
-#: Points of a sample beyond which only a mistaken count is left as an explanation.
+#: Points of a sample beyond which the count must be a mistake.
 _MOST_POINTS = 10_000_000
 
 
@@ -63,7 +63,7 @@ def _checked_range(key: str, interval: Range | None) -> Range | None:
     if interval is None:
         if key.partition(".")[0] not in RECORDS:
             raise InputError(
-                f"the range of {key} is asked of a file, but it is no value of a bearing or lubricant",
+                f"the range of {key} is to come from a file, but it is no value of a bearing or lubricant",
                 allowed="keys such as bearing.roller_length",
                 remedy="Give low, high and unit.",
             )
@@ -168,7 +168,7 @@ class Sample:
         positions = kind(len(self.ranges), rng=np.random.default_rng(self.seed)).random(self.count)
         return [
             [
-                # Twelve digits are more than any parameter is known to, and hold on every machine.
+                # Twelve digits are more than the accuracy of any parameter, and the same on every machine.
                 Setting(key, float(f"{interval.at(float(position)):.12g}"), interval.unit)
                 for (key, interval), position in zip(intervals.items(), point, strict=True)
             ]

@@ -1,4 +1,4 @@
-"""How likely each wind speed is, and which runs of a study stand for it."""
+"""Probability of each wind speed, and the runs of a study that represent it."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ class Binning:
     Parameters
     ----------
     groups : list of dict
-        Labels of each group: runs that differ in more than loads and seeds are not thrown together.
+        Labels of each group: runs that differ in more than loads and seeds are not pooled.
     group : ndarray of int, shape (runs,)
         Group of each run.
     centres : ndarray, shape (bins,)
@@ -229,7 +229,7 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
     """Sort the runs of a study into groups and bins.
 
     A bin is centred on a multiple of its width. A group has one bearing, lubricant, model and set of parameters; other
-    labels, as seeds, are thrown together unless they are named in `by`.
+    labels, such as seeds, are pooled unless they are named in `by`.
 
     Parameters
     ----------

@@ -43,8 +43,8 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
     -------
     dict
         The record for the journal: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `size`,
-        `layout`, `values`; and `program`, by which the study tells that a worker runs the same version. With `found`
-        true nothing was computed: a result of that key is there, and the journal has to tell whether it is sound.
+        `layout`, `values`; and `program`, by which the study verifies that a worker runs the same version. With `found`
+        true nothing was computed: a result of that key is there, and the journal decides whether it is sound.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
 
 @functools.lru_cache(maxsize=2)
 def _loads(session: str, source: str, path: str, cut: tuple[tuple[str, float], ...]) -> HubLoads | BearingLoads:
-    """Read a load history; runs with the same one follow each other. A session takes a file as it finds it."""
+    """Read a load history; runs with the same one follow each other. A session does not notice that a file changes."""
     return read_loads(source, path, dict(cut))
 
 

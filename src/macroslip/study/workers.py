@@ -1,4 +1,4 @@
-"""Who does the work: this process, or workers of a Dask cluster. Both are handed tasks and give back what was done."""
+"""Workers: this process, or those of a Dask cluster. Both take tasks and return their results."""
 
 from __future__ import annotations
 

@@ -27,8 +27,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     energy of the rollers and the work of their weight, whose mean over an orbit vanishes, are left out, and so is what the
     model does not have: churning beyond the rollers' drag, hysteresis of the steel, seals.
 
-    What the contacts do to the rings is another way to it. A contact takes the power P + P_r; it gives the roller's spin
-    −(F + F_r) u1 of what the ring spends, so that the ring feels the tangential force −(P + F u1)/u2 + F_r along its motion,
+    The same torque follows from the contacts' forces on the rings. A contact takes the power P + P_r; it gives the roller's spin
+    −(F + F_r) u1 of what the ring spends, so that the tangential force on the ring is −(P + F u1)/u2 + F_r along its motion,
     F the traction and F_r = −P_r/(u1 + u2) the shear of rolling resistance. The push of the inclined pressure goes
     through the ring's axis. Of both rings and the rollers between them the torques balance: what the inner ring gets and
     the outer one does not is drag and what guides the cage.
@@ -44,7 +44,7 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque
         [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: what it consists of;
         ring_torque [N m] over (raceway, time): what the contacts exert on inner and outer ring, positive along the
-        orbit. NaN where the shaft stands still, or from where a roller failed.
+        orbit. NaN where the shaft is at rest, or from where a roller failed.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a bearing does, in the units of the handbooks: the one place where SI becomes mm, N, r/min and mm²/s."""
+"""Operation of a bearing in the units of the handbooks: the one place where SI becomes mm, N, r/min and mm²/s."""
 
 from __future__ import annotations
 

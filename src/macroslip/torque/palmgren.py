@@ -96,7 +96,7 @@ def palmgren_torque(
     -----
     For bearings at normal loads whose lubricant has settled; fresh grease may double M0. Below ν n = 2000 the handbook
     gives a constant M0, and so does this function, down to standstill; there is a step of 0.8 % at that place. The
-    load part knows neither speed nor film: it is one of good lubrication. Handbooks do not state an error; the factors
+    load part depends on neither speed nor film: it is one of good lubrication. Handbooks do not state an error; the factors
     are rounded means over sizes.
 
     References

@@ -129,7 +129,7 @@ def skf_torque(
     Notes
     -----
     Stated for steady operation at constant load of at least the recommended minimum, hours after greasing, normal
-    clearance, and ν from 2 to 500 mm²/s; a thicker oil is computed all the same and said in `out_of_range`. Whether a
+    clearance, and ν from 2 to 500 mm²/s; a thicker oil is computed all the same and noted in `out_of_range`. Whether a
     bath starves the contacts is decided by whether it reaches the axis of the lowest roller (tag E).
 
     References

@@ -26,7 +26,7 @@ class OilBath:
     Parameters
     ----------
     level : float [m]
-        H: height of the oil above the lowest place of the outer raceway while the bearing stands still, ≥ 0. The
+        H: height of the oil above the lowest place of the outer raceway while the bearing is at rest, ≥ 0. The
         formula is for up to 1.2 times the mean diameter; a higher level counts as this one.
     drag_variable : float
         V_M [-], read from the catalogue's diagram for roller bearings over H/d_m, 0 to 0.01. The diagram has no

@@ -17,7 +17,7 @@ from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, NEWTONIAN
 
 
 class Fluid(NamedTuple):
-    """What a lubricant's film needs to know to resist shear.
+    """Properties of a lubricant that set the shear stress of its film.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ def characteristic_stress(fluid, pressure):
 
 @jit
 def characteristic_slip(fluid, log_eta, pressure, film_thickness):
-    """Slip [m/s] at which limited stress, or in a Newtonian film shear heating, begins to tell."""
+    """Slip [m/s] at which limited stress, or in a Newtonian film shear heating, begins to have an effect."""
     if fluid.rheology == NEWTONIAN:
         return math.exp(-0.5 * log_eta) / math.sqrt(max(fluid.heating, 1e-30))
     return film_thickness * characteristic_stress(fluid, pressure) * math.exp(-log_eta)

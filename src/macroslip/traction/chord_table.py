@@ -1,7 +1,7 @@
 """The chord stress as a table: a tensor-product cubic spline of ln q over pressure, slip and film thickness.
 
 A contact needs the stress on some forty chords for every force evaluation, and each of them two dozen solutions of the
-heat balance; the same numbers come back all the time, for every roller of every case. So they are computed once for a
+heat balance; the same numbers recur all the time, for every roller of every case. So they are computed once for a
 lubricant. The spline is twice continuously differentiable, and its derivatives are those of its own value.
 
 Coordinates are the fourth root of p1, the logarithm of slip over `characteristic_slip`, and the logarithm of film
@@ -189,7 +189,7 @@ class ChordValue(NamedTuple):
 
 @jit_inline
 def chord_value(table, place, x, log_slip, with_film):
-    """What the table says of a chord.
+    """Values of the table for a chord.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ def chord_value(table, place, x, log_slip, with_film):
 
 @jit_inline
 def stress_of(table, film_thickness, pressure, value):
-    """Stress along a chord of which the table says this.
+    """Stress along a chord with these values of the table.
 
     Parameters
     ----------

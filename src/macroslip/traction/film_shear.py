@@ -6,7 +6,7 @@ the profile is ΔT = (2/β) ln[cosh c/cosh(2c y/h)], with c from
 
     τ Δu β h/(8k) = c tanh c,        τ* = (η_s Δu/h) 2c/sinh 2c,        τ = t(τ*).
 
-The first says that all power leaves by conduction, the second that the shear rates add up to the slip. The left of the
+The first means that all power leaves by conduction, the second that the shear rates add up to the slip. The left of the
 first rises with c and what the others put into it falls, so there is exactly one solution for every slip. In a
 Newtonian film τ = τ*, and sinh² c = B is Crook's heating number. Stress rises with slip as long as c tanh c < 1,
 whatever the law t: that is as long as τ Δu < 8k/(β h).

@@ -1,4 +1,4 @@
-"""What a traction law says of a whole contact over which slip varies."""
+"""Results of a traction law for a whole contact over which slip varies."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Patch(NamedTuple):
-    """What a film does to a roller over a whole contact; every integral is over the patch.
+    """Forces and moments of a film on a roller over a whole contact; every integral is over the patch.
 
     Attributes
     ----------

@@ -1,7 +1,7 @@
 """How a sheared film's stress falls behind the Newtonian one: limiting shear stress, or Eyring's thermal activation.
 
 Each law is written γ̇ = τ*(τ)/η with an equivalent Newtonian stress τ*, and used in its inverse form τ = t(τ*). The
-viscosity then stands alone in the denominator, which is what lets shear heating be solved exactly beside it.
+viscosity is then alone in the denominator, so that shear heating can be solved exactly together with it.
 """
 
 from __future__ import annotations

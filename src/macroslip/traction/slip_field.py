@@ -1,4 +1,4 @@
-"""Slip over a curved and tilted contact, and the quadrature over the patch that its pure-rolling lines ask for.
+"""Slip over a curved and tilted contact, and the quadrature over the patch that its pure-rolling lines need.
 
 With the station ζ along the roller's axis and the drop of the common contour h = ζ²/(2 R_d),
 

@@ -1,6 +1,6 @@
 """A traction law given as an ordinary function of arrays: tabulated once for each interface, and looked up after that.
 
-The table is a cubic spline of ln(F/Δu) over ln Q, ln h and ln Δu. Outside it ln(F/Δu) goes on with the slopes that it has
+The table is a cubic spline of ln(F/Δu) over ln Q, ln h and ln Δu. Outside it ln(F/Δu) is continued with its slopes
 at the edge, but for slips below the least, where force is in proportion to slip.
 """
 
@@ -91,15 +91,15 @@ def register_function(name: str, traction: Callable, *, reference: str) -> None:
         Name in case files.
     traction : callable
         `traction(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, with arrays of one shape and slip above
-        zero; positive and smooth, in proportion to slip where that is small. Neither derivatives nor compilation are asked
-        for.
+        zero; positive and smooth, in proportion to slip where that is small. Neither derivatives nor compilation are
+        needed.
     reference : str
         What to cite where the law was used.
 
     Raises
     ------
     InputError
-        If the name is taken by a law of another module; and when a case asks for the law, if what the function returns
+        If the name is taken by a law of another module; and when a case uses the law, if what the function returns
         is of another shape, not positive, or not smooth.
 
     Examples
@@ -108,11 +108,11 @@ def register_function(name: str, traction: Callable, *, reference: str) -> None:
     >>> register_function("couette", lambda interface, load, film, slip: 1e-4 * slip / film, reference="none")
     >>> traction_law.remove("couette")
     """
-    prepare = prepared_once(traction, lambda interface: tabulated(name, traction, interface))
+    prepare = prepared_once(traction, lambda interface: tabulated_law(name, traction, interface))
     register_name(name, reference=reference, prepare=prepare)
 
 
-def tabulated(name: str, traction: Callable, interface: Interface) -> TabulatedTraction:
+def tabulated_law(name: str, traction: Callable, interface: Interface) -> TabulatedTraction:
     """Tabulate a function for an interface; the parameters and errors are those of `register_function`."""
     law = Function(_KIND, name, traction, interface)
     (_, _, slip), force = law.at_nodes()

@@ -1,4 +1,4 @@
-"""What a traction law is to the kernels, and the list of those that exist.
+"""Traction laws: their interface to the kernels, and the list of those that exist.
 
 Built like `macroslip.film.film_law`: a `NamedTuple` of numbers for one interface, whose type chooses the compiled functions.
 """
@@ -42,7 +42,7 @@ def register(
         Compiled `traction(law, load [N], film_thickness [m], slip [m/s]) -> (F [N], ∂F/∂Δu [N s/m], ∂F/∂h [N/m],
         ∂F/∂Q [-])`; F has the sign of the slip and vanishes with it.
     rising_slip : callable
-        Compiled `rising_slip(law, load, film_thickness) -> |Δu|` [m/s] up to which traction surely rises with slip. The
+        Compiled `rising_slip(law, load, film_thickness) -> |Δu|` [m/s] up to which traction is sure to rise with slip. The
         integrator needs it to know where an implicit step can have more than one root.
 
     Raises
@@ -67,7 +67,7 @@ def register_type(
     microslip: Callable | None = None,
     chord: Callable | None = None,
 ) -> None:
-    """Tell which compiled functions belong to a law's type, without a name to choose it by.
+    """Register the compiled functions of a law's type, without a name to choose it by.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def patch_traction(law, load, film_thickness, slip):
 
 
 def patch_traction_microslip(law, load, film_thickness, field, shape, fine):
-    """Traction of a contact over which slip varies as `field` says, a `Patch`; `fine` asks for a finer quadrature."""
+    """Traction of a contact over which slip varies by `field`, a `Patch`; with `fine` by a finer quadrature."""
     if shape.microslip and type(law) in _microslip:
         return _microslip[type(law)](law, load, film_thickness, field, shape, fine)
     force, slope, by_film, _ = _traction[type(law)](law, load, film_thickness, field.sliding)
@@ -105,7 +105,7 @@ def patch_traction_microslip(law, load, film_thickness, field, shape, fine):
 
 
 def rising_slip(law, load, film_thickness):
-    """Slip [m/s] up to which traction surely rises with slip at this load [N] and film thickness [m]."""
+    """Slip [m/s] up to which traction is sure to rise with slip at this load [N] and film thickness [m]."""
     return _rising_slip[type(law)](law, load, film_thickness)
 
 

@@ -1,4 +1,4 @@
-"""What does not close in the books of momentum and energy."""
+"""Residuals of the balances of momentum and energy."""
 
 from __future__ import annotations
 

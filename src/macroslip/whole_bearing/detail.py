@@ -1,7 +1,7 @@
-"""What curved contacts leave behind beside energy: stations, places on the raceways, smearing criteria.
+"""What is recorded of curved contacts beside energy: stations, places on the raceways, smearing criteria.
 
 Booked whenever a roller's tractions have been evaluated: the energy since the time before is spread as power lies along
-the roller then, over the way that it has travelled. For plain contacts nothing here is compiled.
+the roller then, over the way that it has travelled. For plain contacts everything here compiles to nothing.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def _book(bearing, moment, due, shaft_angle, time, orbit, details):
         )  # fmt: skip
         span = time - details.place[j, 2] if details.looks[j] else 0.0
         way = _way(details, moment.stations, j, shaft_angle, time)
-        # The first booking follows no time; the second is the first that can be looked at.
+        # No time has passed before the first booking; the second is the first that has details.
         passage = Passage(orbit, way, span, details.looks[j] % FINE_LOOKS == 1)
         details.looks[j] += 1
         # A row's model is named, not indexed: to pick it by a variable would copy all its contacts.

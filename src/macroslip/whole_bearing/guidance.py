@@ -1,10 +1,10 @@
 """Radial guidance of a cage by its rollers.
 
 Pockets follow the rollers' contour, so a cage that leaves the bearing's axis by more than the radial play rests on
-rollers all round, which the raceways hold. Here that is one elastic, damped stop at the distance of the gap, the same in
-every direction, without friction of its own. Gripped rollers at either side, whose spars close at half of that distance,
-carry the cage first. Without the stop only the few gripped rollers would hold a cage, and the weight of all others would
-hang on it. What the stop pushes on single rollers is small against their load and left out.
+rollers all round, which the raceways hold. The model replaces them by one elastic, damped stop at the distance of the gap.
+It is the same in every direction and has no friction of its own. Gripped rollers at either side, whose spars close at half
+of that distance, carry the cage first. Without the stop only the few gripped rollers would hold the cage and, with it, the
+weight of all other rollers. The stop's push on single rollers is small against their load and is neglected.
 """
 
 from __future__ import annotations

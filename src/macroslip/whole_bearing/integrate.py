@@ -17,13 +17,10 @@ from macroslip.whole_bearing.refresh import refresh
 from macroslip.whole_bearing.station import locate
 from macroslip.whole_bearing.step import GAMMA, Clock, clock_at, step_error, take_step
 from macroslip.whole_bearing.traction import evaluate_marked
+from macroslip.whole_bearing.tuning import BEGUN, FIRST_STEP, GROWTH, IMPACT_PART, LEAST_PART, SAFETY, UNSOLVED_PART
 
-#: First step [s]; growth and least part of a step; its part after an unsolved stage; safety factor.
-_FIRST_STEP, _GROWTH, _LEAST_PART, _UNSOLVED_PART, _SAFETY = 1e-4, 3.0, 0.2, 0.25, 0.85
-#: Part of the deepest indentation below which a dry impact has just begun, and part of it in the first step then.
-_BEGUN, _IMPACT_PART = 0.1, 0.5
 #: Positions in the record's counts.
-_STEPS, _REJECTIONS, _EVALUATIONS, _ITERATIONS, _REFRESHED, _UNSOLVED, _INACCURATE, _UNFORETOLD = range(8)
+_STEPS, _REJECTIONS, _EVALUATIONS, _ITERATIONS, _REFRESHED, _UNSOLVED, _INACCURATE, _UNPREDICTED = range(8)
 
 
 @jit_merged
@@ -68,8 +65,8 @@ def _impact_step(bearing, space):
         depth = abs(offset) - half
         if depth > 0.0 and offset * speed > 0.0:
             deepest = (1.25 * bearing.roller_mass * speed * speed / bearing.pocket.stiffness) ** 0.4
-            if depth < _BEGUN * deepest:
-                shortest = min(shortest, _IMPACT_PART * deepest / abs(speed))
+            if depth < BEGUN * deepest:
+                shortest = min(shortest, IMPACT_PART * deepest / abs(speed))
     return shortest
 
 
@@ -151,7 +148,7 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
     stops : ndarray
         Times at which a step must end [s], rising, the last being the end of the integration; they hold the record's edges
         and output times.
-    limits : Limits
+    limits : BearingLimits
     space : Space
         With the initial state in `state`.
     record : BearingRecord
@@ -165,7 +162,7 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
     bearing, motion, limits = by_reference(bearing), by_reference(motion), by_reference(limits)
     stops, space, record = by_reference(stops), by_reference(space), by_reference(record)
     count = record.count
-    clock, step, failed = _begin(bearing, motion, space), _FIRST_STEP, False
+    clock, step, failed = _begin(bearing, motion, space), FIRST_STEP, False
     next_stop, next_output, orbit = 0, 0, -1
     spent, status = 0.0, COMPLETED
     while True:
@@ -193,17 +190,17 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
         if np.isnan(error) or (not worst < math.inf and h < 1e-12):
             status = NOT_FINITE
             break
-        factor = _SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
+        factor = SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
         if error > 1.0:
             count[_REJECTIONS] += 1
             count[_INACCURATE if solved else _UNSOLVED] += 1
-            step = h * (max(_LEAST_PART, factor) if solved else _UNSOLVED_PART)
+            step = h * (max(LEAST_PART, factor) if solved else UNSOLVED_PART)
             failed = True
             continue
         power_scale = max(spent, 0.0) / (end.time - motion.time[0]) / (2 * space.state.rollers.shape[0])
         if not refresh(bearing, limits, end.time, space, power_scale):
             count[_REJECTIONS] += 1
-            count[_UNFORETOLD] += 1
+            count[_UNPREDICTED] += 1
             step = h
             continue
         count[_STEPS] += 1
@@ -212,7 +209,7 @@ def integrate_whole(bearing, motion, stops, limits, space, record):
         middle = clock_at(motion, clock.time + GAMMA * h, clock.interval)
         orbit = _book(bearing, motion, middle.shaft_speed, clock, end, orbit, space, record)
         _advance(space)
-        clock, step, failed = end, h * min(1.0 if failed else _GROWTH, factor), False
+        clock, step, failed = end, h * min(1.0 if failed else GROWTH, factor), False
     # What has not been spread yet is, as power lies at the end.
     space.tractions.due[:] = True
     angle = instant(motion, clock.interval, clock.time).shaft_angle

@@ -1,10 +1,10 @@
-"""Books of angular momentum and energy: what the bearing holds, and what has flowed in and out of it.
+"""Balances of angular momentum and energy: what the bearing holds, and what has flowed in and out.
 
 Momentum Σ(m r~² Ω + I_z' cos α ω_z') + Σ I_c Ω_c changes by the torques alone that raceways, weight, drag and guide exert,
-and by that of the pushes on a cage off the axis. A step's torques are summed with the method's weights, so that the books
+and by that of the pushes on a cage off the axis. A step's torques are summed with the method's weights, so that the balances
 close to what Newton's method leaves unbalanced. Kinetic energy of rollers and cages and elastic energy of the spars change
-by the work of the shaft and of weights, less what friction and pockets dissipate; what is left over is the error of the
-method, and shows.
+by the work of the shaft and of weights, less what friction and pockets dissipate; the residual is the error of the
+method.
 """
 
 from __future__ import annotations

@@ -7,19 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-#: Error of speed that a step may make in tolerances of the raceway speed, error of power where slopes foretell it and
-#: force [N] left unbalanced in tolerances. Chosen so that energies of bundled load cases are good to 1e-3 at the default
-#: tolerance, 2e-4, with squeeze films and dry impacts under either law (docs/whole-bearing.md has the table).
-_SPEED_SHARE, _POWER_SHARE, _FORCE_SHARE = 5.0, 3.0, 1.0
-#: Factor on the error of speed with dry impacts: most of it is made while spars ring after a touch, where it has no sign.
-_RINGING = 2.0
-#: Longest time between evaluations of a roller's tractions [s].
-_LONGEST_REST = 0.05
-#: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most.
-_CAGE_REACH = 0.1
+from macroslip.whole_bearing.tuning import CAGE_REACH, FORCE_SHARE, LONGEST_REST, POWER_SHARE, RINGING, SPEED_SHARE
 
 
-class Limits(NamedTuple):
+class BearingLimits(NamedTuple):
     """Tolerance and bounds.
 
     Attributes
@@ -29,7 +20,7 @@ class Limits(NamedTuple):
     allowed_speed : float
         Error of speed that a step may make [m/s].
     power : float
-        Allowed relative error of power where slopes foretell it.
+        Allowed relative error of power where slopes predict it.
     force : float
         Largest force an iteration may leave unbalanced [N].
     rounding : float
@@ -61,18 +52,18 @@ class Limits(NamedTuple):
     interrupt: np.ndarray
 
 
-def limits_of(tolerance: float, speed_scale: float, longest_step: float, *, dry: bool) -> Limits:
+def limits_of(tolerance: float, speed_scale: float, longest_step: float, *, dry: bool) -> BearingLimits:
     """Bounds for a relative tolerance and the largest raceway speed of the history [m/s], with dry impacts or without."""
-    return Limits(
+    return BearingLimits(
         tolerance=tolerance,
-        allowed_speed=_SPEED_SHARE * (_RINGING if dry else 1.0) * tolerance * speed_scale,
-        power=_POWER_SHARE * tolerance,
-        force=_FORCE_SHARE * tolerance,
+        allowed_speed=SPEED_SHARE * (RINGING if dry else 1.0) * tolerance * speed_scale,
+        power=POWER_SHARE * tolerance,
+        force=FORCE_SHARE * tolerance,
         rounding=4.0 * float(np.finfo(float).eps) * speed_scale,
         longest_step=longest_step,
         max_steps=100_000_000,
         rests=True,
-        longest_rest=_LONGEST_REST,
-        cage_reach=min(_CAGE_REACH, _CAGE_REACH * math.sqrt(tolerance / 2e-4)),
+        longest_rest=LONGEST_REST,
+        cage_reach=min(CAGE_REACH, CAGE_REACH * math.sqrt(tolerance / 2e-4)),
         interrupt=np.zeros(1, dtype=np.int8),
     )

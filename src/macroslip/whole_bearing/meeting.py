@@ -1,4 +1,4 @@
-"""How a roller meets its pocket in a stage: push, friction, their derivatives, and the roller's part of the matrix."""
+"""Contact of a roller with its pocket in a stage: push, friction, their derivatives, and the roller's part of the matrix."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from macroslip.whole_bearing.traction import INNER, OUTER, PULL_V, SPIN_V, cage_
 
 
 class Meeting(NamedTuple):
-    """How a roller meets its pocket.
+    """Contact of a roller with its pocket.
 
     Attributes
     ----------

@@ -165,5 +165,5 @@ def whole_bearing(
 
 
 def with_rollers(bearing: WholeBearing, models: RowModels) -> WholeBearing:
-    """The bearing with the same rollers by other means, tables say, made of the bearing's own `films`."""
+    """The bearing with the same rollers given otherwise (by tables, for example), made from the bearing's own `films`."""
     return bearing._replace(models=models, films=models.downwind.films)

@@ -1,4 +1,4 @@
-"""What the integration of a whole bearing leaves behind."""
+"""Results of the integration of a whole bearing."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class BearingRecord(NamedTuple):
         ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window.
     count : ndarray of int, shape (8,)
         Steps, rejections, evaluations of a raceway contact, Newton iterations, evaluations after a rest, and the rejections
-        for an unsolved stage, for the error, and for forces not as foretold.
+        for an unsolved stage, for the error, and for forces not as predicted.
     worst : ndarray, shape (1,)
         Largest force left unbalanced [N].
     end : ndarray, shape (1,)
@@ -73,7 +73,7 @@ class BearingRecord(NamedTuple):
     out_time : ndarray, shape (m,)
         Output times [s].
     trace : ndarray, shape (m, n, 21)
-        See `TRACES`; empty first axis where none were asked for.
+        See `TRACES`; empty first axis where none were requested.
     cage_trace : ndarray, shape (m, c, 5)
         See `CAGE_TRACES`.
     flows, held : ndarray, shape (m, 13) and (m, 3)
@@ -81,7 +81,7 @@ class BearingRecord(NamedTuple):
     book : ndarray, shape (13,)
         Books as they are now.
     details : Details
-        What curved contacts leave behind beside.
+        What is recorded of curved contacts.
     """
 
     edges: np.ndarray
@@ -146,7 +146,7 @@ def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) 
 
 
 @jit_inline
-def raceway_power(sheet, at, ratio, forces, place):
+def raceway_powers(sheet, at, ratio, forces, place):
     """Powers [W] of a raceway contact with the forces of a stage at its load [N], ring speed and slip [m/s].
 
     Forces are that for the spin, the pull, and rolling resistance in both [N]. Returned are friction by mechanism, rolling
@@ -184,8 +184,8 @@ def stage_powers(bearing, moment, sheets):
         at_outer = (stations.outer_load[j], stations.outer_speed[j], state[j, 1])
         f[SHEAR_INNER], f[SHEAR_OUTER] = shear_from(sheet, INNER, *at_inner), shear_from(sheet, OUTER, *at_outer)
         f[SHEAR_CAGE] = cage_shear_from(sheet, f[5], f[6])
-        inner = raceway_power(sheet, INNER, inner_ratio, (f[0], f[2], f[SHEAR_INNER]), at_inner)
-        outer = raceway_power(sheet, OUTER, outer_ratio, (f[1], f[3], f[SHEAR_OUTER]), at_outer)
+        inner = raceway_powers(sheet, INNER, inner_ratio, (f[0], f[2], f[SHEAR_INNER]), at_inner)
+        outer = raceway_powers(sheet, OUTER, outer_ratio, (f[1], f[3], f[SHEAR_OUTER]), at_outer)
         for k in range(5):
             powers[j, 0, k + 1], powers[j, 1, k + 1] = inner[k], outer[k]
         powers[j, 0, 0], powers[j, 1, 0] = inner[0] + inner[1] + inner[2], outer[0] + outer[1] + outer[2]

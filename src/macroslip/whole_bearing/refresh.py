@@ -1,7 +1,7 @@
 """When the tractions of a roller are due for evaluation.
 
-At every evaluation the force that the slopes of the one before foretold is compared with the one found, and the time to
-the next follows from that.
+At every evaluation the force predicted by the slopes of the evaluation before is compared with the one found. The time to
+the next evaluation follows from the difference.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from macroslip.compiled import jit_inline, jit_merged
-from macroslip.whole_bearing.record import raceway_power
+from macroslip.whole_bearing.record import raceway_powers
 from macroslip.whole_bearing.traction import (
     INNER,
     LOAD,
@@ -25,16 +25,12 @@ from macroslip.whole_bearing.traction import (
     raceway_from,
     shear_from,
 )
-
-#: Factors by which the time between evaluations changes.
-_REST_GROWTH, _REST_PART = 2.0, 0.3
-#: How many times its allowance a foretold force may be off before the step is repeated.
-_FAR_OFF = 30.0
+from macroslip.whole_bearing.tuning import FAR_OFF, LOAD_CHANGE, REST_GROWTH, REST_PART, REST_SAFETY
 
 
 @jit_inline
 def _contact_off(bearing, limits, sheets, at, place, span, power_scale):
-    """How far spin force, pull [N] and powers [W] of a raceway contact are from those foretold, over what is allowed.
+    """Error of the predicted spin force, pull [N] and powers [W] of a raceway contact over what is allowed.
 
     `sheets` are the kept one and the new one; `place` is load [N], ring speed and slip [m/s].
     """
@@ -44,18 +40,18 @@ def _contact_off(bearing, limits, sheets, at, place, span, power_scale):
     spin, pull = raceway_from(known, at, load, speed, slip)
     off = max(abs(spin - sheet[at + SPIN]), abs(pull - sheet[at + PULL]))
     drift = off / (bearing.roller_mass / max(span, 1e-9) + max(sheet[at + SPIN_V], sheet[at + PULL_V], 0.0))
-    foretold = raceway_power(known, at, ratio, (spin, pull, shear_from(known, at, load, speed, slip)), place)
-    found = raceway_power(sheet, at, ratio, (sheet[at + SPIN], sheet[at + PULL], sheet[at + SHEAR]), place)
+    predicted = raceway_powers(known, at, ratio, (spin, pull, shear_from(known, at, load, speed, slip)), place)
+    found = raceway_powers(sheet, at, ratio, (sheet[at + SPIN], sheet[at + PULL], sheet[at + SHEAR]), place)
     wrong, power = 0.0, 0.0
     for k in range(4):
-        wrong += foretold[k] - found[k]
+        wrong += predicted[k] - found[k]
         power += abs(found[k])
     return max(drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12))
 
 
 @jit_merged
-def _foretold(bearing, limits, tractions, stations, j, span, power_scale):
-    """How far the new sheet of roller `j` is from what the kept one, `span` [s] older, foretold, over what is allowed."""
+def _prediction_error(bearing, limits, tractions, stations, j, span, power_scale):
+    """Error of what the kept sheet of roller `j`, `span` [s] older, predicted for the new one, over what is allowed."""
     sheet, known = tractions.sheets[j], tractions.known[j]
     worst = 0.0
     for k in range(2):
@@ -65,7 +61,7 @@ def _foretold(bearing, limits, tractions, stations, j, span, power_scale):
         place = (load, speed, sheet[at + SLIP])
         worst = max(worst, _contact_off(bearing, limits, (known, sheet), at, place, span, power_scale))
         change = abs(load - known[at + LOAD])
-        worst = max(worst, (change / (0.2 * max(load, known[at + LOAD]) + 1e-9)) ** 2)
+        worst = max(worst, (change / (LOAD_CHANGE * max(load, known[at + LOAD]) + 1e-9)) ** 2)
     return worst
 
 
@@ -76,7 +72,7 @@ def refresh(bearing, limits, time, space, power_scale):
     Parameters
     ----------
     bearing : WholeBearing
-    limits : Limits
+    limits : BearingLimits
     time : float
         [s].
     space : Space
@@ -87,7 +83,7 @@ def refresh(bearing, limits, time, space, power_scale):
     Returns
     -------
     bool
-        Whether the forces of all resting rollers were near those foretold; otherwise the step has to be repeated.
+        Whether the forces of all resting rollers were near those predicted; otherwise the step has to be repeated.
     """
     tractions, moment = space.tractions, space.last
     sheets, rest = tractions.sheets, tractions.rest
@@ -102,15 +98,15 @@ def refresh(bearing, limits, time, space, power_scale):
     for j in range(rest.size):
         span = time - tractions.known[j, WHEN]
         if tractions.due[j]:
-            ratio = _foretold(bearing, limits, tractions, moment.stations, j, span, power_scale)
+            ratio = _prediction_error(bearing, limits, tractions, moment.stations, j, span, power_scale)
             tractions.ratio[j] = ratio
-            if not tractions.fresh[j] and ratio > _FAR_OFF and span > 0.0:
+            if not tractions.fresh[j] and ratio > FAR_OFF and span > 0.0:
                 rest[j] = 0.0
                 good = False
     # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
     for j in range(rest.size):
         if good and tractions.due[j]:
-            factor = 0.8 / math.sqrt(max(tractions.ratio[j], 1e-4))
+            factor = REST_SAFETY / math.sqrt(max(tractions.ratio[j], 1e-4))
             span = time - tractions.known[j, WHEN]
-            rest[j] = min(limits.longest_rest, span * max(_REST_PART, min(factor, _REST_GROWTH)))
+            rest[j] = min(limits.longest_rest, span * max(REST_PART, min(factor, REST_GROWTH)))
     return good

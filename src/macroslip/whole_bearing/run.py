@@ -14,11 +14,7 @@ from macroslip.whole_bearing.limits import limits_of
 from macroslip.whole_bearing.model import WholeBearing
 from macroslip.whole_bearing.record import BearingRecord, new_record
 from macroslip.whole_bearing.space import new_space
-
-#: Longest step [s]: the weight's direction, loads and places in the pocket change over it.
-LONGEST_STEP = 0.05
-#: Slowest raceway speed [m/s] by which errors are measured, so that a standing shaft has a scale.
-LEAST_SPEED = 1e-3
+from macroslip.whole_bearing.tuning import LEAST_SPEED, LONGEST_STEP
 
 
 class Times(NamedTuple):
@@ -91,7 +87,7 @@ def run_whole_bearing(
     rests : bool
         Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
     interrupt : ndarray of int8, shape (1,), optional
-        Looked at in every step; anything but zero ends the integration.
+        Read in every step; any value but zero ends the integration.
 
     Returns
     -------

@@ -60,7 +60,7 @@ class Tractions(NamedTuple):
     rest : ndarray, shape (n,)
         Time [s] for which those kept serve.
     ratio : ndarray, shape (n,)
-        How far the last values found were from those foretold, over what is allowed.
+        Error of the last predicted values, over what is allowed.
     fresh, settled, marked, due : ndarray of bool, shape (n,)
         Whether a roller is evaluated in every iteration; needs no further evaluation in this stage; is evaluated now; has
         new values to keep after the step.

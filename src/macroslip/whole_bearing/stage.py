@@ -1,6 +1,6 @@
 """One implicit stage of all rollers and cages, solved by Newton's method.
 
-A stage asks for y with y = y* + γh f(t, y). Newton's equations are divided by γh, so that residuals are forces [N]. Unknowns
+A stage is solved for y in y = y* + γh f(t, y). Newton's equations are divided by γh, so that residuals are forces [N]. Unknowns
 are each roller's slips v_in and v_out and each cage's lead w and, where it translates, its speeds p along X0 and q along Y0;
 offsets and displacements follow from them. The matrix is that of `macroslip.whole_bearing.arrow`.
 """
@@ -16,14 +16,8 @@ from macroslip.whole_bearing.guidance import guide_force
 from macroslip.whole_bearing.meeting import add_to_border, follow_roller, meet, write_block
 from macroslip.whole_bearing.space import PULL_INNER, PULL_OUTER, SPIN_INNER, SPIN_OUTER
 from macroslip.whole_bearing.traction import INNER, OUTER, PULL, SPIN, evaluate_marked, out_of_reach, raceway_from
+from macroslip.whole_bearing.tuning import ITERATIONS, PREDICTED, PREDICTED_REST
 
-#: Newton iterations before a step counts as unsolved.
-_ITERATIONS = 12
-#: Tolerances by which the slopes may be off at the last evaluation, for Newton's next update is far smaller.
-_FORETOLD = 10.0
-#: Least part of a residual that is foreseen to be left by the next update. Newton's iteration squares it, but slopes of
-#: contacts are those of a state nearby.
-_FORESEEABLE = 1e-3
 #: Speed over which the guide's friction turns its sign [m/s].
 GUIDE_SPEED = 1e-3
 
@@ -84,7 +78,7 @@ def _begin_cages(bearing, stage, cages, star, arrow):
 
 
 @jit_merged
-def _foretell(stations, rollers, sheets, force):
+def _predict(stations, rollers, sheets, force):
     """Write the raceways' forces that follow from the sheets' slopes into `force`."""
     for j in range(force.shape[0]):
         sheet, f = sheets[j], force[j]
@@ -100,7 +94,7 @@ def _foretell(stations, rollers, sheets, force):
 def _raceway_forces(bearing, stage, moment, tractions):
     """Raceway forces at the present state, evaluated where slopes do not serve. Returns the evaluations."""
     stations, force, sheets = moment.stations, moment.force, tractions.sheets
-    _foretell(stations, moment.values.rollers, sheets, force)
+    _predict(stations, moment.values.rollers, sheets, force)
     for j in range(force.shape[0]):
         if not tractions.fresh[j] and out_of_reach(sheets[j], stations, j):
             tractions.fresh[j] = True
@@ -111,8 +105,8 @@ def _raceway_forces(bearing, stage, moment, tractions):
             sheet, f = sheets[j], force[j]
             off = abs(f[SPIN_INNER] - sheet[INNER + SPIN]) + abs(f[PULL_INNER] - sheet[INNER + PULL])
             off += abs(f[SPIN_OUTER] - sheet[OUTER + SPIN]) + abs(f[PULL_OUTER] - sheet[OUTER + PULL])
-            # Where the slopes foretold the force well enough, they do so until the stage is solved.
-            tractions.settled[j] = off <= _FORETOLD * stage.tolerance
+            # Slopes that predicted the force well enough serve until the stage is solved.
+            tractions.settled[j] = off <= PREDICTED * stage.tolerance
             f[SPIN_INNER], f[PULL_INNER] = sheet[INNER + SPIN], sheet[INNER + PULL]
             f[SPIN_OUTER], f[PULL_OUTER] = sheet[OUTER + SPIN], sheet[OUTER + PULL]
     return evaluations
@@ -144,7 +138,7 @@ def _assemble(bearing, stage, moment, star, tractions, arrow):
         rest_out = inertia * (values.rollers[j, 1] - star.rollers[j, 1]) + turning + driving
         arrow.rest[j, 0], arrow.rest[j, 1] = rest_in, rest_out
         worst = max(worst, abs(rest_in), abs(rest_out))
-        # A maximum may pass over what is not a number.
+        # `max` may ignore a NaN.
         finite = finite and abs(rest_in) + abs(rest_out) < math.inf
         write_block(inertia, stations, sheet, met, j, arrow)
         add_to_border(bearing, stage, stations, met, j, arrow)
@@ -185,14 +179,14 @@ def solve_stage(bearing, stage, moment, space):
     Returns
     -------
     float
-        Largest residual [N], or what the last update is foreseen to leave of it; above the tolerance or not finite where
+        Largest residual [N], or what the last update is predicted to leave of it; above the tolerance or not finite where
         the stage is not solved.
     """
     tractions, arrow, cage_of = space.tractions, space.arrow, bearing.rollers.cage
     size = 3 if bearing.translates else 1
     worst, before = math.inf, math.inf
     tractions.settled[:] = False
-    for _ in range(_ITERATIONS):
+    for _ in range(ITERATIONS):
         worst, evaluations = _assemble(bearing, stage, moment, space.star, tractions, arrow)
         space.work[0] += evaluations
         space.work[1] += 1
@@ -201,11 +195,11 @@ def solve_stage(bearing, stage, moment, space):
             break
         solve(cage_of, size, arrow)
         _update(moment.values, arrow, size)
-        foreseen = worst * max((worst / before) ** 2, _FORESEEABLE)
-        if foreseen <= stage.tolerance:
+        predicted = worst * max((worst / before) ** 2, PREDICTED_REST)
+        if predicted <= stage.tolerance:
             _place_cages(stage, moment.values.cages, space.star.cages)
             for j in range(cage_of.size):
                 follow_roller(bearing, stage, moment, tractions.sheets[j], j, arrow)
-            return foreseen
+            return predicted
         before = worst
     return worst

@@ -11,10 +11,7 @@ from macroslip.compiled import jit_called, jit_inline
 from macroslip.ring.orbit import instant
 from macroslip.roller.forces import interference
 from macroslip.roller.play import film_load
-
-#: Relative change of a place up to which the films of a roller with play carry the same. They carry newtons, of which
-#: traction is some hundredths: 1e-4 N, the tolerance of Newton's iteration at the default.
-_REACH = 1e-3
+from macroslip.whole_bearing.tuning import FILM_REACH
 
 
 class Stations(NamedTuple):
@@ -54,13 +51,13 @@ def new_stations(count: int) -> Stations:
 
 @jit_inline
 def _film_load(films, load, place, known):
-    """What films carry beside the load of the rings [N], found anew where the roller's place has changed by `_REACH`.
+    """What films carry beside the load of the rings [N], found anew where the roller's place has changed by `FILM_REACH`.
 
     The place is interference [m], body force [N] and ring speed [m/s]. Rounding of it is far smaller than what changes.
     """
     near = load <= 0.0
     for k in range(3):
-        near = near and abs(place[k] - known[k + 1]) <= _REACH * abs(known[k + 1])
+        near = near and abs(place[k] - known[k + 1]) <= FILM_REACH * abs(known[k + 1])
     if not near:
         approach, body, ring_speed = place
         known[0] = film_load(films, load, approach, body, ring_speed)

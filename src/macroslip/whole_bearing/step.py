@@ -16,6 +16,7 @@ from macroslip.whole_bearing.record import stage_powers
 from macroslip.whole_bearing.space import POCKET_SPEED
 from macroslip.whole_bearing.stage import Stage, solve_stage
 from macroslip.whole_bearing.station import locate
+from macroslip.whole_bearing.tuning import PLACE_TIME
 
 #: Node of the first stage, Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068.
 GAMMA = 1.0 - math.sqrt(0.5)
@@ -23,8 +24,6 @@ GAMMA = 1.0 - math.sqrt(0.5)
 _E1 = (0.5 - 1.0 / 3.0) / (GAMMA * (1.0 - GAMMA))
 _E2 = 0.5 - GAMMA * _E1
 _ERROR = (1.0 - _E1 - _E2, _E1 - (1.0 - GAMMA), _E2 - GAMMA)
-#: Time [s] in which an error of speed becomes one of place.
-_PLACE_TIME = 0.02
 
 
 class Clock(NamedTuple):
@@ -99,7 +98,7 @@ def take_step(bearing, motion, limits, start, end, space):
     ----------
     bearing : WholeBearing
     motion : Motion
-    limits : Limits
+    limits : BearingLimits
     start, end : Clock
     space : Space
 
@@ -149,7 +148,7 @@ def step_error(bearing, limits, h, space):
             off = _weighed(slope.rollers[j, i], first.rollers[j, i], last.rollers[j, i])
             arrow.rest[j, i] = bearing.roller_mass / GAMMA * off
         off = _weighed(slope.rollers[j, 2], first.rollers[j, 2], last.rollers[j, 2])
-        worst = max(worst, abs(h * off) / (limits.allowed_speed * _PLACE_TIME))
+        worst = max(worst, abs(h * off) / (limits.allowed_speed * PLACE_TIME))
     for c in range(bearing.cages):
         for i in range(3):
             k = 0 if i == 0 else i + 1

@@ -12,6 +12,7 @@ import numpy as np
 from macroslip.compiled import jit_called, jit_inline
 from macroslip.roller.contact import cage_contact, raceway_contact
 from macroslip.whole_bearing.oil import cage_oil, has_oil, raceway_oil
+from macroslip.whole_bearing.tuning import FLOATING, LIGHT, LOAD_REACH
 
 #: Columns of a sheet: for inner and outer contact from these offsets on …
 INNER, OUTER = 0, 17
@@ -26,12 +27,6 @@ CAGE_SHEAR, CAGE_SHEAR_V, CAGE_SHEAR_Q, CAGE_ROUGH = range(39, 43)
 #: Time of the raceways' evaluation.
 WHEN = 43
 COLUMNS = 44
-#: Relative change of a raceway's load beyond which slopes no longer serve.
-_LOAD_REACH = 0.25
-#: Force of the cage that never matters [N].
-_LIGHT = 1e-7
-#: Change of the load of a pocket full of oil that never matters [N]: its film is bounded by the pocket.
-_FLOATING = 0.05
 
 
 def new_sheets(count: int) -> np.ndarray:
@@ -123,8 +118,8 @@ def out_of_reach(sheet, stations, j):
     """Whether a raceway load of roller `j` has changed too much for the slopes."""
     inner, outer = sheet[INNER + LOAD], sheet[OUTER + LOAD]
     return (
-        abs(stations.inner_load[j] - inner) > _LOAD_REACH * inner
-        or abs(stations.outer_load[j] - outer) > _LOAD_REACH * outer
+        abs(stations.inner_load[j] - inner) > LOAD_REACH * inner
+        or abs(stations.outer_load[j] - outer) > LOAD_REACH * outer
     )
 
 
@@ -146,10 +141,10 @@ def cage_from(contact, films, sheet, push, slip, part):
     """
     load = abs(push)
     oily = has_oil(films)
-    if not oily and load <= _LIGHT:
+    if not oily and load <= LIGHT:
         return 0.0, 0.0, 0.0
     known = sheet[CAGE_LOAD]
-    reach = part * known + (_FLOATING if oily else 0.0)
+    reach = part * known + (FLOATING if oily else 0.0)
     if not (abs(load - known) <= reach and abs(slip - sheet[CAGE_SLIP]) <= part * abs(sheet[CAGE_SLIP])):
         found, oil = cage_contact(contact, load, slip), cage_oil(films, load, slip)
         sheet[CAGE] = found.force + oil.sliding + oil.shear

@@ -11,7 +11,7 @@ from macroslip.report.pictures import Picture
 
 @dataclass(frozen=True, slots=True)
 class Paragraph:
-    """Text; `strong` for the sentence that says most."""
+    """Text; `strong` for the main sentence."""
 
     kind: ClassVar[str] = "paragraph"
     text: str
@@ -82,7 +82,7 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class Verbatim:
-    """Text to be copied as it stands."""
+    """Text to be copied without change."""
 
     kind: ClassVar[str] = "verbatim"
     text: str
@@ -94,12 +94,12 @@ Block = Paragraph | Points | Table | Pictures | Beside | Statements | View | Ver
 
 @dataclass(frozen=True, slots=True)
 class Opening:
-    """What a reader sees before anything else, on one screen.
+    """The first screen of a page.
 
     Attributes
     ----------
     sentences : tuple of str
-        The answer, at most five; the first says most.
+        The answer, at most five sentences, the main one first.
     pictures : tuple of Picture
         At most four.
     """

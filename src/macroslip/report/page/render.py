@@ -68,7 +68,7 @@ def _numeric_columns(table: Table) -> list[bool]:
 
 
 def _as_json(value: Any) -> Any:
-    """JSON that cannot end the element it stands in."""
+    """JSON that cannot end the HTML element around it."""
     from markupsafe import Markup
 
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)

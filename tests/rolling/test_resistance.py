@@ -12,10 +12,11 @@ from scipy.integrate import quad
 from macroslip.errors import InputError
 from macroslip.rolling import martin
 from macroslip.rolling.biboulet_houpert import starvation_factor
-from macroslip.rolling.elastic_line import Inlet, WholeFilm, line_rolling
+from macroslip.rolling.elastic_line import InletFilm, WholeFilm, line_rolling
 from macroslip.rolling.film import light_film
 from macroslip.rolling.gap import film_at_load
-from macroslip.rolling.law import LOWEST_SPEED, NoRolling, beside_ellipse, prepare_rolling, rolling_resistance
+from macroslip.rolling.resistance import LOWEST_SPEED, beside_ellipse, rolling_resistance
+from macroslip.rolling.rolling_law import NoRolling, prepare_rolling
 
 pytestmark = pytest.mark.slow
 
@@ -86,7 +87,7 @@ def test_light_contact_is_the_rigid_gap(laws, where):
     assert -rolling_resistance(law, 0.5, SPEED, SPEED).shear == pytest.approx(expected, rel=1e-3)
 
 
-@pytest.mark.parametrize(("name", "elastic"), [("inlet", Inlet()), ("whole-film", WholeFilm())])
+@pytest.mark.parametrize(("name", "elastic"), [("inlet", InletFilm()), ("whole-film", WholeFilm())])
 @pytest.mark.parametrize("load", [1e4, 2e4, 5e4, 1e5])
 def test_heavy_contact_is_its_slices_and_the_film_beside_them(contacts, name, elastic, load):
     interface, shape, roller_radius = contacts["inner"]
