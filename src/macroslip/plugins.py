@@ -9,6 +9,7 @@ import traceback
 from importlib.machinery import SourceFileLoader
 from os import PathLike
 from pathlib import Path
+from types import CodeType
 from typing import NamedTuple
 
 from macroslip.errors import InputError
@@ -93,9 +94,16 @@ file that registers film or traction laws, as macroslip init --example laws writ
     return _loaded[name]
 
 
+class _SourceOnly(SourceFileLoader):
+    """Without stored bytecode, which Python takes for a file's as long as its size and the second of its change agree."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        return self.source_to_code(self.get_data(self.path), self.path)
+
+
 def _import(path: Path, name: str) -> None:
     """Run the file as a module; what goes wrong in it is reported with its line."""
-    loader = SourceFileLoader(name, str(path.resolve()))
+    loader = _SourceOnly(name, str(path.resolve()))
     spec = importlib.util.spec_from_file_location(name, path.resolve(), loader=loader)
     module = importlib.util.module_from_spec(spec)
     # Compiled kernels are stored with the names of the types in them, and look these up here.
