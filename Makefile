@@ -13,7 +13,7 @@ unexport PYTHONDONTWRITEBYTECODE
 reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/
 	$(BIN)/macroslip reproduce -o results
 
-test: lint  ## everything that has to hold, some fourteen minutes on two processors where nothing is compiled yet
+test: lint  ## everything that has to hold, some sixteen minutes on two processors where nothing is compiled yet
 	$(PYTEST) $(ARGS)
 
 test-fast: $(VENV)/.ready  ## the loop of development, two minutes
