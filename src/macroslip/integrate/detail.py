@@ -16,7 +16,8 @@ from macroslip.film.asperity_load import asperity_share
 from macroslip.film.film_law import film_thickness
 from macroslip.integrate.surface import STATIONS, raise_density, spread
 from macroslip.reference import tuple_type
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, cage_force, is_curved, slip_field
+from macroslip.roller.contact import cage_contact
+from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, is_curved, slip_field
 from macroslip.traction.slip_field import slip_at
 from macroslip.traction.traction_law import chord_traction, patch_traction_microslip
 
@@ -162,17 +163,16 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
 def book_cage(record, orbit, contact, load, surface):
     """Raise the extremes of the cage's contact, whose roller's surface moves at `surface` [m/s].
 
-    Its force is computed anew. The one in the spin equation includes the oil of the pocket, and what the last correction of
+    Its power is computed anew. The force in the spin equation includes the oil of the pocket, and what the last correction of
     slip left, and the force of a light contact is far smaller than either.
     """
     if load <= 0.0:
         return
     entrainment = max(0.5 * abs(surface), LOWEST_ENTRAINMENT_SPEED)
-    force = cage_force(contact, load, -surface, 0.5 * abs(surface), 0.0)[0]
     film, _, _ = film_thickness(contact.film, load, entrainment)
     root_load = load ** (1.0 / 3.0)
     across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
-    per_length = 0.75 * abs(force * surface) / across
+    per_length = 0.75 * cage_contact(contact, load, -surface).power / across
     flash = flash_temperature(per_length, along, surface, 0.0, contact.effusivity_1, contact.effusivity_2)
     _raise(record, orbit, 2, flash, per_length / (2.0 * along), abs(surface) / entrainment, film / contact.roughness)
 
