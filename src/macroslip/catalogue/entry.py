@@ -55,6 +55,16 @@ class Provenance:
     note: str = ""
     range: tuple[float, float] | None = None
 
+    def as_entry(self) -> dict[str, Any]:
+        """What stands in a catalogue file for a quantity of this origin."""
+        entry = {"value": self.value, "unit": self.unit, "tag": self.tag, "note": self.note}
+        return entry if self.range is None else entry | {"range": list(self.range)}
+
+    @property
+    def written(self) -> str:
+        """Value and unit as written."""
+        return f"{self.value}{'' if self.unit == '1' else f' {self.unit}'}"
+
 
 def is_finite_number(value: object) -> bool:
     """Whether a value is a real, finite number; a truth value is none."""
@@ -64,6 +74,14 @@ def is_finite_number(value: object) -> bool:
         return math.isfinite(value)
     except OverflowError:  # an integer beyond the largest float
         return False
+
+
+def plain_number(value: Any, whole: bool) -> Any:
+    """A finite real number as Python's own, so that NumPy scalars are welcome; anything else is left alone."""
+    if not is_finite_number(value):
+        return value
+    number = float(value)
+    return int(number) if whole and number.is_integer() else number
 
 
 def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tuple[float, Provenance]:

@@ -13,13 +13,13 @@ from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr, ValidationError
 
-from macroslip.catalogue.entry import TAGS, Provenance, is_finite_number, read_entry
+from macroslip.catalogue.entry import TAGS, Provenance, plain_number, read_entry
 from macroslip.catalogue.fields import dimensions, schema
 from macroslip.catalogue.problems import shown, together, unknown_key
 from macroslip.catalogue.record_problems import (
     lacking_values,
     missing_keys,
-    unusable_value,
+    unusable_values,
     unwritable_texts,
     wide_ranges,
 )
@@ -64,7 +64,7 @@ class Record(BaseModel):
         kinds = dimensions(type(self))
         fields = type(self).model_fields
         values = {
-            key: _number(value, whole=fields[key].annotation is int) if key in kinds else value
+            key: plain_number(value, whole=fields[key].annotation is int) if key in kinds else value
             for key, value in values.items()
         }
         provenance = {
@@ -75,12 +75,8 @@ class Record(BaseModel):
         try:
             super().__init__(**values)
         except ValidationError as failure:
-            details = {str(detail["loc"][0]): detail for detail in failure.errors(include_url=False)}
-            missing = [key for key, detail in details.items() if detail["type"] == "missing"]
-            problems = [self._missing(missing, source)] if missing else []
-            unusable = (item for item in details.items() if item[0] not in missing)
-            problems += [unusable_value(type(self), key, detail, provenance, source) for key, detail in unusable]
-            raise together(problems) from None
+            missing, unusable = unusable_values(type(self), failure, provenance, source)
+            raise together([*([self._missing(missing, source)] if missing else []), *unusable]) from None
         self._provenance, self._derived = tuple(provenance.items()), derived
         problems = [*unwritable_texts(self, source), *wide_ranges(self, source), *self._inconsistencies(source)]
         if problems:
@@ -115,10 +111,8 @@ class Record(BaseModel):
     __str__ = __repr__
 
     def _repr_html_(self) -> str:
-        rows = [
-            [key, f"{origin.value}{'' if origin.unit == '1' else f' {origin.unit}'}", TAGS[origin.tag], origin.note]
-            for key, origin in self.provenance.items()
-        ]
+        origins = self.provenance.items()
+        rows = [[key, origin.written, TAGS[origin.tag], origin.note] for key, origin in origins]
         return html_overview(repr(self)[1:-1], ["quantity", "value", "where it comes from", "note"], rows)
 
     @property
@@ -254,10 +248,7 @@ class Record(BaseModel):
             if key in self._derived:
                 continue
             if key in self.provenance:
-                origin = self.provenance[key]
-                entries[key] = {"value": origin.value, "unit": origin.unit, "tag": origin.tag, "note": origin.note}
-                if origin.range is not None:
-                    entries[key]["range"] = list(origin.range)
+                entries[key] = self.provenance[key].as_entry()
             elif key not in dimensions(type(self)):
                 entries[key] = getattr(self, key)
         return entries
@@ -306,11 +297,3 @@ def _shipped_record(kind: type[Record], name: str) -> Any:
     """Read a shipped record. No record ever changes, so all users of one share it."""
     file = f"{name}.yaml"
     return kind._from_entries(*parse((kind._shipped() / file).read_text(encoding="utf-8"), file))
-
-
-def _number(value: Any, whole: bool) -> Any:
-    """Turn a finite real number into a Python one, so that NumPy scalars are welcome; leave anything else alone."""
-    if not is_finite_number(value):
-        return value
-    number = float(value)
-    return int(number) if whole and number.is_integer() else number

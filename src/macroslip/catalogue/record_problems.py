@@ -6,6 +6,8 @@ import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from pydantic import ValidationError
+
 from macroslip.catalogue.entry import Provenance, is_finite_number
 from macroslip.catalogue.fields import allowed_text, dimensions, is_allowed
 from macroslip.catalogue.problems import shown, unknown_key
@@ -37,7 +39,7 @@ def missing_keys(kind: type[Record], keys: Sequence[str], source: Source) -> Inp
     )
 
 
-def unusable_value(
+def _unusable_value(
     kind: type[Record], key: str, detail: Mapping[str, Any], provenance: Mapping[str, Provenance], source: Source
 ) -> InputError:
     """A key that does not exist, or a value that is out of range or of the wrong type; `detail` is pydantic's."""
@@ -45,8 +47,7 @@ def unusable_value(
         return unknown_key(key, kind.model_fields, where=source.where(key))
     field, dimension = kind.model_fields[key], dimensions(kind).get(key)
     if key in provenance and is_finite_number(provenance[key].value):
-        unit = provenance[key].unit
-        written = f"{provenance[key].value}" + ("" if unit == "1" else f" {unit}")
+        unit, written = provenance[key].unit, provenance[key].written
     else:
         unit, written = "", shown(detail["input"])
     return InputError(
@@ -55,6 +56,16 @@ def unusable_value(
         allowed=allowed_text(field, dimension, unit),
         remedy=f"It is the {field.description}" + ("; check value and unit." if dimension else "."),
     )
+
+
+def unusable_values(
+    kind: type[Record], failure: ValidationError, provenance: Mapping[str, Provenance], source: Source
+) -> tuple[list[str], list[InputError]]:
+    """Keys that pydantic has found missing, and an error for each of the others that it has found wrong."""
+    details = {str(detail["loc"][0]): detail for detail in failure.errors(include_url=False)}
+    missing = [key for key, detail in details.items() if detail["type"] == "missing"]
+    unusable = (item for item in details.items() if item[0] not in missing)
+    return missing, [_unusable_value(kind, key, detail, provenance, source) for key, detail in unusable]
 
 
 def unwritable_texts(record: Record, source: Source) -> Iterator[InputError]:

@@ -26,7 +26,7 @@ from macroslip.machine import usable_processors
 from macroslip.result.dataset import to_dataset
 from macroslip.result.own_laws import check_own_laws
 from macroslip.result.simulate_whole import simulate_whole_bearing
-from macroslip.result.thermal_balance import balanced
+from macroslip.result.thermal_balance import case_at_balance
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.ring.travel import orbit_times
@@ -88,7 +88,7 @@ def simulate(
     """
     threads = threads or usable_processors()
     if case.temperature == BALANCE:
-        case = balanced(case, lambda known: simulate(known, threads=threads))
+        case = case_at_balance(case, lambda known: simulate(known, threads=threads))
     loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
     oil = case.oil
     models = _rollers(case)

@@ -93,7 +93,7 @@ def next_temperature(known: Mapping[float, float], heat: Heat) -> tuple[float, b
     return found, False
 
 
-def balanced(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
+def case_at_balance(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     """The case at the temperature at which friction power = conductance (T − ambient).
 
     Parameters

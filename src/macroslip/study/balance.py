@@ -25,7 +25,7 @@ from macroslip.study.study import Run, Study
 _DIGITS = 3
 
 
-def balanced(study: Study, directory: Path, compute: Callable[[Study, Path], None]) -> Study:
+def study_at_balance(study: Study, directory: Path, compute: Callable[[Study, Path], None]) -> Study:
     """The study at the temperature at which mean friction power = conductance (T − ambient), of each group of runs.
 
     Parameters

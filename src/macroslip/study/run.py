@@ -14,7 +14,7 @@ from macroslip.case.case import WHOLE_BEARING
 from macroslip.errors import InputError, MacroslipError
 from macroslip.files import make_folder
 from macroslip.machine import usable_processors
-from macroslip.study.balance import balanced
+from macroslip.study.balance import study_at_balance
 from macroslip.study.build import template
 from macroslip.study.cluster import check_installed, cluster, look_for, threads_of_worker
 from macroslip.study.lock import locked
@@ -98,7 +98,7 @@ def run_study(
                 trial, folder, workers=workers, scheduler=scheduler, threads=threads, resume=True, progress=progress
             )
 
-        study = balanced(study, directory / BALANCE_RUNS, compute)
+        study = study_at_balance(study, directory / BALANCE_RUNS, compute)
     with locked(directory):
         check_folder(directory, resume=resume)  # again, now that nobody else can begin here
         try:
