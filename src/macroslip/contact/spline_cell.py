@@ -41,14 +41,19 @@ class _Vectors:
         """Horner's scheme in every lane."""
         total = ir.Constant(_VECTOR, terms[-1])
         for term in terms[-2::-1]:
-            total = self._builder.fadd(self._builder.fmul(total, place), ir.Constant(_VECTOR, term))
+            total = self._fmuladd(total, place, ir.Constant(_VECTOR, term))
         return total
 
+    def _fmuladd(self, one: Any, other: Any, added: Any) -> Any:
+        """A product and a sum, in one operation where the processor has that."""
+        kind = ir.FunctionType(_VECTOR, [_VECTOR] * 3)
+        function = self._builder.module.declare_intrinsic("llvm.fmuladd.v4f64", fnty=kind)
+        return self._builder.call(function, [one, other, added])
+
     def weighted_sum(self, weights: list[Any], vectors: list[Any]) -> Any:
-        products = [self._builder.fmul(weight, vector) for weight, vector in zip(weights, vectors, strict=True)]
-        total = products[0]
-        for product in products[1:]:
-            total = self._builder.fadd(total, product)
+        total = self._builder.fmul(weights[0], vectors[0])
+        for weight, vector in zip(weights[1:], vectors[1:], strict=True):
+            total = self._fmuladd(weight, vector, total)
         return total
 
     def splat_lanes(self, vector: Any) -> list[Any]:

@@ -23,7 +23,7 @@ def first_guess(path, state, step, zone, memory):
     at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
     microslip = has_microslip(model)
     gripped = model.mobility * forces.slope * h
-    if microslip and zone != FIRM and step.length <= MOST_AHEAD * memory.length and gripped < GRIPPED:
+    if zone != FIRM and step.length <= MOST_AHEAD * memory.length and gripped < GRIPPED:
         ratio = step.length / memory.length
         ahead1, _ = collocation(1.0 + NODES[0] * ratio, memory.s1, memory.s2, memory.s3)
         ahead2, _ = collocation(1.0 + NODES[1] * ratio, memory.s1, memory.s2, memory.s3)

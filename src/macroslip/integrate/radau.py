@@ -207,7 +207,8 @@ def _attempt(path, state, step, pace, memory, spent, record):
     if step.held:
         stages = solve_held(path, state, step, memory.exponent, memory.bend)
     else:
-        smooth = has_microslip(path.model)
+        # Without microslip a roller that grips slips too little for its forces to bend in the same way twice.
+        smooth = has_microslip(path.model) or pace.zone == FREE
         guess = first_guess(path, state, step, pace.zone, memory)
         stages = solve_stages(path, state, step, guess, smooth, memory.bend)
     record.count[2] += stages.evaluations

@@ -116,8 +116,6 @@ SETTLED = 1e-6
 #: Parts into which a step is divided to find a peak of power in it, and how many slip tolerances a slip between stages
 #: must be for the power there to be meaningful. With them peaks on the bundled histories are good to 0.6 % at 2e-4.
 PEAK_PARTS, RESOLVED = 10, 3.0
-#: Part of the sum of force magnitudes that is unbalanced where a roller with microslip is not at its balance. Judgement.
-ASTRAY = 0.1
 #: Part of its slip that a roller keeps, at most, over a step in which it snaps back. Judgement.
 SNAP = 0.7
 #: A kink has no parabola; what one may add to the samples is bounded by this factor. And how uneven samples may be for
