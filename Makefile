@@ -16,7 +16,7 @@ reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summar
 test: lint  ## everything that has to hold, some sixteen minutes on two processors where nothing is compiled yet
 	$(PYTEST) $(ARGS)
 
-test-fast: $(VENV)/.ready  ## the loop of development, two minutes
+test-fast: $(VENV)/.ready  ## the loop of development, a minute once kernels are compiled
 	$(PYTEST) -m "not slow and not deep" $(or $(ARGS),tests)
 
 test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs; REPEAT rounds

@@ -45,6 +45,7 @@ def test_an_interrupt_in_a_finalizer_is_not_lost(interruptible):
     assert time.monotonic() - start < 2.0
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_without_it_python_goes_on(interruptible):
     """The fault that is mended: were it gone from Python, this would not be needed."""

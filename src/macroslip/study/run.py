@@ -7,7 +7,6 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from threading import Event
 
 from macroslip.bearing.frames import ROWS
 from macroslip.case.case import WHOLE_BEARING
@@ -139,16 +138,14 @@ def _shared_out(study: Study, threads: int) -> tuple[int, int]:
 @contextmanager
 def _here(runs: int) -> Iterator[Workers]:
     if runs == 1:
-        # In the main thread, where an interrupt waits for the rollers under way only.
         yield ThisProcess()
         return
-    ended = Event()
     with ThreadPoolExecutor(runs) as pool:
+        workers = ThreadsHere(pool, runs)
         try:
-            yield ThreadsHere(pool, runs, ended)
+            yield workers
         finally:
-            ended.set()
-            pool.shutdown(cancel_futures=True)
+            workers.give_up()
 
 
 def _cannot_store(error: OSError, directory: Path) -> MacroslipError:

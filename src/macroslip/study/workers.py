@@ -58,13 +58,16 @@ class ThreadsHere:
     pool : ThreadPoolExecutor
     runs : int
         Runs at once.
-    ended : threading.Event
-        Set when no more is wanted: runs under way are given up within a second.
     """
 
-    def __init__(self, pool: ThreadPoolExecutor, runs: int, ended: Event):
-        self._pool, self._runs, self._ended = pool, runs, ended
+    def __init__(self, pool: ThreadPoolExecutor, runs: int):
+        self._pool, self._runs, self._ended = pool, runs, Event()
         self._under_way: dict[Future, dict[str, Any]] = {}
+
+    def give_up(self) -> None:
+        """No more is wanted: runs that have not begun never will, and those under way end within a second."""
+        self._ended.set()
+        self._pool.shutdown(cancel_futures=True)
 
     def free_places(self) -> int:
         """As many as run at once."""
