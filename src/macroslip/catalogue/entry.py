@@ -12,7 +12,7 @@ from typing import Any
 from macroslip.catalogue.problems import shown, unknown_key
 from macroslip.catalogue.quantity import parse_quantity
 from macroslip.catalogue.source import Source
-from macroslip.catalogue.units import NUMBER, Dimension
+from macroslip.catalogue.units import NUMBER, Dimension, with_unit
 from macroslip.errors import InputError
 
 TAGS: Mapping[str, str] = MappingProxyType(
@@ -63,7 +63,7 @@ class Provenance:
     @property
     def written(self) -> str:
         """Value and unit as written."""
-        return f"{self.value}{'' if self.unit == '1' else f' {self.unit}'}"
+        return with_unit(self.value, self.unit)
 
 
 def is_finite_number(value: object) -> bool:

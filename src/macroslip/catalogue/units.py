@@ -11,6 +11,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
+def with_unit(value: object, unit: str) -> str:
+    """A value as text with its unit behind it, if it has one.
+
+    Examples
+    --------
+    >>> with_unit(70, "mm"), with_unit(28, "1")
+    ('70 mm', '28')
+    """
+    return f"{value}" if unit == "1" else f"{value} {unit}"
+
+
 @dataclass(frozen=True)
 class Unit:
     """A unit by its distance from SI: SI value = (value + offset) * scale."""
@@ -81,7 +92,7 @@ class Dimension:
         """
         chosen = self.units[unit]
         number = f"{float(Fraction(si_value) / chosen.scale - chosen.offset):.6g}"
-        return number if unit == "1" else f"{number} {unit}"
+        return with_unit(number, unit)
 
 
 def _dimension(**scales: Fraction | int) -> Dimension:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from macroslip.catalogue.units import with_unit
 from macroslip.cli.bearing import add_commands
 from macroslip.cli.failure import command
 from macroslip.files import check_new_file, new_file
@@ -59,7 +60,7 @@ def _catalogue(
             print_json({"name": record.name, "title": record.title, "values": values, "what follows from it": follows})
             return
         rows = [
-            [key, _written(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]
+            [key, with_unit(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]
             for key, origin in record.provenance.items()
         ]
         headings = [("key", False), ("value", True), ("where it comes from", False), ("note", False)]
@@ -80,10 +81,6 @@ def _catalogue(
     for function in (list, show, schema):
         command(app, function)
     return app
-
-
-def _written(value: float, unit: str) -> str:
-    return f"{value}" if unit == "1" else f"{value} {unit}"
 
 
 def _bearing_class() -> type[Bearing]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from macroslip.catalogue.entry import TAGS
+from macroslip.catalogue.units import with_unit
 from macroslip.integrate.status import Status
 from macroslip.machine import machine
 from macroslip.report.bibliography import bibtex
@@ -102,8 +103,7 @@ def _record(entries: Mapping[str, Any], title: str) -> Table:
     for key, entry in entries.items():
         if isinstance(entry, dict):
             tag = str(entry.get("tag", ""))
-            unit = str(entry.get("unit", ""))
-            value = f"{entry.get('value')}" + ("" if unit == "1" else f" {unit}")
+            value = with_unit(entry.get("value"), str(entry.get("unit", "")))
             rows.append((key, value, TAGS.get(tag, tag), str(entry.get("note", ""))))
         else:
             rows.append((key, str(entry), "", ""))

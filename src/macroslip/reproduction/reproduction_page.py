@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from macroslip.catalogue.units import with_unit
 from macroslip.report.bearing_section import roller_sections, view_section
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Statements, Table, render
 from macroslip.report.pictures import picture
@@ -152,6 +153,6 @@ def _sensitivity_table(table: xr.Dataset) -> Table:
             if level != "base" and float(at.value) == float(one.value.sel(level="base")):
                 continue
             cells = [f"{float(at[what].sel(row=row)):.4g}" for what in ("energy", "peak_power") for row in sides]
-            rows.append((name, f"{float(at.value):g}" + ("" if unit == "1" else f" {unit}"), *cells))
+            rows.append((name, with_unit(f"{float(at.value):g}", unit), *cells))
     of = [f"{what}, {row} [{unit}]" for what, unit in (("energy", "J"), ("mean P_max", "W")) for row in sides]
     return Table(("value", "set to", *of), tuple(rows))

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from macroslip.catalogue.units import with_unit
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UncertainValue:
@@ -80,7 +82,7 @@ class UncertainValue:
         """The range in words."""
         if self.choices:
             return " or ".join(self.choices)
-        return f"{self.low:g} to {self.high:g}" + ("" if self.unit == "1" else f" {self.unit}")
+        return with_unit(f"{self.low:g} to {self.high:g}", self.unit)
 
 
 #: Units of the ranges in those of a study file.

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager, closing, nullcontext
 from os import PathLike
 from pathlib import Path
 
@@ -135,17 +134,8 @@ def _shared_out(study: Study, threads: int) -> tuple[int, int]:
     return 1, threads
 
 
-@contextmanager
-def _here(runs: int) -> Iterator[Workers]:
-    if runs == 1:
-        yield ThisProcess()
-        return
-    with ThreadPoolExecutor(runs) as pool:
-        workers = ThreadsHere(pool, runs)
-        try:
-            yield workers
-        finally:
-            workers.give_up()
+def _here(runs: int) -> AbstractContextManager[Workers]:
+    return nullcontext(ThisProcess()) if runs == 1 else closing(ThreadsHere(runs))
 
 
 def _cannot_store(error: OSError, directory: Path) -> MacroslipError:

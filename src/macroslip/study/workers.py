@@ -55,16 +55,15 @@ class ThreadsHere:
 
     Parameters
     ----------
-    pool : ThreadPoolExecutor
     runs : int
         Runs at once.
     """
 
-    def __init__(self, pool: ThreadPoolExecutor, runs: int):
-        self._pool, self._runs, self._ended = pool, runs, Event()
+    def __init__(self, runs: int):
+        self._pool, self._runs, self._ended = ThreadPoolExecutor(runs), runs, Event()
         self._under_way: dict[Future, dict[str, Any]] = {}
 
-    def give_up(self) -> None:
+    def close(self) -> None:
         """No more is wanted: runs that have not begun never will, and those under way end within a second."""
         self._ended.set()
         self._pool.shutdown(cancel_futures=True)
