@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from macroslip.catalogue.units import with_unit
 from macroslip.cli.bearing import add_commands
 from macroslip.cli.failure import command
 from macroslip.files import check_new_file, new_file
@@ -46,6 +45,7 @@ def _catalogue(
         as_json: AsJson = False,
     ) -> None:
         from macroslip.catalogue import TAGS
+        from macroslip.catalogue.units import with_unit
         from macroslip.cli.printing import print_json, print_table
 
         record = load().read(name_or_file)

@@ -51,7 +51,7 @@ def plot_tornado(axes: Axes, table: xr.Dataset, quantity: str, row: str) -> Axes
                 va="center",
                 fontsize=9,
             )
-    names = [_with_unit(str(table.variation[int(k)].values), str(table.unit[int(k)].values)) for k in order]
+    names = [_labelled(str(table.variation[int(k)].values), str(table.unit[int(k)].values)) for k in order]
     axes.set_yticks(np.arange(len(names)), names)
     axes.axvline(1.0, color=GREY, linewidth=0.9)
     axes.set_xscale("log")
@@ -63,7 +63,7 @@ def plot_tornado(axes: Axes, table: xr.Dataset, quantity: str, row: str) -> Axes
     return finish(axes, f"{words} / that of the base case [–]", "", f"{row} row")
 
 
-def _with_unit(name: str, unit: str) -> str:
+def _labelled(name: str, unit: str) -> str:
     return name if unit == "1" else f"{name} [{unit}]"
 
 
