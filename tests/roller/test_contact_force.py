@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from macroslip.film.film_law import film_thickness
 from macroslip.integrate.held_contact import slip_variation, steady_slip
 from macroslip.mechanisms import Laws
+from macroslip.roller.cage_force import cage_force
 from macroslip.roller.contact_force import (
     CurvedContact,
     PlainContact,
-    cage_force,
     raceway_force,
     slip_field,
 )

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from macroslip import Bearing, Laws, Lubricant, load_laws
-from macroslip.roller.contact_force import cage_force, raceway_force
+from macroslip.roller.cage_force import cage_force
+from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import interfaces, roller_model
 from macroslip.traction import traction_law

@@ -10,14 +10,15 @@ from hypothesis import strategies as st
 from macroslip.contact import table_store
 from macroslip.mechanisms import Laws
 from macroslip.roller import play_build, raceway_build
+from macroslip.roller.cage_force import cage_force
 from macroslip.roller.contact import raceway_contact
-from macroslip.roller.contact_force import cage_force, raceway_force
+from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.films import cage_film, raceway_film
 from macroslip.roller.forces import Station, slip_forces
 from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import roller_model
 from macroslip.roller.play import carried, film_load
-from macroslip.roller.raceway_table import no_raceway_table, table_force
+from macroslip.roller.raceway_table import no_raceway_table, place_of, table_force
 from macroslip.roller.table_box import LARGEST_ERROR, TableBox, error_summary, table_box
 from macroslip.roller.tables import needs_tables, tabulated
 
@@ -44,6 +45,10 @@ def made(rows):
 
 def both(made, rows, row, ring):
     return getattr(made[0][row], ring), getattr(rows[row], ring)
+
+
+def looked_up(table, load, speed, slip):
+    return table_force(table, place_of(table, load, speed, slip), load, speed, slip)
 
 
 def forces(contact, load, speed, slip):
@@ -95,12 +100,12 @@ def test_most_states_are_known_and_the_rest_are_those_of_the_laws(made, rows, ri
     unknown = 0
     for _ in range(1000):
         load, speed, ratio = 10.0 ** random.uniform(-1.0, 5.2), random.uniform(0.3, 0.5), random.uniform(-0.1, 1.1)
-        if not table_force(table.table, load, speed, ratio * speed).known:
+        if not looked_up(table.table, load, speed, ratio * speed).known:
             unknown += 1
             assert forces(table, load, speed, ratio * speed) == forces(laws, load, speed, ratio * speed)
     assert 200 < unknown < 900
     empty = no_raceway_table()
-    assert not table_force(empty, 1e3, 0.4, 0.1).known and not table_force(table.table, 1e3, 0.0, 0.1).known
+    assert not looked_up(empty, 1e3, 0.4, 0.1).known and not looked_up(table.table, 1e3, 0.0, 0.1).known
 
 
 @rings
@@ -113,9 +118,7 @@ def test_derivatives_of_a_table_are_those_of_its_values(made, rows, ring, load, 
     steps = np.array([1e-4 * load, 1e-5 * speed, 1e-5 * 6e-4 * (1.0 + abs(ratio) / 6e-4) * speed])
     found = raceway_contact(table, *state)
     around = [[forces(table, *(state + sign * step))[0] for sign in (1, -1)] for step in np.diag(steps)]
-    assume(
-        all(table_force(table.table, *(state + sign * step)).known for step in np.diag(steps) for sign in (-1, 0, 1))
-    )
+    assume(all(looked_up(table.table, *(state + sign * step)).known for step in np.diag(steps) for sign in (-1, 0, 1)))
     here, power = forces(table, *state)
     assert (found.spin, found.pull) == pytest.approx((here.spin, here.pull), rel=1e-10)
     assert (found.power, found.asperity_power) == pytest.approx((power, here.detail.asperity_power), rel=1e-10)
@@ -146,7 +149,7 @@ def test_a_held_roller_is_known_where_its_moments_balance(made, rows, ring):
     """At −0.002 of the ring's speed the moment passes through zero, and no relative error of it would be small."""
     table, _ = both(made, rows, "downwind", ring)
     known = [
-        table_force(table.table, load, 0.4, ratio * 0.4).known
+        looked_up(table.table, load, 0.4, ratio * 0.4).known
         for load in np.geomspace(2.1e4, 8e4, 30)
         for ratio in np.linspace(-0.005, 0.0, 30)
     ]
@@ -168,7 +171,7 @@ def test_the_other_row_has_the_other_sign_of_the_skew_moment(made, rows, ring):
 def test_slopes_are_those_of_the_values(made, rows, ring, load, speed, ratio):
     table = getattr(made[0]["downwind"], ring)
     step = 1e-7 * max(abs(ratio), 1e-3)
-    there = [table_force(table.table, load, speed, (ratio + change) * speed) for change in (-step, 0.0, step)]
+    there = [looked_up(table.table, load, speed, (ratio + change) * speed) for change in (-step, 0.0, step)]
     assume(all(one.known for one in there))
     for name in ("pull", "lag"):
         difference = (getattr(there[2], name) - getattr(there[0], name)) / (2.0 * step * speed)
@@ -227,7 +230,7 @@ def test_idle_rollers_are_in_the_tables(made):
     """A flooded roller without load turns at a tenth of pure rolling, under the few newtons of its films."""
     for load in (2.0, 5.0, 20.0, 60.0):
         for ratio in (0.85, 0.9, 0.95):
-            assert table_force(made[0]["upwind"].outer.table, load, 0.4, ratio * 0.4).known
+            assert looked_up(made[0]["upwind"].outer.table, load, 0.4, ratio * 0.4).known
 
 
 @given(play=st.floats(0.0, 4e-4), body=st.floats(-34.0, 34.0), speed=speeds)

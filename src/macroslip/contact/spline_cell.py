@@ -1,8 +1,7 @@
 """Cubic B-splines on unit knots, one cell at a time, with four coefficients in a vector register of the processor.
 
 A contact with microslip looks some thirty stresses up for every force evaluation, and each is a weighted sum of 64
-coefficients. LLVM does not put such short sums into vectors by itself; written as vectors they take a quarter of the
-time. The order of all sums is fixed, so results are the same on processors with registers of any length.
+coefficients. Written as vectors they take a quarter of the time.
 """
 
 from __future__ import annotations
@@ -13,59 +12,13 @@ from llvmlite import ir
 from numba import TypingError, types
 from numba.extending import intrinsic
 
-_LANES = 4
-_INDEX, _SIZE = ir.IntType(32), ir.IntType(64)
-_VECTOR = ir.VectorType(ir.DoubleType(), _LANES)
-_EMPTY = ir.Constant(_VECTOR, ir.Undefined)
-_WEIGHTS = types.UniTuple(types.float64, _LANES)
+from macroslip.contact.vectors import LANES, Vectors
+
+_SIZE = ir.IntType(64)
+_WEIGHTS = types.UniTuple(types.float64, LANES)
 #: The four weights as a polynomial of the place in the cell, constant term first, and their derivatives.
 _CUBIC = [[1 / 6, 4 / 6, 1 / 6, 0.0], [-0.5, 0.0, 0.5, 0.0], [0.5, -1.0, 0.5, 0.0], [-1 / 6, 0.5, -0.5, 1 / 6]]
 _QUADRATIC = [[-0.5, 0.0, 0.5, 0.0], [1.0, -2.0, 1.0, 0.0], [-0.5, 1.5, -1.5, 0.5]]
-
-
-class _Vectors:
-    """Writes operations on vectors of four float."""
-
-    def __init__(self, builder: ir.IRBuilder):
-        self._builder = builder
-
-    def lanes(self, vector: Any) -> list[Any]:
-        return [self._builder.extract_element(vector, ir.Constant(_INDEX, n)) for n in range(_LANES)]
-
-    def splat(self, value: Any) -> Any:
-        """The same number in all lanes."""
-        first = self._builder.insert_element(_EMPTY, value, ir.Constant(_INDEX, 0))
-        return self._builder.shuffle_vector(first, _EMPTY, ir.Constant(ir.VectorType(_INDEX, _LANES), [0] * _LANES))
-
-    def polynomial(self, terms: list[list[float]], place: Any) -> Any:
-        """Horner's scheme in every lane."""
-        total = ir.Constant(_VECTOR, terms[-1])
-        for term in terms[-2::-1]:
-            total = self._fmuladd(total, place, ir.Constant(_VECTOR, term))
-        return total
-
-    def _fmuladd(self, one: Any, other: Any, added: Any) -> Any:
-        """A product and a sum, in one operation where the processor has that."""
-        kind = ir.FunctionType(_VECTOR, [_VECTOR] * 3)
-        function = self._builder.module.declare_intrinsic("llvm.fmuladd.v4f64", fnty=kind)
-        return self._builder.call(function, [one, other, added])
-
-    def weighted_sum(self, weights: list[Any], vectors: list[Any]) -> Any:
-        total = self._builder.fmul(weights[0], vectors[0])
-        for weight, vector in zip(weights[1:], vectors[1:], strict=True):
-            total = self._fmuladd(weight, vector, total)
-        return total
-
-    def splat_lanes(self, vector: Any) -> list[Any]:
-        """For each lane a vector with its number in all lanes."""
-        return [self.splat(one) for one in self.lanes(vector)]
-
-    def dot(self, one: Any, other: Any) -> Any:
-        a, b, c, d = self.lanes(self._builder.fmul(one, other))
-        return self._builder.fadd(self._builder.fadd(a, b), self._builder.fadd(c, d))
-
-    def load(self, address: Any) -> Any:
-        return self._builder.load(self._builder.inttoptr(address, _VECTOR.as_pointer()), align=8)
 
 
 def _parts(builder: ir.IRBuilder, value: Any) -> list[Any]:
@@ -99,7 +52,7 @@ def weights_and_slopes(typingctx, place):
     """
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        write = _Vectors(builder)
+        write = Vectors(builder)
         t = write.splat(arguments[0])
         lanes = [write.lanes(write.polynomial(terms, t)) for terms in (_CUBIC, _QUADRATIC)]
         fours = [context.make_tuple(builder, _WEIGHTS, four) for four in lanes]
@@ -128,7 +81,7 @@ def along_line(typingctx, coefficients, cell, place):
     _check(coefficients, 1)
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        write = _Vectors(builder)
+        write = Vectors(builder)
         address, _ = _address(context, builder, coefficients, arguments[0], arguments[1:2])
         t, values = write.splat(arguments[2]), write.load(address)
         found = [write.dot(write.polynomial(terms, t), values) for terms in (_CUBIC, _QUADRATIC)]
@@ -159,15 +112,15 @@ def in_cell(typingctx, coefficients, cells, first_place, third_place, second_wei
     _check(coefficients, 3)
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        write = _Vectors(builder)
+        write = Vectors(builder)
         indices = _parts(builder, arguments[1])
         corner, strides = _address(context, builder, coefficients, arguments[0], indices)
         t, u = write.splat(arguments[2]), write.splat(arguments[3])
         z = [write.splat(weight) for weight in _parts(builder, arguments[4])]
         planes = []
-        for _ in range(_LANES):
+        for _ in range(LANES):
             lines, line = [], corner
-            for _ in range(_LANES):
+            for _ in range(LANES):
                 lines.append(write.load(line))
                 line = builder.add(line, strides[1])
             planes.append(write.weighted_sum(z, lines))
@@ -212,7 +165,7 @@ def channels_in_cell(typingctx, coefficients, cells, places):
     _check(coefficients, 4)
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        write = _Vectors(builder)
+        write = Vectors(builder)
         indices = [*_parts(builder, arguments[1]), ir.Constant(_SIZE, 0)]
         corner, strides = _address(context, builder, coefficients, arguments[0], indices)
         (w, dw), (z, dz), (v, dv) = (
@@ -220,11 +173,11 @@ def channels_in_cell(typingctx, coefficients, cells, places):
             for place in _parts(builder, arguments[2])
         )
         lines, by_first, by_second = [], [], []
-        for _ in range(_LANES):
+        for _ in range(LANES):
             plane, sums, slopes = corner, [], []
-            for _ in range(_LANES):
+            for _ in range(LANES):
                 line, values = plane, []
-                for _ in range(_LANES):
+                for _ in range(LANES):
                     values.append(write.load(line))
                     line = builder.add(line, strides[1])
                 sums.append(write.weighted_sum(z, values))
@@ -264,7 +217,7 @@ def channels_in_square(typingctx, coefficients, cells, places):
     _check(coefficients, 3)
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        write = _Vectors(builder)
+        write = Vectors(builder)
         indices = [*_parts(builder, arguments[1]), ir.Constant(_SIZE, 0)]
         corner, strides = _address(context, builder, coefficients, arguments[0], indices)
         first, second = (write.splat(place) for place in _parts(builder, arguments[2]))
@@ -273,9 +226,9 @@ def channels_in_square(typingctx, coefficients, cells, places):
             for place in (first, second)
         )
         lines, slopes = [], []
-        for _ in range(_LANES):
+        for _ in range(LANES):
             value, values = corner, []
-            for _ in range(_LANES):
+            for _ in range(LANES):
                 values.append(write.load(value))
                 value = builder.add(value, strides[1])
             lines.append(write.weighted_sum(z, values))

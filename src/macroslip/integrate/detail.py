@@ -14,7 +14,7 @@ from macroslip.compiled import jit_part
 from macroslip.contact.flash_temperature import flash_temperature
 from macroslip.film.asperity_load import asperity_share
 from macroslip.film.film_law import film_thickness
-from macroslip.integrate.surface import STATIONS, raise_density, spread
+from macroslip.integrate.surface import STATIONS, raise_density, sectors_of, spread
 from macroslip.reference import tuple_type
 from macroslip.roller.contact import cage_contact
 from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, is_curved, slip_field
@@ -90,7 +90,7 @@ def collect(record, interface, energy):
 
 
 @jit_part
-def _spread(record, interface, way, part):
+def _spread(record, interface, passed, part):
     """Spread a part of what was kept over the stations, and over the places of the raceway that were passed.
 
     Along the roller it is in proportion to the powers of `station_work`; along the way it is even. Without any power yet
@@ -103,8 +103,8 @@ def _spread(record, interface, way, part):
     if total <= 0.0:
         return
     for k in range(STATIONS):
-        record.station_energy[interface, k] += energy * abs(powers[k]) / total
-    spread(record.surface_energy, interface, way, powers, energy)
+        record.station_energy[interface, k] += energy / total * abs(powers[k])
+    spread(record.surface_energy, interface, passed, powers, energy / total)
     powers[STATIONS] -= energy
 
 
@@ -115,12 +115,12 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
     Half of it as power lay at the last look and half as it lies now. Without load all of it as power lay when there last
     was some; before that it is kept.
     """
-    ring_speed, way = at.ring_speed, passage.way
+    ring_speed, passed = at.ring_speed, sectors_of(passage.way, interface)
     powers = record.station_work[interface]
     if load <= 0.0:
-        _spread(record, interface, way, 1.0)
+        _spread(record, interface, passed, 1.0)
         return
-    _spread(record, interface, way, 0.5)
+    _spread(record, interface, passed, 0.5)
     entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
     film, _, _ = film_thickness(contact.film, load, entrainment)
     share = asperity_share(contact.asperity_load, load, entrainment, film)
@@ -129,7 +129,8 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
     across, along = contact.semi_axis_across * root_load, contact.semi_axis_along * root_load
     width = 2.0 * contact.shape.half_length / STATIONS
     boundary = 0.75 * contact.asperity_friction.coefficient * share * load / across
-    flash, density, fastest = 0.0, 0.0, 0.0
+    # Flash temperature goes with P'/√b: where its square is the largest, it is taken once.
+    hottest, flash_power, flash_width, density, fastest = 0.0, 0.0, along, 0.0, 0.0
     for k in range(STATIONS):
         left = k * width - contact.shape.half_length
         # What the ellipse covers of the station, so that the lightest contact too lies in the two middle ones.
@@ -146,16 +147,18 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
         pull += boundary * height * min(speed / contact.asperity_friction.full_slip, 1.0)
         powers[k] = math.copysign(pull * speed * covered, local)
         half_width = along * chord
-        roller, ring = ring_speed - slip, ring_speed
-        flash = max(
-            flash, flash_temperature(pull * speed, half_width, roller, ring, contact.effusivity_1, contact.effusivity_2)
-        )
-        mean = pull * speed / (2.0 * half_width)
+        per_length = pull * speed
+        mean = per_length / (2.0 * half_width)
+        if per_length * mean > hottest:
+            hottest, flash_power, flash_width = per_length * mean, per_length, half_width
         density = max(density, mean)
-        raise_density(record.surface_density, interface, way, k, mean)
+        raise_density(record.surface_density, interface, passed, k, mean)
         fastest = max(fastest, speed)
+    flash = flash_temperature(
+        flash_power, flash_width, ring_speed - slip, ring_speed, contact.effusivity_1, contact.effusivity_2
+    )
     powers[STATIONS + 1] = 1.0 if film >= contact.roughness else 0.0
-    _spread(record, interface, way, 1.0)
+    _spread(record, interface, passed, 1.0)
     _raise(record, passage.orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 

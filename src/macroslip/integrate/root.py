@@ -35,8 +35,8 @@ def is_continuous(path, state, step, stages):
     if min(stages.f1.slope, stages.f2.slope, stages.f3.slope) < -0.5 * step.scale:
         return False
     slip, limits = state.slip, path.limits
+    change = max(abs(stages.v1 - slip), abs(stages.v2 - slip), abs(stages.v3 - slip))
+    if change <= HOT_CHANGE * abs(slip) + SMALL_CHANGE * limits.speed_scale:
+        return True
     largest = max(abs(slip), abs(stages.v1), abs(stages.v2), abs(stages.v3))
-    if largest > limits.cold_slip and largest > _surely_rising(path.model, state.at, step, largest):
-        change = max(abs(stages.v1 - slip), abs(stages.v2 - slip), abs(stages.v3 - slip))
-        return change <= HOT_CHANGE * abs(slip) + SMALL_CHANGE * limits.speed_scale
-    return True
+    return largest <= limits.cold_slip or largest <= _surely_rising(path.model, state.at, step, largest)

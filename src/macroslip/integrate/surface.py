@@ -39,53 +39,71 @@ class Way(NamedTuple):
     after: float
 
 
+class Passed(NamedTuple):
+    """Sectors of a raceway that a way leads through.
+
+    Attributes
+    ----------
+    start, end : float
+        Of the way, in sectors and not wound back to one turn; `start` is the lower one.
+    lowest, count : int
+        The first sector, not wound back either, and how many there are.
+    first : int
+        The first sector as the maps count it.
+    """
+
+    start: float
+    end: float
+    lowest: int
+    count: int
+    first: int
+
+
 @jit_part
-def sector_of(way, interface, part):
-    """Place of a roller on a raceway after part of its way, in sectors, with fraction and not wound back to one turn."""
-    turned = way.before + part * (way.after - way.before)
+def sectors_of(way, interface):
+    """Sectors of a raceway, 0 the inner and 1 the outer, that a `Way` leads through: `Passed`."""
     ratio = way.orbit_ratio if interface == 1 else way.orbit_ratio - 1.0
-    return (way.start_angle + ratio * turned) * (SECTORS / (2.0 * math.pi))
+    per_angle = SECTORS / (2.0 * math.pi)
+    before = (way.start_angle + ratio * way.before) * per_angle
+    after = (way.start_angle + ratio * way.after) * per_angle
+    start, end = min(before, after), max(before, after)
+    lowest = math.floor(start)
+    return Passed(start, end, lowest, math.floor(end) - lowest + 1, lowest % SECTORS)
 
 
 @jit_part
-def spread(surface, interface, way, powers, energy):
-    """Give the places a roller passes the energy of its way, evenly.
+def spread(surface, interface, passed, powers, energy):
+    """Give the places a roller passes their energy, evenly along the way.
 
     Parameters
     ----------
     surface : ndarray, shape (raceways, sectors, stations, signs of slip, film regimes)
         Energies [J].
+    interface : int
+    passed : Passed
     powers : ndarray, shape (stations + 2,)
-        Powers along the roller in proportion to which the energy is given [W], with the sign of slip, and in the last
+        Powers along the roller in proportion to which energy is given [W], with the sign of slip, and in the last
         place which film regime it is.
     energy : float
-        [J].
+        Energy per power [J/W].
     """
-    total = 0.0
-    for k in range(STATIONS):
-        total += abs(powers[k])
-    if total <= 0.0 or energy == 0.0:
-        return
-    start, end = sector_of(way, interface, 0.0), sector_of(way, interface, 1.0)
-    if start > end:
-        start, end = end, start
-    length = end - start
-    regime = int(powers[STATIONS + 1])
-    lowest, highest = math.floor(start), math.floor(end)
-    for sector in range(lowest, highest + 1):
-        passed = 1.0 if lowest == highest else (min(end, sector + 1.0) - max(start, float(sector))) / length
-        share = energy * passed / total
-        place = surface[interface, sector % SECTORS]
+    regime, place = int(powers[STATIONS + 1]), passed.first
+    for n in range(passed.count):
+        sector, share = passed.lowest + n, energy
+        if passed.count > 1:
+            within = min(passed.end, sector + 1.0) - max(passed.start, float(sector))
+            share *= within / (passed.end - passed.start)
+        energies = surface[interface, place]
         for k in range(STATIONS):
-            place[k, 1 if powers[k] > 0.0 else 0, regime] += share * abs(powers[k])
+            energies[k, 1 if powers[k] > 0.0 else 0, regime] += share * abs(powers[k])
+        place = place + 1 if place + 1 < SECTORS else 0
 
 
 @jit_part
-def raise_density(largest, interface, way, station, density):
+def raise_density(largest, interface, passed, station, density):
     """Let the largest power per area of the places a roller passes be at least `density` [W/m²]."""
-    start, end = sector_of(way, interface, 0.0), sector_of(way, interface, 1.0)
-    if start > end:
-        start, end = end, start
-    for sector in range(math.floor(start), math.floor(end) + 1):
-        place = largest[interface, sector % SECTORS]
-        place[station] = max(place[station], density)
+    place = passed.first
+    for _ in range(passed.count):
+        densities = largest[interface, place]
+        densities[station] = max(densities[station], density)
+        place = place + 1 if place + 1 < SECTORS else 0

@@ -131,4 +131,4 @@ SPIN_RATIO_SPEED = 0.1
 #: of the time.
 LOOK_CHANGE, LOOK_RISE, LOOK_TURN = 0.1, 1.03, 0.175
 #: Looks from one at the quadrature's error to the next, which takes as long as a hundred others.
-FINE_LOOKS = 512
+FINE_LOOKS = 1024

@@ -11,16 +11,16 @@ from numba.extending import overload
 
 from macroslip.compiled import jit
 from macroslip.film.film_law import film_thickness
+from macroslip.roller.cage_force import cage_force
 from macroslip.roller.contact_force import (
     LOWEST_ENTRAINMENT_SPEED,
     CurvedContact,
     Detail,
-    cage_force,
     is_curved,
     raceway_force,
 )
 from macroslip.roller.friction_power import asperity_power, friction_power
-from macroslip.roller.raceway_table import table_slopes
+from macroslip.roller.raceway_table import place_of, table_slopes
 from macroslip.traction.traction_law import patch_traction
 
 #: Part of a load or speed by which it is changed for a difference.
@@ -102,7 +102,8 @@ def _curved_contact(contact, load, ring_speed, slip):
     """A contact over which slip varies: without a table its derivatives by load and ring speed are differences."""
     if load <= 0.0:
         return RacewayContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    found = table_slopes(contact.table, load, ring_speed, slip)
+    place = place_of(contact.table, load, ring_speed, slip)
+    found = table_slopes(contact.table, place, load, ring_speed, slip)
     if found.known:
         (pull, lag, skew), rough = found.value, found.asperity_power
         spin = pull - lag

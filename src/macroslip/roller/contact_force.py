@@ -1,4 +1,4 @@
-"""Traction of one contact of a roller: film, traction and, in a curved contact, microslip and asperities together.
+"""Traction of a raceway contact: film, traction and, in a curved contact, microslip and asperities together.
 
 Two kinds of contact exist. A `PlainContact` has the same slip all over, as in the paper's model; its kernels contain
 nothing else. A `CurvedContact` has a slip field over the stations along the roller's axis, and asperities that
@@ -8,17 +8,16 @@ may have a table of what its laws give, which is looked up first.
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
+from numba import types
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.shape import ContactShape
 from macroslip.film.asperity_load import AsperityLoad, asperity_share
 from macroslip.film.film_law import film_thickness
-from macroslip.roller.plane_table import plane_values
-from macroslip.roller.raceway_table import table_force
+from macroslip.roller.raceway_table import place_of, table_force
 from macroslip.traction.asperity_friction import AsperityFriction, asperity_friction
 from macroslip.traction.slip_field import SlipField
 from macroslip.traction.traction_law import patch_traction, patch_traction_microslip
@@ -157,10 +156,10 @@ def slip_field(shape, slip, ring_speed):
 
 
 @jit_inline
-def _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
+def _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, place):
     if load <= 0.0:
         return ContactForce(0.0, 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0))
-    found = table_force(contact.table, load, ring_speed, slip)
+    found = table_force(contact.table, place, load, ring_speed, slip)
     if found.known:
         return ContactForce(
             found.pull - found.lag,
@@ -192,46 +191,7 @@ def _raceway_by_laws(contact, load, slip, ring_speed, entrainment_speed, entrain
     return ContactForce(pull - lag, pull, pull_slope - lag_slope, pull_slope, detail)
 
 
-@jit_inline
-def _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope):
-    if load <= 0.0:
-        return 0.0, 0.0, 0.0, Detail(0.0, 0.0, 0.0)
-    table = contact.table
-    found = plane_values(table, math.log(load), math.log(abs(slip)))
-    if found.known:
-        conductance = math.exp(found.value[0])
-        force = conductance * slip
-        return (
-            force,
-            conductance * (1.0 + found.by_speed[0] * table.speed.per_spacing),
-            force * found.by_load[0] * table.load.per_spacing / load,
-            Detail(0.0, 0.0, found.value[1] * force * slip),
-        )
-    return _cage_by_laws(contact, load, slip, entrainment_speed, entrainment_slope)
-
-
-@jit
-def _cage_by_laws(contact, load, slip, entrainment_speed, entrainment_slope):
-    if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
-        entrainment_speed = LOWEST_ENTRAINMENT_SPEED
-        entrainment_slope = 0.0
-    film, film_by_speed, film_by_load = film_thickness(contact.film, load, entrainment_speed)
-    force, slope, force_by_film, by_load = patch_traction(contact.traction, load, film, slip)
-    slope += force_by_film * film_by_speed * entrainment_slope
-    by_load += force_by_film * film_by_load
-    share = asperity_share(contact.asperity_load, load, entrainment_speed, film)
-    field = SlipField(slip, 0.0, 0.0, 0.0)
-    rough = asperity_friction(contact.asperity_friction, load, share, field, contact.shape)
-    fluid = 1.0 - share
-    return (
-        fluid * force + rough.force,
-        fluid * slope + rough.force_slope,
-        fluid * by_load + rough.force / load,
-        Detail(0.0, 0.0, rough.power),
-    )
-
-
-def raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
+def raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, place=None):
     """Traction of a raceway contact.
 
     Parameters
@@ -248,6 +208,8 @@ def raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainmen
         for |u2 − Δu/2|.
     entrainment_slope : float
         du_e/dΔu [-].
+    place : RacewayPlace, optional
+        In the contact's table, where it is known already.
 
     Returns
     -------
@@ -255,15 +217,15 @@ def raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainmen
         With asperities, film and asperities in proportion to the load each carries: the film acts on its share of the
         area at the full Hertz pressure.
     """
-    compiled = _curved_raceway if isinstance(contact, CurvedContact) else _plain_raceway
-    return compiled(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope)
+    given = contact, load, slip, ring_speed, entrainment_speed, entrainment_slope
+    if not isinstance(contact, CurvedContact):
+        return _plain_raceway(*given)
+    return _curved_raceway(*given, place_of(contact.table, load, ring_speed, slip) if place is None else place)
 
 
-def cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
-    """Traction of the cage contact, whose slip is the same all over: F [N], dF/dΔu [N s/m], ∂F/∂Q [-] and a `Detail`."""
-    if isinstance(contact, CurvedContact):
-        return _curved_cage(contact, load, slip, entrainment_speed, entrainment_slope)
-    return (*contact_force(contact, load, slip, entrainment_speed, entrainment_slope), None)
+def is_known(argument) -> bool:
+    """Whether an optional argument is given, from its numba type; for use where a kernel is compiled."""
+    return argument is not None and not isinstance(argument, types.NoneType | types.Omitted)
 
 
 def is_curved(contact) -> bool:
@@ -272,24 +234,17 @@ def is_curved(contact) -> bool:
 
 
 @overload(raceway_force)
-def _raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
-    compiled = _curved_raceway if is_curved(contact) else _plain_raceway
+def _raceway_force(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, place=None):
+    def plain(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, place=None):
+        return _plain_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope)
 
-    def implementation(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope):
-        return compiled(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope)
+    def at_place(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, place=None):
+        return _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, place)
 
-    return implementation
+    def by_state(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, place=None):
+        found = place_of(contact.table, load, ring_speed, slip)
+        return _curved_raceway(contact, load, slip, ring_speed, entrainment_speed, entrainment_slope, found)
 
-
-@overload(cage_force)
-def _cage_force(contact, load, slip, entrainment_speed, entrainment_slope):
-    if is_curved(contact):
-        return lambda contact, load, slip, entrainment_speed, entrainment_slope: _curved_cage(
-            contact, load, slip, entrainment_speed, entrainment_slope
-        )
-
-    def plain(contact, load, slip, entrainment_speed, entrainment_slope):
-        force, slope, by_load = contact_force(contact, load, slip, entrainment_speed, entrainment_slope)
-        return force, slope, by_load, None
-
-    return plain
+    if not is_curved(contact):
+        return plain
+    return at_place if is_known(place) else by_state

@@ -11,9 +11,13 @@ from typing import Any, NamedTuple
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.logarithms import two_logarithms
+from macroslip.roller.contact_force import is_known
 from macroslip.roller.plane_table import PlaneTable, plane_values
 from macroslip.roller.play_table import PlayTable
 from macroslip.rolling.light_contact import light_contact, pocket_contact
+
+_LN_2 = math.log(2.0)
 
 
 class NoFilms(NamedTuple):
@@ -101,20 +105,19 @@ class CageFilm(NamedTuple):
 
 
 @jit_inline
-def _raceway_film(law, table, load, slip, ring_speed):
+def _raceway_film(law, table, load, slip, ring_speed, logs):
     if load <= 0.0:
         return RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     # The push is −2 R/r times the shear.
     part = 1.0 - 2.0 * law.share_1
     mean = ring_speed - 0.5 * slip
-    known = plane_values(table, math.log(load), math.log(abs(mean)))
+    known = plane_values(table, logs[0], logs[1])
     if known.known:
-        conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
-        per_speed = table.speed.per_spacing / mean
+        conductance, resistance, per_speed = known.value[0], known.value[1], 1.0 / mean
         sliding = conductance * slip
         shear = -math.copysign(resistance, mean)
-        sliding_slope = conductance - 0.5 * sliding * known.by_speed[0] * per_speed
-        shear_slope = 0.5 * resistance * known.by_speed[1] * abs(per_speed)
+        sliding_slope = conductance - 0.5 * slip * known.by_speed[0] * per_speed
+        shear_slope = 0.5 * known.by_speed[1] * abs(per_speed)
         return RacewayFilm(
             sliding,
             shear,
@@ -145,22 +148,19 @@ def _raceway_film_by_laws(law, part, load, slip, ring_speed):
 
 
 @jit_inline
-def _cage_film(films, load, surface_speed):
+def _cage_film(films, load, surface_speed, logs):
     if load > 0.0 and surface_speed != 0.0:
         mean = 0.5 * surface_speed
-        table = films.cage_table
-        known = plane_values(table, math.log(load), math.log(abs(mean)))
+        known = plane_values(films.cage_table, logs[0], logs[1] - _LN_2)
         if known.known:
-            conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
+            conductance, resistance = known.value[0], known.value[1]
             sliding, shear = -conductance * surface_speed, -resistance * mean
-            speeds, loads = table.speed.per_spacing, table.load.per_spacing
             return CageFilm(
                 sliding,
                 shear,
                 -2.0 * shear * mean,
-                conductance * (1.0 + known.by_speed[0] * speeds)
-                + 0.5 * resistance * (1.0 + known.by_speed[1] * speeds),
-                (sliding * known.by_load[0] + shear * known.by_load[1]) * loads / load,
+                conductance + known.by_speed[0] + 0.5 * (resistance + known.by_speed[1]),
+                -(surface_speed * known.by_load[0] + mean * known.by_load[1]) / load,
             )
     return _cage_film_by_laws(films, load, surface_speed)
 
@@ -177,7 +177,7 @@ _NO_RACEWAY = RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _NO_CAGE = CageFilm(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def raceway_film(films, raceway, load, slip, ring_speed):
+def raceway_film(films, raceway, load, slip, ring_speed, logs=None):
     """Oil of a raceway contact, 0 the inner and 1 the outer: a `RacewayFilm`.
 
     Parameters
@@ -185,39 +185,61 @@ def raceway_film(films, raceway, load, slip, ring_speed):
     films : Films or NoFilms
     raceway : int
     load : float
-        Normal load [N].
+        Normal load Q [N].
     slip, ring_speed : float
         Δu and u2 [m/s].
+    logs : tuple of 2 float, optional
+        ln Q [ln N] and ln |u2 − Δu/2| [ln m/s], where they are known already.
     """
     if not isinstance(films, Films):
         return _NO_RACEWAY
     law, table = (films.outer, films.outer_table) if raceway else (films.inner, films.inner_table)
-    return _raceway_film(law, table, load, slip, ring_speed)
+    logs = two_logarithms(load, ring_speed - 0.5 * slip) if logs is None else logs
+    return _raceway_film(law, table, load, slip, ring_speed, logs)
 
 
-def cage_film(films, load, surface_speed):
+def cage_film(films, load, surface_speed, logs=None):
     """Oil in the pocket of a roller whose surface moves at `surface_speed` [m/s], pressed by `load` [N]: a `CageFilm`.
 
-    The sideways push of the pressure is radial there and left out.
+    `logs` are ln Q [ln N] and that of the surface's speed [ln m/s], where they are known already. The sideways push of the
+    pressure is radial there and left out.
     """
-    return _cage_film(films, load, surface_speed) if isinstance(films, Films) else _NO_CAGE
+    if not isinstance(films, Films):
+        return _NO_CAGE
+    return _cage_film(films, load, surface_speed, two_logarithms(load, surface_speed) if logs is None else logs)
 
 
 @overload(raceway_film)
-def _raceway_film_of(films, raceway, load, slip, ring_speed):
-    if films.instance_class is Films:
-        return lambda films, raceway, load, slip, ring_speed: _raceway_film(
-            films.outer if raceway else films.inner,
-            films.outer_table if raceway else films.inner_table,
-            load,
-            slip,
-            ring_speed,
-        )
-    return lambda films, raceway, load, slip, ring_speed: RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+def _raceway_film_of(films, raceway, load, slip, ring_speed, logs=None):
+    def none(films, raceway, load, slip, ring_speed, logs=None):
+        return RacewayFilm(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+    def with_logs(films, raceway, load, slip, ring_speed, logs=None):
+        law = films.outer if raceway else films.inner
+        table = films.outer_table if raceway else films.inner_table
+        return _raceway_film(law, table, load, slip, ring_speed, logs)
+
+    def by_state(films, raceway, load, slip, ring_speed, logs=None):
+        law = films.outer if raceway else films.inner
+        table = films.outer_table if raceway else films.inner_table
+        return _raceway_film(law, table, load, slip, ring_speed, two_logarithms(load, ring_speed - 0.5 * slip))
+
+    if films.instance_class is not Films:
+        return none
+    return with_logs if is_known(logs) else by_state
 
 
 @overload(cage_film)
-def _cage_film_of(films, load, surface_speed):
-    if films.instance_class is Films:
-        return lambda films, load, surface_speed: _cage_film(films, load, surface_speed)
-    return lambda films, load, surface_speed: CageFilm(0.0, 0.0, 0.0, 0.0, 0.0)
+def _cage_film_of(films, load, surface_speed, logs=None):
+    def none(films, load, surface_speed, logs=None):
+        return CageFilm(0.0, 0.0, 0.0, 0.0, 0.0)
+
+    def with_logs(films, load, surface_speed, logs=None):
+        return _cage_film(films, load, surface_speed, logs)
+
+    def by_state(films, load, surface_speed, logs=None):
+        return _cage_film(films, load, surface_speed, two_logarithms(load, surface_speed))
+
+    if films.instance_class is not Films:
+        return none
+    return with_logs if is_known(logs) else by_state

@@ -10,8 +10,10 @@ import math
 from typing import Any, NamedTuple
 
 from macroslip.compiled import jit, jit_inline, jit_part
-from macroslip.roller.contact_force import cage_force, raceway_force
+from macroslip.roller.cage_force import cage_force
+from macroslip.roller.contact_force import raceway_force
 from macroslip.roller.films import cage_film, raceway_film
+from macroslip.roller.places import places_of, with_cage_load
 from macroslip.roller.play import film_load
 
 #: Raceways by number.
@@ -155,17 +157,19 @@ def slip_forces(model, at, slip):
     surface_speed = at.ring_speed - slip
     mean_speed = at.ring_speed - 0.5 * slip
     mean_slope = -0.5 if mean_speed >= 0.0 else 0.5
-    inner = raceway_force(model.inner, at.inner_load, slip, at.ring_speed, abs(mean_speed), mean_slope)
-    outer = raceway_force(model.outer, at.outer_load, slip, at.ring_speed, abs(mean_speed), mean_slope)
-    inner_film = raceway_film(model.films, INNER, at.inner_load, slip, at.ring_speed)
-    outer_film = raceway_film(model.films, OUTER, at.outer_load, slip, at.ring_speed)
+    places = places_of(model, at, slip)
+    inner = raceway_force(model.inner, at.inner_load, slip, at.ring_speed, abs(mean_speed), mean_slope, places.inner)
+    outer = raceway_force(model.outer, at.outer_load, slip, at.ring_speed, abs(mean_speed), mean_slope, places.outer)
+    inner_film = raceway_film(model.films, INNER, at.inner_load, slip, at.ring_speed, places.inner_film)
+    outer_film = raceway_film(model.films, OUTER, at.outer_load, slip, at.ring_speed, places.outer_film)
     cage_load = at.tangential + inner.pull - outer.pull + (inner_film.pull - outer_film.pull)
     cage_load_slope = inner.pull_slope - outer.pull_slope + (inner_film.pull_slope - outer_film.pull_slope)
+    cage_logs = with_cage_load(places, abs(cage_load))
     cage_slope = -0.5 if surface_speed >= 0.0 else 0.5
     cage, by_slip, by_load, cage_detail = cage_force(
-        model.cage, abs(cage_load), -surface_speed, 0.5 * abs(surface_speed), cage_slope
+        model.cage, abs(cage_load), -surface_speed, 0.5 * abs(surface_speed), cage_slope, cage_logs
     )
-    cage_oil = cage_film(model.films, abs(cage_load), surface_speed)
+    cage_oil = cage_film(model.films, abs(cage_load), surface_speed, cage_logs)
     by_load += cage_oil.by_load
     if cage_load < 0.0:
         by_load = -by_load

@@ -1,6 +1,7 @@
 """What depends on load and one speed as a table: friction of the cage's contact, and the oil of a raceway contact.
 
-Cubic splines over ln Q and the logarithm of the speed. A cell in which their error is too large is marked;
+Cubic splines over ln Q and the logarithm of the speed. What goes with powers of both is held as it is, not as a logarithm:
+a spline is as good relative to its value, where that grows by a few per cent from node to node, and needs no exponential. A cell in which their error is too large is marked;
 there, as outside the table, the laws themselves are evaluated.
 """
 
@@ -37,7 +38,7 @@ class PlaneTable(NamedTuple):
 
 
 class PlaneValues(NamedTuple):
-    """Whether a table holds a state, its splines, and their derivatives by the places in a cell along load and speed."""
+    """Whether a table holds a state, its splines, and their derivatives by the logarithms of load and speed."""
 
     known: bool
     value: tuple[float, float, float, float]
@@ -51,11 +52,13 @@ def no_plane_table() -> PlaneTable:
 
 
 @jit_inline
-def plane_values(table, log_load, log_speed):
-    """Look a state up: ln Q [ln N] and the logarithm of a speed [ln m/s]. The derivatives are those by place in a cell.
+def _times(four, factor):
+    return four[0] * factor, four[1] * factor, four[2] * factor, four[3] * factor
 
-    Times `table.load.per_spacing` and `table.speed.per_spacing` they are those by the logarithms.
-    """
+
+@jit_inline
+def plane_values(table, log_load, log_speed):
+    """Look a state up: ln Q [ln N] and the logarithm of a speed [ln m/s]."""
     zeros = (0.0, 0.0, 0.0, 0.0)
     if table.load.cells == 0:
         return PlaneValues(False, zeros, zeros, zeros)
@@ -63,4 +66,6 @@ def plane_values(table, log_load, log_speed):
     j, u = cell_of(table.speed, log_speed)
     if i < 0 or j < 0 or not table.good[i, j]:
         return PlaneValues(False, zeros, zeros, zeros)
-    return PlaneValues(True, *channels_in_square(table.coefficients, (i, j), (t, u)))  # pyright: ignore[reportCallIssue]
+    found = channels_in_square(table.coefficients, (i, j), (t, u))  # pyright: ignore[reportCallIssue]
+    value, by_load, by_speed = found
+    return PlaneValues(True, value, _times(by_load, table.load.per_spacing), _times(by_speed, table.speed.per_spacing))

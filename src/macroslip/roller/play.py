@@ -37,7 +37,7 @@ def log_film(law, table, log_load, log_speed):
     """Ln of the film h of the volume flow [ln m] and its derivative by ln Q, from a contact's table or its law."""
     known = plane_values(table, log_load, log_speed)
     if known.known:
-        return known.value[2], known.by_load[2] * table.load.per_spacing
+        return known.value[2], known.by_load[2]
     height, slope, _ = light_film(law, log_load, log_speed)
     return height, slope
 

@@ -24,11 +24,11 @@ _MOST_PLAY = 1e-3
 
 @jit
 def play_values(films, plays, bodies, speeds, values):
-    """Write ln of what films carry at p [m] and u2 [m/s], under B [N] and −B, shape (states, 4)."""
+    """Write what films carry at p [m] and u2 [m/s], under B [N] and −B, shape (states, 4)."""
     films = by_reference(films)
     for n in range(plays.size):
-        values[n, 0] = math.log(carried(films, plays[n], bodies[n], speeds[n]))
-        values[n, 1] = math.log(carried(films, plays[n], -bodies[n], speeds[n]))
+        values[n, 0] = carried(films, plays[n], bodies[n], speeds[n])
+        values[n, 1] = carried(films, plays[n], -bodies[n], speeds[n])
         values[n, 2] = values[n, 3] = 0.0
 
 
@@ -54,8 +54,9 @@ def play_table(films: Films, highest_body: float, box: TableBox) -> PlayTable:
     by_law = films._replace(play_table=no_play_table())
     everywhere = read_only(np.ones((play.cells, body.cells, speed.cells), dtype=np.bool_))
     table = PlayTable(play, body, speed, tensor_coefficients(at(by_law, axis_nodes), 3), everywhere)
-    off = np.abs(at(films._replace(play_table=table), axis_middles) - at(by_law, axis_middles))
-    return table._replace(good=read_only(np.all(off <= LARGEST_ERROR, axis=-1)))
+    expected = at(by_law, axis_middles)
+    off = np.abs(at(films._replace(play_table=table), axis_middles) - expected)
+    return table._replace(good=read_only(np.all(off <= LARGEST_ERROR * expected, axis=-1)))
 
 
 def highest_body_force(model: RollerModel, highest_speed: float) -> float:

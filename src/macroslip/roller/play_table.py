@@ -1,6 +1,6 @@
 """What films carry where a roller has play, as a table: the load q depends on play, body force and ring speed.
 
-Cubic splines of ln q, one for a body force that points outward and one for inward, over ln(p + p0), ln(|B| + B0) and
+Cubic splines of q, one for a body force that points outward and one for inward, over ln(p + p0), ln(|B| + B0) and
 ln |u2|. A cell in which their error is too large is marked; there, as outside the table, the equation is solved.
 """
 
@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
+from macroslip.contact.logarithms import logarithms
 from macroslip.contact.spline import NOWHERE, Axis, cell_of, no_cells
 from macroslip.contact.spline_cell import channels_in_cell
 
@@ -53,10 +54,11 @@ def tabled_load(table, play, body, ring_speed):
     """
     if table.play.cells == 0 or ring_speed == 0.0:
         return math.nan
-    i, t = cell_of(table.play, math.log(play + LEAST_PLAY))
-    k, s = cell_of(table.body, math.log(abs(body) + LEAST_FORCE))
-    j, u = cell_of(table.speed, math.log(abs(ring_speed)))
+    log_play, log_body, log_speed, _ = logarithms(play + LEAST_PLAY, abs(body) + LEAST_FORCE, abs(ring_speed), 1.0)
+    i, t = cell_of(table.play, log_play)
+    k, s = cell_of(table.body, log_body)
+    j, u = cell_of(table.speed, log_speed)
     if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
         return math.nan
     value, _, _, _ = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
-    return math.exp(value[0] if body >= 0.0 else value[1])
+    return value[0] if body >= 0.0 else value[1]

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit_inline
+from macroslip.contact.logarithms import exponentials, logarithms
 from macroslip.contact.spline import NOWHERE, Axis, cell_of, no_cells
 from macroslip.contact.spline_cell import channels_in_cell
 
@@ -95,22 +96,75 @@ def no_raceway_table() -> RacewayTable:
     return RacewayTable(NOWHERE, NOWHERE, NOWHERE, 0.0, 0.0, 1.0, *no_cells(3, CHANNELS))
 
 
+class RacewayPlace(NamedTuple):
+    """Where a state lies in a table.
+
+    Attributes
+    ----------
+    load, speed, ratio : float
+        Its coordinates ln Q + k Q^(1/3), ln |u2| and asinh z.
+    root_load : float
+        Q^(1/3) [N^(1/3)].
+    size : float
+        √(1 + z²).
+    """
+
+    load: float
+    speed: float
+    ratio: float
+    root_load: float
+    size: float
+
+
 @jit_inline
-def _cell_of_state(table, load, ring_speed, slip):
-    """Cell of a state, places in it, Q^(1/3) and √(1 + z²) with z the slip in the third coordinate; cell −1 outside."""
-    nowhere = (-1, -1, -1), (0.0, 0.0, 0.0), 0.0, 0.0
-    if table.load.cells == 0 or ring_speed == 0.0:
-        return nowhere
-    log_load = math.log(load)
-    root = math.exp(log_load * (1.0 / 3.0))
-    i, t = cell_of(table.load, log_load + table.stretch * root)
-    k, s = cell_of(table.speed, math.log(abs(ring_speed)))
+def scaled_ratio(table, ring_speed, slip):
+    """Z = (Δu/u2 − x_v)/x_0, √(1 + z²), and |z| + √(1 + z²), whose logarithm is asinh |z|."""
     z = (slip / ring_speed - table.merging_ratio) * (1.0 / SLIP_RATIO)
     size = math.sqrt(z * z + 1.0)
-    j, u = cell_of(table.ratio, math.copysign(math.log(abs(z) + size), z))
+    return z, size, abs(z) + size
+
+
+@jit_inline
+def raceway_place(table, load, log_speed, log_ratio, scaled):
+    """A place from ln Q and Q^(1/3), ln |u2| and asinh |z|; `scaled` from `scaled_ratio`.
+
+    Returns
+    -------
+    RacewayPlace
+    """
+    log_load, root = load
+    return RacewayPlace(
+        log_load + table.stretch * root, log_speed, math.copysign(log_ratio, scaled[0]), root, scaled[1]
+    )
+
+
+@jit_inline
+def place_of(table, load, ring_speed, slip):
+    """Place of Q > 0 [N], u2 [m/s] and Δu [m/s] in a table.
+
+    Returns
+    -------
+    RacewayPlace
+        Outside any table where the shaft is at rest.
+    """
+    scaled = scaled_ratio(table, ring_speed, slip)
+    log_load, log_speed, log_ratio, _ = logarithms(load, abs(ring_speed), scaled[2], 1.0)
+    root, _, _, _ = exponentials(log_load * (1.0 / 3.0), 0.0, 0.0, 0.0)
+    return raceway_place(table, (log_load, root), log_speed, log_ratio, scaled)
+
+
+@jit_inline
+def _cell_of_place(table, place):
+    """Cell of a place, and the places in it; cell −1 where the table does not hold it."""
+    nowhere = (-1, -1, -1), (0.0, 0.0, 0.0)
+    if table.load.cells == 0:
+        return nowhere
+    i, t = cell_of(table.load, place.load)
+    k, s = cell_of(table.speed, place.speed)
+    j, u = cell_of(table.ratio, place.ratio)
     if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
         return nowhere
-    return (i, k, j), (t, s, u), root, size
+    return (i, k, j), (t, s, u)
 
 
 @jit_inline
@@ -120,25 +174,25 @@ def _grown(scale, power, value, by_coordinate, by_load):
 
 
 @jit_inline
-def table_slopes(table, load, ring_speed, slip):
-    """Look a state up with all derivatives: Q > 0 [N], u2 [m/s] and Δu [m/s].
+def table_slopes(table, place, load, ring_speed, slip):
+    """Look a state up with all derivatives: its place, Q > 0 [N], u2 [m/s] and Δu [m/s].
 
     Returns
     -------
     TableSlopes
         Zeros where the table does not hold the state.
     """
-    cell, places, root, size = _cell_of_state(table, load, ring_speed, slip)
+    cell, places = _cell_of_place(table, place)
     none = (0.0, 0.0, 0.0)
     if cell[0] < 0:
         return TableSlopes(False, none, none, none, none, 0.0)
     found = channels_in_cell(table.coefficients, cell, places)  # pyright: ignore[reportCallIssue]
     value, first, second, third = found
-    sign = math.copysign(1.0, ring_speed)
+    sign, root = math.copysign(1.0, ring_speed), place.root_load
     pull, lag, skew = sign * load, sign * load * root * root, sign * table.side * load * root
     by_load = table.load.per_spacing * (1.0 + table.stretch * root * (1.0 / 3.0))
     by_speed = table.speed.per_spacing / ring_speed
-    by_slip = table.ratio.per_spacing / (SLIP_RATIO * size * ring_speed)
+    by_slip = table.ratio.per_spacing / (SLIP_RATIO * place.size * ring_speed)
     along = -slip / ring_speed * by_slip
     return TableSlopes(
         True,
@@ -159,7 +213,7 @@ def table_slopes(table, load, ring_speed, slip):
 
 
 @jit_inline
-def table_force(table, load, ring_speed, slip):
+def table_force(table, place, load, ring_speed, slip):
     """Look a state up; parameters as for `table_slopes`, of which this is a part.
 
     Returns
@@ -167,6 +221,6 @@ def table_force(table, load, ring_speed, slip):
     TableForce
         Zeros where the table does not hold the state.
     """
-    found = table_slopes(table, load, ring_speed, slip)
+    found = table_slopes(table, place, load, ring_speed, slip)
     (pull, lag, skew), (pull_slope, lag_slope, _) = found.value, found.by_slip
     return TableForce(found.known, pull, lag, skew, found.asperity_power, pull_slope, lag_slope)

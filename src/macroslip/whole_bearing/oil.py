@@ -14,6 +14,7 @@ from typing import NamedTuple
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.logarithms import two_logarithms
 from macroslip.roller.films import Films
 from macroslip.roller.plane_table import plane_values
 from macroslip.rolling.light_contact import light_contact, pocket_contact
@@ -61,20 +62,19 @@ def _from_light(found):
 
 
 @jit_inline
-def _from_table(table, known, load, mean, slip):
-    """Oil of a raceway contact at the mean speed u = u2 − Δu/2 from splines of ln conductance and ln resistance."""
-    conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
-    per_speed, per_load = table.speed.per_spacing / mean, table.load.per_spacing / load
+def _from_table(known, load, mean, slip):
+    """Oil of a raceway contact at the mean speed u = u2 − Δu/2 from splines of conductance and resistance."""
+    conductance, resistance = known.value[0], known.value[1]
     sliding, shear = conductance * slip, -math.copysign(resistance, mean)
-    sliding_by_speed = sliding * known.by_speed[0] * per_speed
-    shear_by_speed = -resistance * known.by_speed[1] * abs(per_speed)
+    sliding_by_speed = slip * known.by_speed[0] / mean
+    shear_by_speed = -known.by_speed[1] / abs(mean)
     return Oil(
         sliding,
         shear,
         conductance - 0.5 * sliding_by_speed,
         -0.5 * shear_by_speed,
-        sliding * known.by_load[0] * per_load,
-        shear * known.by_load[1] * per_load,
+        slip * known.by_load[0] / load,
+        -math.copysign(known.by_load[1], mean) / load,
         sliding_by_speed,
         shear_by_speed,
     )
@@ -86,36 +86,35 @@ def _raceway_oil(films, outer, load, ring_speed, slip):
         return Oil(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     law, table = (films.outer, films.outer_table) if outer else (films.inner, films.inner_table)
     mean = ring_speed - 0.5 * slip
-    known = plane_values(table, math.log(load), math.log(abs(mean)))
+    known = plane_values(table, *two_logarithms(load, mean))
     if known.known:
-        return _from_table(table, known, load, mean, slip)
+        return _from_table(known, load, mean, slip)
     return _from_light(light_contact(law, load, ring_speed - slip, ring_speed))
 
 
 @jit_inline
-def _pocket_from_table(table, known, load, slip):
-    """Oil in a pocket, whose mean speed is −Δu/2, from splines of ln conductance and ln resistance per mean speed."""
-    conductance, resistance = math.exp(known.value[0]), math.exp(known.value[1])
+def _pocket_from_table(known, load, slip):
+    """Oil in a pocket, whose mean speed is −Δu/2, from splines of conductance and resistance per mean speed."""
+    conductance, resistance = known.value[0], known.value[1]
     sliding, shear = conductance * slip, 0.5 * resistance * slip
-    speeds, per_load = table.speed.per_spacing, table.load.per_spacing / load
     return Oil(
         sliding,
         shear,
-        conductance * (1.0 + known.by_speed[0] * speeds),
-        0.5 * resistance * (1.0 + known.by_speed[1] * speeds),
-        sliding * known.by_load[0] * per_load,
-        shear * known.by_load[1] * per_load,
-        -2.0 * conductance * known.by_speed[0] * speeds,
-        -resistance * (1.0 + known.by_speed[1] * speeds),
+        conductance + known.by_speed[0],
+        0.5 * (resistance + known.by_speed[1]),
+        slip * known.by_load[0] / load,
+        0.5 * slip * known.by_load[1] / load,
+        -2.0 * known.by_speed[0],
+        -(resistance + known.by_speed[1]),
     )
 
 
 @jit
 def _cage_oil(films, load, slip):
     if load > 0.0 and slip != 0.0:
-        known = plane_values(films.cage_table, math.log(load), math.log(0.5 * abs(slip)))
+        known = plane_values(films.cage_table, *two_logarithms(load, 0.5 * slip))
         if known.known:
-            return _pocket_from_table(films.cage_table, known, load, slip)
+            return _pocket_from_table(known, load, slip)
     return _from_light(pocket_contact(films.cage, load, -slip, 0.0, films.pocket_gap))
 
 
