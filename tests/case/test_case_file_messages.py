@@ -40,7 +40,7 @@ def reported(tmp_path):
         (
             LOADS + "weather: fair\n",
             "case.yaml, line 2: the key 'weather' is unknown. Allowed: bearing, lubricant, temperature, "
-            "heat, loads, drivetrain, forces, laws, dynamics, cage, integrator, window, rollers, traces, rating. Remove it.",
+            "heat, loads, drivetrain, forces, laws, dynamics, cage, integrator, window, rollers, traces, contact_details, rating. Remove it.",
         ),
         (
             "rollers: all\n",

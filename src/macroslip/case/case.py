@@ -60,6 +60,9 @@ class Case:
     rollers : "all" or sequence of int
         Numbers of the rollers to simulate in each row, from 0.
     traces : Traces, optional
+    contact_details : bool
+        Whether to record, of contacts with microslip or asperities, where on them energy goes, how hot and how densely
+        (`macroslip.result.variables.CONTACT_DETAILS`). It takes up to a third of a simulation and changes nothing else.
     rating : bool
         Whether `macroslip run` and studies rate the bearing beside its slip; `simulate` never does.
 
@@ -91,6 +94,7 @@ class Case:
     window: Window = field(default_factory=Window)
     rollers: str | Sequence[int] = "all"
     traces: Traces | None = None
+    contact_details: bool = True
     rating: bool = True
 
     def __post_init__(self) -> None:
@@ -105,6 +109,7 @@ class Case:
             ("cage", (Cage,)),
             ("integrator", (Radau, ExplicitEuler, BackwardEuler)),
             ("window", (Window,)),
+            ("contact_details", (bool,)),
             ("rating", (bool,)),
         ):
             value = getattr(self, name)
@@ -206,6 +211,7 @@ class Case:
             "window": asdict(self.window),
             "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
             "traces": asdict(self.traces) if self.traces else None,
+            "contact_details": self.contact_details,
             "rating": self.rating,
         }
 

@@ -206,5 +206,6 @@ _PARTS: dict[str, Callable[[CaseBuilder, Any], dict[str, Any]] | None] = {
     "window": None,
     "rollers": None,
     "traces": None,
+    "contact_details": None,
     "rating": None,
 }

@@ -166,4 +166,7 @@ class CaseFile:
     window: Window = Window()
     rollers: Annotated[str | list[int], RollerNumbers("numbers of the rollers to simulate in each row, from 0")] = "all"
     traces: Annotated[Traces | None, OrWord("none")] = None
+    contact_details: Annotated[
+        bool, Flag("whether to record where on the contacts energy goes, how hot and how densely")
+    ] = True
     rating: Annotated[bool, Flag("whether to rate the bearing beside its slip: safety, lives, pressure, films")] = True

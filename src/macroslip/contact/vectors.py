@@ -23,6 +23,7 @@ class Vectors:
         self.builder = builder
 
     def lanes(self, vector: Any) -> list[Any]:
+        """The four numbers."""
         return [self.builder.extract_element(vector, ir.Constant(_INDEX, n)) for n in range(LANES)]
 
     def splat(self, value: Any) -> Any:
@@ -44,6 +45,7 @@ class Vectors:
         return self.builder.call(function, [one, other, added])
 
     def weighted_sum(self, weights: list[Any], vectors: list[Any]) -> Any:
+        """Σ w x, in every lane."""
         total = self.builder.fmul(weights[0], vectors[0])
         for weight, vector in zip(weights[1:], vectors[1:], strict=True):
             total = self.fmuladd(weight, vector, total)
@@ -54,10 +56,12 @@ class Vectors:
         return [self.splat(one) for one in self.lanes(vector)]
 
     def dot(self, one: Any, other: Any) -> Any:
+        """The sum over the lanes of the product."""
         a, b, c, d = self.lanes(self.builder.fmul(one, other))
         return self.builder.fadd(self.builder.fadd(a, b), self.builder.fadd(c, d))
 
     def load(self, address: Any) -> Any:
+        """The four numbers at an address."""
         return self.builder.load(self.builder.inttoptr(address, VECTOR.as_pointer()), align=8)
 
     def gathered(self, values: list[Any]) -> Any:

@@ -124,12 +124,14 @@ def _pack(model, buffer):
     return packed(model, buffer)
 
 
-def sealed(model: RollerModel) -> SealedModel:
+def sealed(model: RollerModel, *, detailed: bool = True) -> SealedModel:
     """A roller as the integrators take it.
 
     Parameters
     ----------
     model : RollerModel
+    detailed : bool
+        Whether to record the places and extremes of curved contacts.
 
     Returns
     -------
@@ -141,10 +143,12 @@ def sealed(model: RollerModel) -> SealedModel:
     _pack(model, data)
     # The bytes point to the model's arrays.
     weakref.finalize(data, _forget, model)
+    curved = isinstance(model.inner, CurvedContact)
     return SealedModel(
         **{name: getattr(model, name) for name in _GEOMETRY},
         microslip=slips_everywhere(model.inner),
-        curved=isinstance(model.inner, CurvedContact),
+        curved=curved,
+        detailed=curved and detailed,
         inner_power=power_rule(model.inner),
         outer_power=power_rule(model.outer),
         data=data,

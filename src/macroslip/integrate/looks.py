@@ -128,7 +128,7 @@ def follow(record, path, state, energies, orbit, looks):
     -------
     Looks
     """
-    if not path.model.curved:
+    if not path.model.detailed:
         return looks
     collect(record, 0, energies[0])
     collect(record, 1, energies[1])

@@ -46,7 +46,9 @@ class SealedModel(NamedTuple):
     microslip : bool
         Whether most places of a gripped contact slip.
     curved : bool
-        Whether contacts have mechanisms and places to book.
+        Whether contacts have mechanisms to book.
+    detailed : bool
+        Whether to book their places and extremes too.
     inner_power, outer_power : PowerRule
         Of the raceways.
     data : ndarray of uint8
@@ -64,6 +66,7 @@ class SealedModel(NamedTuple):
     outer_radius: float
     microslip: bool
     curved: bool
+    detailed: bool
     inner_power: PowerRule
     outer_power: PowerRule
     data: np.ndarray
@@ -269,7 +272,7 @@ def book_passage_of(record, model, at, forces, slip, passage):
 @overload(book_passage_of)
 def _book_passage_of(record, model, at, forces, slip, passage):
     def implementation(record, model, at, forces, slip, passage):
-        if model.curved:
+        if model.detailed:
             given = Passed(WithForces(at, forces, slip), passage)
             _call_passed(model.entries.passage, model.data.ctypes.data, given, record)
 

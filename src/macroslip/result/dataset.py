@@ -28,7 +28,6 @@ from macroslip.roller.contacts import references
 if TYPE_CHECKING:
     import xarray as xr
 
-    from macroslip.bearing import Bearing
     from macroslip.case.case import Case
     from macroslip.roller.model import RollerModel
 
@@ -81,7 +80,9 @@ def to_dataset(
     values = _window_values(records, failed) | {"status": status} | _of_integrator(records)
     values["inlet_temperature"] = np.array(case.oil.inlet_temperature)
     if curved:
-        values |= _contact_details(records, failed)
+        values |= _of_contacts(records, failed)
+        if case.contact_details:
+            values |= _contact_details(records, failed)
     if case.traces is not None:
         # Up to where an integration ended its traces are kept: they show why.
         values |= _traces(np.array([[record.trace for record in line] for line in records]), model, curved=curved)
@@ -162,8 +163,13 @@ def _of_integrator(records: list[list[RollerRecord]]) -> dict[str, np.ndarray]:
     }
 
 
-def _contact_details(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def _of_contacts(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Variables of contacts with microslip or asperities only."""
+    return {name: _gathered(records, failed, name) for name in ("mechanism_energy", "asperity_energy")}
+
+
+def _contact_details(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
+    """Where on such contacts energy goes, how hot and how densely."""
     extreme = _gathered(records, failed, "extreme")
     with np.errstate(invalid="ignore"):
         extreme[np.isinf(extreme)] = np.nan
@@ -171,9 +177,8 @@ def _contact_details(records: list[list[RollerRecord]], failed: np.ndarray) -> d
     with np.errstate(invalid="ignore", divide="ignore"):
         error = np.where(fine > 0.0, off / fine, np.nan)
     names = ("flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
-    energies = ("mechanism_energy", "asperity_energy", "station_energy")
     return {
-        **{name: _gathered(records, failed, name) for name in energies},
+        "station_energy": _gathered(records, failed, "station_energy"),
         **{name: extreme[..., position] for position, name in enumerate(names)},
         "quadrature_error": error,
         **surface_maps.values(records, failed),
@@ -215,16 +220,19 @@ def roller_coordinates(case: Case, edges: np.ndarray, *, curved: bool) -> dict[s
         "orbit_end": ("orbit", edges[1:], {"units": "s", "long_name": "end of the orbit"}),
         "start_angle": (("row", "roller"), angles, about),
     }
-    return found | _contact_coordinates(case.bearing) if curved else found
+    return found | _contact_coordinates(case) if curved else found
 
 
-def _contact_coordinates(bearing: Bearing) -> dict[str, Any]:
+def _contact_coordinates(case: Case) -> dict[str, Any]:
     """Places and mechanisms that contacts with microslip or asperities distinguish."""
+    named = {"mechanism": list(MECHANISMS), "raceway": list(INTERFACES[:2])}
+    if not case.contact_details:
+        return named
+    bearing = case.bearing
     edges_along = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
     middles = 0.5 * (edges_along[1:] + edges_along[:-1])
     return {
-        "mechanism": list(MECHANISMS),
+        **named,
         "station": ("station", middles, {"units": "m", "long_name": "place along the roller's axis z'"}),
-        "raceway": list(INTERFACES[:2]),
         **surface_maps.coordinates(bearing),
     }

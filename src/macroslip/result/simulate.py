@@ -107,7 +107,7 @@ def simulate(
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
     models, evaluation = evaluated_models(case, models, motion, largest, threads)
-    rollers = {row: sealed(one) for row, one in models.items()}
+    rollers = {row: sealed(one, detailed=case.contact_details) for row, one in models.items()}
 
     def run(row: str, angle: float) -> tuple[int, RollerRecord]:
         record = new_record(edges, trace_time, highest_speed(motion, model))

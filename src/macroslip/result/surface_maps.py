@@ -155,5 +155,5 @@ def _require_maps(result: xr.Dataset) -> None:
         raise InputError(
             "the result has no maps of the raceways",
             allowed="results of contacts with microslip or asperities",
-            remedy="Write laws: {model: physical} in the case.",
+            remedy="Write laws: {model: physical} and contact_details: true in the case.",
         )

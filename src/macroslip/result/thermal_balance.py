@@ -116,7 +116,7 @@ def case_at_balance(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     Notes
     -----
     Power is computed at the surroundings' temperature and 30 K above, and then at the balance of what is known, until
-    that moves no more: three to five simulations. They have no traces. Load histories of minutes do not change the
+    that moves no more: three to five simulations, of which no traces are kept and no details of the contacts. Load histories of minutes do not change the
     temperature of a bearing, so the balance is that of their mean power if it lasted.
     """
     heat = case.heat
@@ -126,4 +126,5 @@ def case_at_balance(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
         temperature, settled = next_temperature(known, heat)
         if settled:
             return replace(case, temperature=temperature)
-        known[temperature] = bearing_friction_power(simulate(replace(case, temperature=temperature, traces=None)))
+        trial = replace(case, temperature=temperature, traces=None, contact_details=False)
+        known[temperature] = bearing_friction_power(simulate(trial))

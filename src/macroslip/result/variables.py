@@ -80,3 +80,13 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "skew moment about the contact normal, positive where traction along +x acts at +z'",
     ),
 }
+#: Variables of a case's `contact_details`.
+CONTACT_DETAILS = (
+    "station_energy",
+    "flash_temperature",
+    "power_density",
+    "slide_roll_ratio",
+    "min_film_ratio",
+    "quadrature_error",
+    *surface_maps.VARIABLES,
+)

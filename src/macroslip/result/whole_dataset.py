@@ -76,7 +76,10 @@ def whole_dataset(
     _put_books(out, record)
     out.put_known("inlet_temperature", np.array(case.oil.inlet_temperature))
     if curved:
-        _put_details(out, record)
+        for name in ("mechanism_energy", "asperity_energy"):
+            out.put_known(name, out.by_roller(getattr(record, name)))
+        if case.contact_details:
+            _put_details(out, record)
     if case.traces is not None:
         _put_traces(out, record, bearing, motion, curved=curved)
     edges = record.edges
@@ -121,7 +124,7 @@ def _put_common(out: _Collector, record: BearingRecord, status: int, shape: tupl
 
 
 def _put_details(out: _Collector, record: BearingRecord) -> None:
-    """Variables of contacts with microslip or asperities only, as in a result on imposed orbits."""
+    """Where on contacts with microslip or asperities energy goes, as in a result on imposed orbits."""
     details = record.details
     with np.errstate(invalid="ignore", divide="ignore"):
         extreme = np.where(np.isinf(details.extreme), np.nan, details.extreme)
@@ -129,8 +132,6 @@ def _put_details(out: _Collector, record: BearingRecord) -> None:
             details.quadrature[..., 0] > 0.0, details.quadrature[..., 1] / details.quadrature[..., 0], np.nan
         )
     values = {
-        "mechanism_energy": record.mechanism_energy,
-        "asperity_energy": record.asperity_energy,
         "station_energy": details.station_energy,
         "flash_temperature": extreme[..., 0],
         "power_density": extreme[..., 1],

@@ -60,8 +60,9 @@ def pocket_values(films, loads, speeds, values):
 
 
 def _plane(tabled: Callable, scales: tuple[float, ...], highest_load: float, box: TableBox) -> PlaneTable:
-    """A table of the results of the kernel `tabled(table)`, which falls back on the laws; for each what its error is a part of,
-    or NaN for itself.
+    """A table of the results of the kernel `tabled(table)`, which falls back on the laws.
+
+    An error of each is judged as part of its scale, or of itself where that is NaN.
     """
     kernel, quantities = tabled(no_plane_table()), len(scales)
     load = axis(math.log(_LEAST_LOAD), math.log(highest_load), _LOAD_SPACING)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from macroslip.catalogue import Record
 from macroslip.catalogue.source import Source
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, HubLoads
+from macroslip.result.variables import CONTACT_DETAILS
 from macroslip.study.settings import Setting, replaced, with_settings
 
 #: Keys of the base case's loads: what to read of each file, and the speed of files that have none.
@@ -50,6 +51,7 @@ def template(
     settings: list[Setting],
     records: Mapping[str, Record],
     *,
+    keep: Sequence[str] | None = None,
     source: Source | None = None,
     folder: Path | None = None,
 ) -> tuple[Case, dict[str, float]]:
@@ -63,6 +65,8 @@ def template(
         Values in place of the base case's.
     records : mapping of str to Record
         `bearing` and `lubricant` in place of the base case's, if there.
+    keep : sequence of str, optional
+        Variables of a result that are stored, None: all. Details of contacts are recorded only where some are.
     source, folder : Source, Path, optional
         Where the mapping was written, for messages, and where relative paths start.
 
@@ -74,7 +78,8 @@ def template(
     builder = _TemplateBuilder(with_settings(mapping, settings), source or Source(), folder or Path(), records)
     case = builder.case()
     changed = {noun: replaced(getattr(case, noun), settings) for noun in ("bearing", "lubricant")}
-    return replace(case, **changed), builder.cut
+    details = case.contact_details and (keep is None or not set(CONTACT_DETAILS).isdisjoint(keep))
+    return replace(case, **changed, contact_details=details), builder.cut
 
 
 def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | BearingLoads:

@@ -100,7 +100,7 @@ def estimate_study(study: Study) -> StudyEstimate:
 
 def _case(study: Study, run: Run) -> Case:
     records = {"bearing": study.bearings[run.bearing], "lubricant": study.lubricants[run.lubricant]}
-    case, cut = template(study.case, list(run.settings), records, folder=study.folder)
+    case, cut = template(study.case, list(run.settings), records, keep=study.keep, folder=study.folder)
     bundled = study.loads.source == "bundled"
     path = run.load.name if bundled else str(study.folder / run.load.name)
     return replace(case, loads=read_loads(study.loads.source, path, cut))

@@ -60,7 +60,8 @@ def weighted_maps(
         raise InputError(
             "the study has no maps of the raceways",
             allowed="cases with microslip or asperities that keep surface_energy and surface_power_density",
-            remedy="Write laws: {model: physical} in the case, and leave keep out or add both to it.",
+            remedy="Write laws: {model: physical} and contact_details: true in the case, and leave keep out or add both "
+            "to it.",
         )
     if not (math.isfinite(years) and years > 0.0):
         raise InputError(f"the lifetime is {years!r} years", allowed="a number above 0")

@@ -127,7 +127,7 @@ def _setup(directory: str, expected: str) -> dict[str, Any]:
 def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
     settings = [Setting(*one) for one in task["settings"]]
     records = {noun: setup["records"][noun][task[noun]] for noun in RECORDS}
-    case, cut = template(setup["case"], settings, records)
+    case, cut = template(setup["case"], settings, records, keep=setup["keep"])
     loads = _loads(task["session"], setup["source"], task["load"], tuple(sorted(cut.items())))
     try:
         return replace(case, loads=loads)

@@ -43,6 +43,8 @@ class Details(NamedTuple):
         Where the roller was when it was booked last: its angle and the shaft's [rad], neither wound back, and the time [s].
     looks : ndarray of int, shape (n,)
         How often it has been booked.
+    wanted : bool
+        Whether anything is booked at all.
     """
 
     station_energy: np.ndarray
@@ -53,6 +55,7 @@ class Details(NamedTuple):
     station_work: np.ndarray
     place: np.ndarray
     looks: np.ndarray
+    wanted: bool
 
 
 class _One(NamedTuple):
@@ -72,8 +75,8 @@ class _Ring(NamedTuple):
     ring_speed: float
 
 
-def new_details(count: int, orbits: int) -> Details:
-    """Empty details of `count` rollers."""
+def new_details(count: int, orbits: int, *, wanted: bool) -> Details:
+    """Empty details of `count` rollers, to be filled if they are wanted."""
     extreme = np.zeros((count, orbits, 3, len(EXTREMES)))
     extreme[..., EXTREMES.index("film_ratio")] = np.inf
     return Details(
@@ -85,6 +88,7 @@ def new_details(count: int, orbits: int) -> Details:
         station_work=np.zeros((count, 2, STATIONS + 2)),
         place=np.full((count, 3), np.nan),
         looks=np.zeros(count, dtype=np.int64),
+        wanted=wanted,
     )
 
 
@@ -123,7 +127,7 @@ def _book_roller(model, one, moment, j, passage):
 @jit_called
 def _book(bearing, moment, due, shaft_angle, time, orbit, details):
     for j in range(due.size):
-        if not due[j]:
+        if not (details.wanted and due[j]):
             continue
         row = bearing.rollers.row[j]
         one = _One(

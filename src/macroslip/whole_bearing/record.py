@@ -112,8 +112,10 @@ class BearingRecord(NamedTuple):
     details: Details
 
 
-def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) -> BearingRecord:
-    """An empty record."""
+def new_record(
+    edges: np.ndarray, out_time: np.ndarray, count: int, cages: int, *, detailed: bool = True
+) -> BearingRecord:
+    """An empty record, to be filled with details of the contacts or without."""
     orbits, outputs = edges.size - 1, out_time.size
     return BearingRecord(
         edges=edges,
@@ -141,7 +143,7 @@ def new_record(edges: np.ndarray, out_time: np.ndarray, count: int, cages: int) 
         flows=np.full((outputs, len(FLOWS)), np.nan),
         held=np.full((outputs, len(STOCKS)), np.nan),
         book=np.zeros(len(FLOWS)),
-        details=new_details(count, orbits),
+        details=new_details(count, orbits, wanted=detailed),
     )
 
 

@@ -70,6 +70,7 @@ def run_whole_bearing(
     tolerance: float = 2e-4,
     max_steps: int = 100_000_000,
     rests: bool = True,
+    detailed: bool = True,
     interrupt: np.ndarray | None = None,
 ) -> tuple[int, BearingRecord]:
     """Integrate all rollers and cages.
@@ -86,6 +87,8 @@ def run_whole_bearing(
     max_steps : int
     rests : bool
         Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
+    detailed : bool
+        Whether to record where on the contacts energy goes, and their extremes.
     interrupt : ndarray of int8, shape (1,), optional
         Read in every step; any value but zero ends the integration.
 
@@ -114,6 +117,6 @@ def run_whole_bearing(
     limits = limits._replace(max_steps=max_steps, rests=rests)
     if interrupt is not None:
         limits = limits._replace(interrupt=interrupt)
-    record = new_record(times.edges, times.outputs, count, bearing.cages)
+    record = new_record(times.edges, times.outputs, count, bearing.cages, detailed=detailed)
     stops = np.unique(np.concatenate([times.edges, times.outputs, [times.end]]))
     return integrate_whole(bearing, motion, stops, limits, space, record), record
