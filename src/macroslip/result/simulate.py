@@ -100,7 +100,7 @@ def simulate(
     edges = _orbit_edges(case, motion, model.orbit_ratio, end)
     trace_time = _trace_times(case, motion, end)
     if case.dynamics == WHOLE_BEARING:
-        times = Times(edges, trace_time, end)
+        times = Times(edges, trace_time, end, case.contact_details)
         drag = _drag_power(case, model, motion, edges[0], end)
         evaluated = partial(evaluated_models, case, motion=motion, largest=largest, threads=threads)
         return simulate_whole_bearing(case, models, motion, times, evaluated, _notes(case, largest), drag, progress)

@@ -75,8 +75,7 @@ def simulate_whole_bearing(
     with ThreadPoolExecutor(1) as pool:
         future = pool.submit(
             run_whole_bearing, bearing, motion, start, times,
-            tolerance=case.integrator.tolerance, max_steps=case.integrator.max_steps,
-            detailed=case.contact_details, interrupt=interrupt,
+            tolerance=case.integrator.tolerance, max_steps=case.integrator.max_steps, interrupt=interrupt,
         )  # fmt: skip
         try:
             # On Windows an interrupt is noticed only when a wait ends.

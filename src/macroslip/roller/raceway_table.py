@@ -118,7 +118,7 @@ class RacewayPlace(NamedTuple):
 
 @jit_inline
 def scaled_ratio(table, ring_speed, slip):
-    """Z = (Δu/u2 − x_v)/x_0, √(1 + z²), and |z| + √(1 + z²), whose logarithm is asinh |z|."""
+    """The scaled ratio z = (Δu/u2 − x_v)/x_0, √(1 + z²), and |z| + √(1 + z²), whose logarithm is asinh |z|."""
     z = (slip / ring_speed - table.merging_ratio) * (1.0 / SLIP_RATIO)
     size = math.sqrt(z * z + 1.0)
     return z, size, abs(z) + size

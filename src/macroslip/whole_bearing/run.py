@@ -18,7 +18,7 @@ from macroslip.whole_bearing.tuning import LEAST_SPEED, LONGEST_STEP
 
 
 class Times(NamedTuple):
-    """Times of a simulation, which begins at the first sample of the motion.
+    """When a simulation records, and what; it begins at the first sample of the motion.
 
     Attributes
     ----------
@@ -28,11 +28,14 @@ class Times(NamedTuple):
         Times of traces and books [s], none after the end.
     end : float
         [s].
+    detailed : bool
+        Whether it is recorded where on the contacts energy goes, and their extremes.
     """
 
     edges: np.ndarray
     outputs: np.ndarray
     end: float
+    detailed: bool = True
 
 
 class Start(NamedTuple):
@@ -70,7 +73,6 @@ def run_whole_bearing(
     tolerance: float = 2e-4,
     max_steps: int = 100_000_000,
     rests: bool = True,
-    detailed: bool = True,
     interrupt: np.ndarray | None = None,
 ) -> tuple[int, BearingRecord]:
     """Integrate all rollers and cages.
@@ -87,8 +89,6 @@ def run_whole_bearing(
     max_steps : int
     rests : bool
         Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
-    detailed : bool
-        Whether to record where on the contacts energy goes, and their extremes.
     interrupt : ndarray of int8, shape (1,), optional
         Read in every step; any value but zero ends the integration.
 
@@ -117,6 +117,6 @@ def run_whole_bearing(
     limits = limits._replace(max_steps=max_steps, rests=rests)
     if interrupt is not None:
         limits = limits._replace(interrupt=interrupt)
-    record = new_record(times.edges, times.outputs, count, bearing.cages, detailed=detailed)
+    record = new_record(times.edges, times.outputs, count, bearing.cages, detailed=times.detailed)
     stops = np.unique(np.concatenate([times.edges, times.outputs, [times.end]]))
     return integrate_whole(bearing, motion, stops, limits, space, record), record
