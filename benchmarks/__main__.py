@@ -89,7 +89,8 @@ def _limits(summary: dict[str, Any]) -> None:
     ]
     tables = summary["tables"]
     for row in ("downwind", "upwind"):
-        note = f"median {number(tables[row]['median'])} of 21 histories" if not summary["quick"] else "one history"
+        note = f"median {number(tables[row]['median'])} of 21 histories; " if not summary["quick"] else "one history; "
+        note += f"with details of contacts {number(tables[row]['least_detailed'])}"
         name = f"physical model by tables, {row}, slowest"
         rows.append(_line(name, tables[row]["least"], targets["tables_real_time_factor"], note))
     if threads is not None:
