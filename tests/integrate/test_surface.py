@@ -1,11 +1,13 @@
 """Energy on the places of a raceway, against the overlap of intervals by brute force."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from macroslip.compiled import jit
+from macroslip.integrate.detail import _spread
 from macroslip.integrate.surface import SECTORS, STATIONS, Way, raise_density, sectors_of, spread
 
 WIDTH = 2.0 * math.pi / SECTORS
@@ -46,6 +48,18 @@ def test_energy_lies_where_the_roller_passes(interface, start, before, after):
     # A quarter of it where slip is negative, the rest where it is positive, all in the film regime of the powers.
     assert surface[interface, :, 3, 0, 1].sum() == pytest.approx(0.25 * energy)
     assert surface[interface, :, 10, 1, 1].sum() == pytest.approx(0.75 * energy)
+
+
+def test_no_power_takes_no_energy():
+    record = SimpleNamespace(
+        station_work=np.zeros((2, STATIONS + 2)),
+        station_energy=np.zeros((2, STATIONS)),
+        surface_energy=np.zeros((2, SECTORS, STATIONS, 2, 2)),
+    )
+    record.station_work[0, STATIONS] = 5.0
+    _spread(record, 0, sectors_of(Way(0.0, 0.45, 0.0, 1.0), 0), 1.0)
+    assert record.surface_energy.sum() == 0.0 == record.station_energy.sum()
+    assert record.station_work[0, STATIONS] == 5.0
 
 
 def test_density_is_raised_at_every_sector_passed():

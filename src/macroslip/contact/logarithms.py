@@ -32,12 +32,12 @@ _LN_2_HIGH = math.ldexp(math.floor(math.ldexp(math.log(2.0), 32)), -32)
 _LN_2_LOW = 1.9082149292705877e-10
 
 
-def number(value: float) -> Any:
+def _number(value: float) -> Any:
     """A constant in all lanes."""
     return ir.Constant(VECTOR, [value] * LANES)
 
 
-def whole(value: int) -> Any:
+def _whole(value: int) -> Any:
     """A constant whole number in all lanes."""
     return ir.Constant(_BITS, [value] * LANES)
 
@@ -45,38 +45,38 @@ def whole(value: int) -> Any:
 def _logarithm(builder: ir.IRBuilder, x: Any) -> Any:
     write = Vectors(builder)
     bits = builder.bitcast(x, _BITS)
-    exponent = builder.ashr(builder.sub(bits, whole(_LEAST_MANTISSA)), whole(_FRACTION))
-    mantissa = builder.bitcast(builder.sub(bits, builder.shl(exponent, whole(_FRACTION))), VECTOR)
-    power = builder.fsub(builder.bitcast(builder.add(exponent, whole(_WHOLE_BITS)), VECTOR), number(_WHOLE))
-    s = builder.fdiv(builder.fsub(mantissa, number(1.0)), builder.fadd(mantissa, number(1.0)))
+    exponent = builder.ashr(builder.sub(bits, _whole(_LEAST_MANTISSA)), _whole(_FRACTION))
+    mantissa = builder.bitcast(builder.sub(bits, builder.shl(exponent, _whole(_FRACTION))), VECTOR)
+    power = builder.fsub(builder.bitcast(builder.add(exponent, _whole(_WHOLE_BITS)), VECTOR), _number(_WHOLE))
+    s = builder.fdiv(builder.fsub(mantissa, _number(1.0)), builder.fadd(mantissa, _number(1.0)))
     square = builder.fmul(s, s)
     fourth = builder.fmul(square, square)
     # Every other term, twice: half as long a chain of operations.
-    even, odd = number(_TERMS[10]), number(_TERMS[9])
+    even, odd = _number(_TERMS[10]), _number(_TERMS[9])
     for k in (8, 6, 4, 2):
-        even = write.fmuladd(even, fourth, number(_TERMS[k]))
+        even = write.fmuladd(even, fourth, _number(_TERMS[k]))
     for k in (7, 5, 3, 1):
-        odd = write.fmuladd(odd, fourth, number(_TERMS[k]))
+        odd = write.fmuladd(odd, fourth, _number(_TERMS[k]))
     rest = builder.fmul(write.fmuladd(even, square, odd), square)
-    found = write.fmuladd(rest, s, builder.fmul(s, number(_TERMS[0])))
-    found = write.fmuladd(power, number(_LN_2_LOW), found)
-    return write.fmuladd(power, number(_LN_2_HIGH), found)
+    found = write.fmuladd(rest, s, builder.fmul(s, _number(_TERMS[0])))
+    found = write.fmuladd(power, _number(_LN_2_LOW), found)
+    return write.fmuladd(power, _number(_LN_2_HIGH), found)
 
 
 def _exponential(builder: ir.IRBuilder, x: Any) -> Any:
     write = Vectors(builder)
-    shifted = write.fmuladd(x, number(1.0 / math.log(2.0)), number(_WHOLE))
-    power = builder.fsub(shifted, number(_WHOLE))
-    rest = write.fmuladd(power, number(-_LN_2_HIGH), x)
-    rest = write.fmuladd(power, number(-_LN_2_LOW), rest)
+    shifted = write.fmuladd(x, _number(1.0 / math.log(2.0)), _number(_WHOLE))
+    power = builder.fsub(shifted, _number(_WHOLE))
+    rest = write.fmuladd(power, _number(-_LN_2_HIGH), x)
+    rest = write.fmuladd(power, _number(-_LN_2_LOW), rest)
     square = builder.fmul(rest, rest)
-    even, odd = number(_FACTORIALS[12]), number(_FACTORIALS[13])
+    even, odd = _number(_FACTORIALS[12]), _number(_FACTORIALS[13])
     for k in (10, 8, 6, 4, 2, 0):
-        even = write.fmuladd(even, square, number(_FACTORIALS[k]))
+        even = write.fmuladd(even, square, _number(_FACTORIALS[k]))
     for k in (11, 9, 7, 5, 3, 1):
-        odd = write.fmuladd(odd, square, number(_FACTORIALS[k]))
+        odd = write.fmuladd(odd, square, _number(_FACTORIALS[k]))
     found = builder.bitcast(write.fmuladd(odd, rest, even), _BITS)
-    exponent = builder.shl(builder.bitcast(shifted, _BITS), whole(_FRACTION))
+    exponent = builder.shl(builder.bitcast(shifted, _BITS), _whole(_FRACTION))
     return builder.bitcast(builder.add(found, exponent), VECTOR)
 
 

@@ -102,9 +102,10 @@ def _spread(record, interface, passed, part):
         total += abs(powers[k])
     if total <= 0.0:
         return
+    per_power = energy / total
     for k in range(STATIONS):
-        record.station_energy[interface, k] += energy / total * abs(powers[k])
-    spread(record.surface_energy, interface, passed, powers, energy / total)
+        record.station_energy[interface, k] += per_power * abs(powers[k])
+    spread(record.surface_energy, interface, passed, powers, per_power)
     powers[STATIONS] -= energy
 
 

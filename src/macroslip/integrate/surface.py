@@ -72,7 +72,7 @@ def sectors_of(way, interface):
 
 
 @jit_part
-def spread(surface, interface, passed, powers, energy):
+def spread(surface, interface, passed, powers, per_power):
     """Give the places a roller passes their energy, evenly along the way.
 
     Parameters
@@ -84,12 +84,12 @@ def spread(surface, interface, passed, powers, energy):
     powers : ndarray, shape (stations + 2,)
         Powers along the roller in proportion to which energy is given [W], with the sign of slip, and in the last
         place which film regime it is.
-    energy : float
+    per_power : float
         Energy per power [J/W].
     """
     regime, place = int(powers[STATIONS + 1]), passed.first
     for n in range(passed.count):
-        sector, share = passed.lowest + n, energy
+        sector, share = passed.lowest + n, per_power
         if passed.count > 1:
             within = min(passed.end, sector + 1.0) - max(passed.start, float(sector))
             share *= within / (passed.end - passed.start)

@@ -116,8 +116,8 @@ def case_at_balance(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     Notes
     -----
     Power is computed at the surroundings' temperature and 30 K above, and then at the balance of what is known, until
-    that moves no more: three to five simulations, of which no traces are kept and no details of the contacts. Load histories of minutes do not change the
-    temperature of a bearing, so the balance is that of their mean power if it lasted.
+    that moves no more: three to five simulations, without traces and details of the contacts. Load histories of
+    minutes do not change the temperature of a bearing, so the balance is that of their mean power if it lasted.
     """
     heat = case.heat
     assert heat is not None, "the case has no balance"

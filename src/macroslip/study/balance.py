@@ -74,7 +74,7 @@ def study_at_balance(study: Study, directory: Path, compute: Callable[[Study, Pa
         }
         trial = replace(
             study,
-            case={**study.case, "rating": False, "traces": "none", "contact_details": False},
+            case={**study.case, "rating": False, "traces": "none"},
             keep=[],
             cycles=False,
             heat=None,

@@ -126,8 +126,10 @@ def _book_roller(model, one, moment, j, passage):
 
 @jit_called
 def _book(bearing, moment, due, shaft_angle, time, orbit, details):
+    if not details.wanted:
+        return
     for j in range(due.size):
-        if not (details.wanted and due[j]):
+        if not due[j]:
             continue
         row = bearing.rollers.row[j]
         one = _One(
