@@ -42,7 +42,8 @@ def _whole(value: int) -> Any:
     return ir.Constant(_BITS, [value] * LANES)
 
 
-def _logarithm(builder: ir.IRBuilder, x: Any) -> Any:
+def write_logarithm(builder: ir.IRBuilder, x: Any) -> Any:
+    """Write the natural logarithm of every lane."""
     write = Vectors(builder)
     bits = builder.bitcast(x, _BITS)
     exponent = builder.ashr(builder.sub(bits, _whole(_LEAST_MANTISSA)), _whole(_FRACTION))
@@ -63,7 +64,8 @@ def _logarithm(builder: ir.IRBuilder, x: Any) -> Any:
     return write.fmuladd(power, _number(_LN_2_HIGH), found)
 
 
-def _exponential(builder: ir.IRBuilder, x: Any) -> Any:
+def write_exponential(builder: ir.IRBuilder, x: Any) -> Any:
+    """Write the exponential of every lane."""
     write = Vectors(builder)
     shifted = write.fmuladd(x, _number(1.0 / math.log(2.0)), _number(_WHOLE))
     power = builder.fsub(shifted, _number(_WHOLE))
@@ -93,12 +95,12 @@ def _of_four(function: Any) -> Any:
 
 @intrinsic
 def _four_logarithms(typingctx, a, b, c, d):
-    return _of_four(_logarithm)
+    return _of_four(write_logarithm)
 
 
 @intrinsic
 def _four_exponentials(typingctx, a, b, c, d):
-    return _of_four(_exponential)
+    return _of_four(write_exponential)
 
 
 @jit_inline

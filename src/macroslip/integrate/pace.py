@@ -27,6 +27,8 @@ class Pace(NamedTuple):
         Time at which a step must end [s].
     zone : int
         Class of the sample interval; −1 before the first.
+    run_end : int
+        Last of the sample intervals of this class that follow one another.
     next_stop : int
         Index of the first stop that is still ahead.
     sample_step : float
@@ -38,6 +40,7 @@ class Pace(NamedTuple):
     step: float
     barrier: float
     zone: int
+    run_end: int
     next_stop: int
     sample_step: float
     failed: bool
@@ -46,13 +49,13 @@ class Pace(NamedTuple):
 @jit_part
 def first_pace(path, state):
     """The pace at the first sample, whose barrier is the sample itself."""
-    return Pace(min(path.limits.longest_step, FIRST_STEP), state.time, -1, 0, 0.0, False)
+    return Pace(min(path.limits.longest_step, FIRST_STEP), state.time, -1, -1, 0, 0.0, False)
 
 
 @jit_part
 def paced(pace, step, barrier, failed):
     """The same stretch with another step [s], barrier [s] and outcome of the last attempt."""
-    return Pace(step, barrier, pace.zone, pace.next_stop, pace.sample_step, failed)
+    return Pace(step, barrier, pace.zone, pace.run_end, pace.next_stop, pace.sample_step, failed)
 
 
 @jit_part
@@ -74,18 +77,20 @@ def next_stretch(path, state, pace, stops, classes, record):
     while next_stop < stops.size and stops[next_stop] <= time:
         next_stop += 1
     if next_stop == stops.size:
-        return state, Pace(pace.step, pace.barrier, pace.zone, next_stop, pace.sample_step, pace.failed)
+        return state, Pace(pace.step, pace.barrier, pace.zone, pace.run_end, next_stop, pace.sample_step, pace.failed)
     interval = interval_of(path.motion, time, state.interval)
     state = State(time, interval, state.slip, state.at, state.forces, state.powers)
     zone = np.int64(classes[interval])
     sample_step = path.motion.time[interval + 1] - path.motion.time[interval]
     jumps = not has_microslip(path.model)
-    last, step = interval, pace.step
+    last, step, run_end = interval, pace.step, max(pace.run_end, interval)
+    # From where an earlier search ended: a run may have as many intervals as the history, and is searched at every barrier.
+    while run_end < classes.size - 1 and classes[run_end + 1] == zone:
+        run_end += 1
     # With microslip the power of a held roller has a kink at every sample; without, that of a cage that carries little.
     kinks = zone == FIRM and (not jumps or _follows_acceleration(state))
     if zone != EDGE and step > 2.0 * sample_step and not kinks:
-        while last < classes.size - 1 and classes[last + 1] == zone and path.motion.time[last + 1] < stops[next_stop]:
-            last += 1
+        last = max(interval, min(run_end, np.searchsorted(path.motion.time, stops[next_stop]) - 1))
         if zone == FIRM and last > interval and path.motion.time[last + 1] > stops[next_stop]:
             # The last step before a stop crosses no sample, so that tractions at the stop are those of the instant.
             last -= 1
@@ -97,7 +102,7 @@ def next_stretch(path, state, pace, stops, classes, record):
         # With microslip forces are as smooth there as before, unless rings press on the roller anew.
         if pace.zone != EDGE and (jumps or pace.zone != FIRM):
             step = min(step, EDGE_STEP)
-    return state, Pace(step, barrier, zone, next_stop, sample_step, pace.failed)
+    return state, Pace(step, barrier, zone, run_end, next_stop, sample_step, pace.failed)
 
 
 @jit_part

@@ -21,6 +21,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit
+from macroslip.traction.patch_gauss import G_SERIES, cool_patch, hot_patch
 
 
 def _power_series_of_m() -> np.ndarray:
@@ -34,27 +35,14 @@ def _power_series_of_m() -> np.ndarray:
     return np.concatenate([[0.5], -((-1.0) ** n) * zeta(2.0 * n) / (math.pi ** (2.0 * n) * (n + 1.0))])
 
 
-def _gauss_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights of ∫₀¹ s f(s) ds, exact for polynomials f of degree 2·nodes − 1."""
-    from scipy.special import roots_jacobi
-
-    x, weights = roots_jacobi(nodes, 0.0, 1.0)
-    return (1.0 + x) / 2.0, weights / 4.0
-
-
 _SERIES_TERMS = 18
-#: B0 e^P below which the power series of g is used, and its coefficients (−4)^n (n!)²/(2n + 1)!; what the last one
-#: leaves out is below 1e-16.
+#: B0 e^P below which the power series of g is used; what its last term leaves out is below 1e-16.
 _COOL = 0.02
-_G_SERIES = np.array([(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)])
-_G1, _G2, _G3, _G4, _G5, _G6, _G7, _G8 = (float(g) for g in _G_SERIES[1:])
+_G_SERIES = np.array(G_SERIES)
 _M_SERIES = _power_series_of_m()
-_GAUSS_NODES_FEW, _GAUSS_WEIGHTS_FEW = _gauss_rule(5)
-_GAUSS_NODES_MANY, _GAUSS_WEIGHTS_MANY = _gauss_rule(8)
 _HALF_ZETA_3 = 0.6010284515797971
-# Largest P served by the 5-node and by the 8-node rule. The integrand's singularities, B = −1, lie π/P or more from the
-# interval of s, so that the error of n nodes is of order (4π/P)^(−2n).
-_P_FEW, _P_MANY = 0.4, 1.2
+#: Largest P served by the Gauss rule.
+_LARGEST_P = 1.2
 
 
 @jit
@@ -121,8 +109,8 @@ def patch_integral(pressure_exponent, root_heating):
     heating = root_heating * root_heating
     q1 = root_heating * growth
     cool = q1 * q1 < _COOL
-    if p < _P_MANY:
-        return _patch_by_gauss(p, root_heating, cool)
+    if p < _LARGEST_P:
+        return cool_patch(p, heating) if cool else hot_patch(p, heating)
     if cool:
         return _patch_by_series(p, heating, growth * growth)
     h = 0.5 * p
@@ -156,51 +144,4 @@ def _patch_by_series(p, heating, exp_p):
         if abs(term) < 1e-17 * value:
             break
         power *= heating * exp_p
-    return value, slope_log_slip, slope_pressure
-
-
-@jit
-def _g_and_slope(heating):
-    """g(B) and its logarithmic slope B g'(B) by the power series of g, for B below `_COOL`."""
-    g = _G8
-    steep = 8.0 * _G8
-    g = g * heating + _G7
-    steep = steep * heating + 7.0 * _G7
-    g = g * heating + _G6
-    steep = steep * heating + 6.0 * _G6
-    g = g * heating + _G5
-    steep = steep * heating + 5.0 * _G5
-    g = g * heating + _G4
-    steep = steep * heating + 4.0 * _G4
-    g = g * heating + _G3
-    steep = steep * heating + 3.0 * _G3
-    g = g * heating + _G2
-    steep = steep * heating + 2.0 * _G2
-    g = g * heating + _G1
-    steep = steep * heating + _G1
-    return g * heating + 1.0, steep * heating
-
-
-@jit
-def _patch_by_gauss(p, root_heating, cool):
-    """The same three numbers from ∫₀¹ s e^{Ps} g(B0 e^{Ps}) ds by Gauss-Jacobi quadrature, for small P."""
-    few = p < _P_FEW
-    nodes = _GAUSS_NODES_FEW if few else _GAUSS_NODES_MANY
-    weights = _GAUSS_WEIGHTS_FEW if few else _GAUSS_WEIGHTS_MANY
-    value = 0.0
-    slope_log_slip = 0.0
-    slope_pressure = 0.0
-    for k in range(nodes.size):
-        growth = math.exp(p * nodes[k])
-        heating = root_heating * root_heating * growth
-        if cool:
-            g, steep = _g_and_slope(heating)
-        else:
-            root = math.sqrt(heating)
-            g = math.asinh(root) / (root * math.sqrt(1.0 + heating))
-            steep = 0.5 * (1.0 - (1.0 + 2.0 * heating) * g) / (1.0 + heating)
-        share = weights[k] * growth
-        value += share * g
-        slope_log_slip += share * 2.0 * steep
-        slope_pressure += share * (g + steep) * nodes[k]
     return value, slope_log_slip, slope_pressure
