@@ -12,11 +12,19 @@ from macroslip.compiled import jit
 from macroslip.integrate.entries import sealed
 from macroslip.integrate.held_contact import relaxation_rate, rising_at
 from macroslip.integrate.measures import powers
-from macroslip.integrate.sealed import forces_of, powers_of, relaxation_of, rising_of, station_of
+from macroslip.integrate.sealed import (
+    forces_of,
+    powers_of,
+    relaxation_of,
+    rising_of,
+    stage_forces_of,
+    station_of,
+)
 from macroslip.mechanisms import Laws
 from macroslip.ring.orbit import Instant
 from macroslip.roller.forces import slip_forces, station
 from macroslip.roller.model import roller_model
+from macroslip.roller.stage_forces import AtStages
 
 PLACES = [(0.4, 5e-5, 1e-5), (1.6, -2e-5, 2e-4), (4.0, 1e-4, -3e-4), (4.7, 8e-5, 0.3)]
 
@@ -26,6 +34,11 @@ def _at(model, angle, now, slip):
     at = station_of(model, angle, now)
     forces = forces_of(model, at, slip)
     return at, forces, powers_of(model, at, forces, slip)
+
+
+@jit
+def _stages(model, given):
+    return stage_forces_of(model, given)
 
 
 @jit
@@ -51,6 +64,15 @@ def test_a_sealed_roller_has_the_forces_and_powers_of_its_laws(model):
             assert found.asperity_power == (0.0 if detail is None else detail.asperity_power)
             assert np.isnan(found.skew) if detail is None else found == detail
         assert power == powers(model, there, expected, slip)
+
+
+def test_a_sealed_roller_has_the_forces_at_three_stages(model):
+    stations = [station(model, angle, Instant(2.1, 0.3, 0.0, approach, 1e-4)) for angle, approach, _ in PLACES[:3]]
+    given = AtStages(*stations, *(slip for _, _, slip in PLACES[:3]))
+    for found, there, (_, _, slip) in zip(_stages(sealed(model), given), stations, PLACES, strict=False):
+        expected = slip_forces(model, there, slip)
+        assert found[:7] == pytest.approx(expected[:7], rel=1e-12)
+        assert found.rolling_power == expected.rolling_power
 
 
 def test_a_sealed_roller_has_the_rates_of_its_laws(model):

@@ -20,6 +20,7 @@ _laws = LawList("film")
 names, reference, prepare, remove = _laws.names, _laws.reference, _laws.prepare, _laws.remove
 _thickness: dict[type, Callable] = {}
 _in_range: dict[type, Callable] = {}
+_of_lanes: set[type] = set()
 _range_notes: dict[str, Callable[[Interface], list[str]]] = {}
 
 
@@ -32,6 +33,7 @@ def register(
     thickness: Callable,
     in_range: Callable,
     range_notes: Callable = lambda interface: [],
+    lanes: bool = False,
 ) -> None:
     """Make a film law usable by name.
 
@@ -51,6 +53,8 @@ def register(
         Compiled `in_range(law, load, entrainment_speed) -> bool`.
     range_notes : callable
         `range_notes(interface) -> list of str`: what is outside the range whatever load and speed.
+    lanes : bool
+        Whether `thickness` takes numbers in lanes too.
 
     Raises
     ------
@@ -59,6 +63,13 @@ def register(
     """
     register_name(name, reference=reference, prepare=prepare, range_notes=range_notes)
     register_type(law, thickness=thickness, in_range=in_range)
+    if lanes:
+        _of_lanes.add(law)
+
+
+def film_takes_lanes(law: type) -> bool:
+    """Whether films under a law of this type can be had for several states at once, in `macroslip.contact.lanes`."""
+    return law in _of_lanes
 
 
 def register_name(

@@ -17,6 +17,8 @@ RANGES = {
     "roughness": (0.0, 5e-5),
     "hardness": (0.005, 0.03),
 }
+#: Logarithm of what a smooth surface adds to the film, as part of it: nothing, though still a number.
+_NO_ROUGHNESS = -600.0
 _LEAST_LOAD_CUBED, _MOST_LOAD_CUBED = (limit**3 for limit in RANGES["load"])
 
 
@@ -81,7 +83,7 @@ def prepare(interface: Interface) -> MasjediKhonsari:
     smooth = 2.691 * load_group**-0.135 * speed_group**0.705 * material**0.556
     rough = 0.2 * roughness**1.222 * hardness**0.223 * load_group**-0.229 * speed_group**-0.748 * material**-0.842
     return MasjediKhonsari(
-        math.log(radius * smooth), math.log(rough) if rough > 0.0 else -math.inf, load_group, speed_group
+        math.log(radius * smooth), math.log(rough) if rough > 0.0 else _NO_ROUGHNESS, load_group, speed_group
     )
 
 
@@ -133,4 +135,5 @@ register(
     thickness=thickness,
     in_range=in_range,
     range_notes=range_notes,
+    lanes=True,
 )

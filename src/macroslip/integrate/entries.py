@@ -10,17 +10,19 @@ import numba
 import numpy as np
 from numba.extending import overload
 
-from macroslip.compiled import entry, jit
-from macroslip.integrate import sealed as types
+from macroslip.compiled import entry, jit, jit_inline
+from macroslip.integrate import entry_types as types
 from macroslip.integrate.detail import book_passage
+from macroslip.integrate.entry_types import PLAIN, StageForces, Value
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
 from macroslip.integrate.measures import note_state, write_trace
-from macroslip.integrate.sealed import PLAIN, Entries, SealedModel, Value
+from macroslip.integrate.sealed import Entries, SealedModel
 from macroslip.reference import Reference, packed, write
 from macroslip.roller.contact_force import CurvedContact, Detail
 from macroslip.roller.forces import SlipForces, slip_forces, station
 from macroslip.roller.friction_power import power_rule
 from macroslip.roller.model import RollerModel
+from macroslip.roller.stage_forces import stage_forces, takes_lanes
 
 
 def _known(detail):
@@ -38,26 +40,33 @@ def _station(model, given, result):
     write(result, station(model, given.start_angle, given.now))
 
 
-def _forces(model, given, result):
-    found = slip_forces(model, given.at, given.slip)
-    write(
-        result,
-        SlipForces(
-            found.inner,
-            found.outer,
-            found.cage,
-            found.slope,
-            found.inner_slope,
-            found.outer_slope,
-            found.cage_load,
-            found.cage_load_slope,
-            found.resistance,
-            found.rolling_power,
-            _known(found.inner_detail),
-            _known(found.outer_detail),
-            _known(found.cage_detail),
-        ),
+@jit_inline
+def _detailed(found):
+    """Forces with details whatever the contacts are."""
+    return SlipForces(
+        found.inner,
+        found.outer,
+        found.cage,
+        found.slope,
+        found.inner_slope,
+        found.outer_slope,
+        found.cage_load,
+        found.cage_load_slope,
+        found.resistance,
+        found.rolling_power,
+        _known(found.inner_detail),
+        _known(found.outer_detail),
+        _known(found.cage_detail),
     )
+
+
+def _forces(model, given, result):
+    write(result, _detailed(slip_forces(model, given.at, given.slip)))
+
+
+def _stages(model, given, result):
+    one, two, three = stage_forces(model, given)
+    write(result, StageForces(_detailed(one), _detailed(two), _detailed(three)))
 
 
 def _rising(model, given, result):
@@ -89,6 +98,7 @@ def _trace(model, given, record):
 _ENTRIES = {
     "station": (_station, types.AT_PLACE, types.STATION),
     "forces": (_forces, types.AT_SLIP, types.FORCES),
+    "stages": (_stages, types.AT_STAGES, types.STAGE_FORCES),
     "rising": (_rising, types.LOADS, types.VALUE),
     "relaxation": (_relaxation, types.LOADS, types.VALUE),
     "note": (_note, types.HELD_TYPE, types.RECORD_TYPE),
@@ -115,6 +125,7 @@ def _entries(kind: Any) -> dict[str, Any]:
                     result if isinstance(result, Reference) else Reference(result),
                 )
                 for name, (function, given, result) in _ENTRIES.items()
+                if name != "stages" or takes_lanes(kind)
             }
         return _compiled[kind]
 
@@ -138,7 +149,8 @@ def sealed(model: RollerModel, *, detailed: bool = True) -> SealedModel:
     SealedModel
         Of the same type whatever the laws are, which are compiled on the first call for such a roller.
     """
-    entries = Entries(**{name: one.address for name, one in _entries(numba.typeof(model)).items()})
+    addresses = {name: one.address for name, one in _entries(numba.typeof(model)).items()}
+    entries = Entries(**{"stages": 0} | addresses)
     data = np.empty(_pack(model, np.empty(0, dtype=np.uint8)), dtype=np.uint8)
     _pack(model, data)
     # The bytes point to the model's arrays.
@@ -149,6 +161,7 @@ def sealed(model: RollerModel, *, detailed: bool = True) -> SealedModel:
         microslip=slips_everywhere(model.inner),
         curved=curved,
         detailed=curved and detailed,
+        lanes="stages" in addresses,
         inner_power=power_rule(model.inner),
         outer_power=power_rule(model.outer),
         data=data,

@@ -9,26 +9,45 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import typeof
 from numba.extending import overload
 
-from macroslip.integrate.detail import Passage, book_mechanisms, book_passage
+from macroslip.integrate.detail import book_mechanisms, book_passage
+from macroslip.integrate.entry_types import (
+    AT_PLACE,
+    AT_SLIP,
+    AT_STAGES,
+    FORCES,
+    HELD_TYPE,
+    LOADS,
+    PASSED_TYPE,
+    RECORD_TYPE,
+    STAGE_FORCES,
+    STATION,
+    TRACED_TYPE,
+    VALUE,
+    AtPlace,
+    AtSlip,
+    Held,
+    Loads,
+    Passed,
+    StageForces,
+    Traced,
+    WithForces,
+)
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
 from macroslip.integrate.measures import note_state, powers, write_trace
-from macroslip.integrate.record import new_record
-from macroslip.integrate.surface import Way
-from macroslip.reference import Reference, calling
-from macroslip.ring.orbit import Instant
-from macroslip.roller.contact_force import CurvedContact, Detail
-from macroslip.roller.forces import SlipForces, Station, slip_forces, station
+from macroslip.reference import calling
+from macroslip.roller.contact_force import CurvedContact
+from macroslip.roller.forces import slip_forces, station
 from macroslip.roller.friction_power import PowerRule, power_rule, raceway_power
 
 
 class Entries(NamedTuple):
-    """Addresses of a roller's laws, compiled for its contacts."""
+    """Addresses of a roller's laws, compiled for its contacts; 0 for `stages` where they come one by one."""
 
     station: int
     forces: int
+    stages: int
     rising: int
     relaxation: int
     note: int
@@ -49,6 +68,8 @@ class SealedModel(NamedTuple):
         Whether contacts have mechanisms to book.
     detailed : bool
         Whether to book their places and extremes too.
+    lanes : bool
+        Whether forces at the stages of a step are computed at the same time.
     inner_power, outer_power : PowerRule
         Of the raceways.
     data : ndarray of uint8
@@ -67,89 +88,16 @@ class SealedModel(NamedTuple):
     microslip: bool
     curved: bool
     detailed: bool
+    lanes: bool
     inner_power: PowerRule
     outer_power: PowerRule
     data: np.ndarray
     entries: Entries
 
 
-class AtPlace(NamedTuple):
-    """A place on the orbit at the first sample [rad], and the ring's motion."""
-
-    start_angle: float
-    now: Instant
-
-
-class AtSlip(NamedTuple):
-    """A station, and slip [m/s]."""
-
-    at: Station
-    slip: float
-
-
-class WithForces(NamedTuple):
-    """A station, the forces there, and slip [m/s]."""
-
-    at: Station
-    forces: SlipForces
-    slip: float
-
-
-class Held(NamedTuple):
-    """A state held over a time [s]."""
-
-    state: WithForces
-    span: float
-
-
-class Passed(NamedTuple):
-    """A state, and what the roller has passed."""
-
-    state: WithForces
-    passage: Passage
-
-
-class Traced(NamedTuple):
-    """A state, and its place in the traces."""
-
-    state: WithForces
-    index: int
-
-
-class Loads(NamedTuple):
-    """Loads on both raceways [N], and speeds [m/s]."""
-
-    inner_load: float
-    outer_load: float
-    ring_speed: float
-    entrainment_speed: float
-
-
-class Value(NamedTuple):
-    """One number."""
-
-    value: float
-
-
-#: Details of a plain contact: zero, and no skew moment.
-PLAIN = Detail(0.0, np.nan, 0.0)
-_NO_STATION = Station(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-_NO_FORCES = SlipForces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), PLAIN, PLAIN, PLAIN)
-_STATE = WithForces(_NO_STATION, _NO_FORCES, 0.0)
-_HELD = Held(_STATE, 0.0)
-_PASSED = Passed(_STATE, Passage(0, Way(0.0, 0.0, 0.0, 0.0), 0.0, False))
-_RECORD = new_record(np.zeros(1), np.zeros(0), 0.0)
-
-
-RECORD_TYPE = Reference(typeof(_RECORD))
-AT_PLACE = typeof(AtPlace(0.0, Instant(0.0, 0.0, 0.0, 0.0, 0.0)))
-AT_SLIP = typeof(AtSlip(_NO_STATION, 0.0))
-LOADS, VALUE = typeof(Loads(0.0, 0.0, 0.0, 0.0)), typeof(Value(0.0))
-STATION, FORCES = typeof(_NO_STATION), typeof(_NO_FORCES)
-HELD_TYPE, PASSED_TYPE, TRACED_TYPE = typeof(_HELD), typeof(_PASSED), typeof(Traced(_STATE, 0))
-
 _call_station = calling(AT_PLACE, STATION)
 _call_forces = calling(AT_SLIP, FORCES)
+_call_stages = calling(AT_STAGES, STAGE_FORCES)
 _call_value = calling(LOADS, VALUE)
 _call_held = calling(HELD_TYPE, RECORD_TYPE)
 _call_passed = calling(PASSED_TYPE, RECORD_TYPE)
@@ -188,6 +136,25 @@ def forces_of(model, at, slip):
 def _forces_of(model, at, slip):
     def implementation(model, at, slip):
         return _call_forces(model.entries.forces, model.data.ctypes.data, AtSlip(at, slip))
+
+    return implementation
+
+
+def stage_forces_of(model, given):
+    """Forces at three stations, at the same time where the laws allow that."""
+    return StageForces(*(slip_forces(model, *one) for one in zip(given[:3], given[3:], strict=True)))
+
+
+@overload(stage_forces_of)
+def _stage_forces_of(model, given):
+    def implementation(model, given):
+        if model.lanes:
+            return _call_stages(model.entries.stages, model.data.ctypes.data, given)
+        return StageForces(
+            forces_of(model, given.at1, given.v1),
+            forces_of(model, given.at2, given.v2),
+            forces_of(model, given.at3, given.v3),
+        )
 
     return implementation
 

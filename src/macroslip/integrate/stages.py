@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from macroslip.compiled import jit_part
 from macroslip.integrate.radau_step import collocation, newton_update, residuals
-from macroslip.integrate.sealed import forces_of, has_microslip, station_of
+from macroslip.integrate.sealed import has_microslip, stage_forces_of, station_of
 from macroslip.integrate.tuning import (
     BEND_SAFETY,
     FORCE_TOLERANCE,
@@ -19,6 +19,7 @@ from macroslip.integrate.tuning import (
 )
 from macroslip.ring.orbit import instant
 from macroslip.roller.forces import magnitude, net_force, shifted
+from macroslip.roller.stage_forces import AtStages
 
 
 class Stages(NamedTuple):
@@ -96,9 +97,7 @@ def solve_stages(path, state, step, guess, smooth, bend):
     f1, f2, f3 = forces, forces, forces
     s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
     for iteration in range(ITERATIONS):
-        f1 = forces_of(model, at1, v1)
-        f2 = forces_of(model, at2, v2)
-        f3 = forces_of(model, at3, v3)
+        f1, f2, f3 = stage_forces_of(model, AtStages(at1, at2, at3, v1, v2, v3))
         evaluations += 3
         s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
         rest = residuals(scale, s1, s2, s3, net_force(f1), net_force(f2), net_force(f3))

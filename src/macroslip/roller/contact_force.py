@@ -14,6 +14,7 @@ from numba import types
 from numba.extending import overload
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.lanes import chosen, every, is_lanes
 from macroslip.contact.shape import ContactShape
 from macroslip.film.asperity_load import AsperityLoad, asperity_share
 from macroslip.film.film_law import film_thickness
@@ -109,7 +110,6 @@ class ContactForce(NamedTuple):
     detail: Any
 
 
-@jit_inline
 def contact_force(contact, load, slip, entrainment_speed, entrainment_slope):
     """Traction of one contact with the same slip everywhere, and its derivatives by slip and by load.
 
@@ -130,11 +130,48 @@ def contact_force(contact, load, slip, entrainment_speed, entrainment_slope):
     tuple of float
         F [N], dF/dΔu with the film's change [N s/m], ∂F/∂Q [-].
     """
+    return _force_at_one(contact, load, slip, entrainment_speed, entrainment_slope)
+
+
+@overload(contact_force)
+def _contact_force(contact, load, slip, entrainment_speed, entrainment_slope):
+    def at_one(contact, load, slip, entrainment_speed, entrainment_slope):
+        return _force_at_one(contact, load, slip, entrainment_speed, entrainment_slope)
+
+    def in_lanes(contact, load, slip, entrainment_speed, entrainment_slope):
+        return _force_in_lanes(contact, load, slip, entrainment_speed, entrainment_slope)
+
+    return in_lanes if is_lanes(load) else at_one
+
+
+@jit_inline
+def _force_at_one(contact, load, slip, entrainment_speed, entrainment_slope):
     if load <= 0.0:
         return 0.0, 0.0, 0.0
     if entrainment_speed < LOWEST_ENTRAINMENT_SPEED:
         entrainment_speed = LOWEST_ENTRAINMENT_SPEED
         entrainment_slope = 0.0
+    return _loaded_force(contact, load, slip, entrainment_speed, entrainment_slope)
+
+
+@jit_inline
+def _force_in_lanes(contact, load, slip, entrainment_speed, entrainment_slope):
+    free, slow = load <= 0.0, entrainment_speed < LOWEST_ENTRAINMENT_SPEED
+    if every(free):
+        none = 0.0 * slip
+        return none, none, none
+    force, slope, by_load = _loaded_force(
+        contact,
+        chosen(free, 1.0, load),
+        slip,
+        chosen(slow, LOWEST_ENTRAINMENT_SPEED, entrainment_speed),
+        chosen(slow, 0.0, entrainment_slope),
+    )
+    return chosen(free, 0.0, force), chosen(free, 0.0, slope), chosen(free, 0.0, by_load)
+
+
+@jit_inline
+def _loaded_force(contact, load, slip, entrainment_speed, entrainment_slope):
     film, film_by_speed, film_by_load = film_thickness(contact.film, load, entrainment_speed)
     force, by_slip, by_film, by_load = patch_traction(contact.traction, load, film, slip)
     return force, by_slip + by_film * film_by_speed * entrainment_slope, by_load + by_film * film_by_load

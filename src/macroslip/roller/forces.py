@@ -156,7 +156,7 @@ def slip_forces(model, at, slip):
     """
     surface_speed = at.ring_speed - slip
     mean_speed = at.ring_speed - 0.5 * slip
-    mean_slope = -0.5 if mean_speed >= 0.0 else 0.5
+    mean_slope = -math.copysign(0.5, mean_speed)
     places = places_of(model, at, slip)
     inner = raceway_force(model.inner, at.inner_load, slip, at.ring_speed, abs(mean_speed), mean_slope, places.inner)
     outer = raceway_force(model.outer, at.outer_load, slip, at.ring_speed, abs(mean_speed), mean_slope, places.outer)
@@ -165,14 +165,12 @@ def slip_forces(model, at, slip):
     cage_load = at.tangential + inner.pull - outer.pull + (inner_film.pull - outer_film.pull)
     cage_load_slope = inner.pull_slope - outer.pull_slope + (inner_film.pull_slope - outer_film.pull_slope)
     cage_logs = with_cage_load(places, abs(cage_load))
-    cage_slope = -0.5 if surface_speed >= 0.0 else 0.5
+    cage_slope = -math.copysign(0.5, surface_speed)
     cage, by_slip, by_load, cage_detail = cage_force(
         model.cage, abs(cage_load), -surface_speed, 0.5 * abs(surface_speed), cage_slope, cage_logs
     )
     cage_oil = cage_film(model.films, abs(cage_load), surface_speed, cage_logs)
-    by_load += cage_oil.by_load
-    if cage_load < 0.0:
-        by_load = -by_load
+    by_load = math.copysign(1.0, cage_load) * (by_load + cage_oil.by_load)
     inner_slope = inner.spin_slope + inner_film.sliding_slope
     outer_slope = outer.spin_slope + outer_film.sliding_slope
     slope = inner_slope + outer_slope + by_slip + by_load * cage_load_slope

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
-from macroslip.traction.patch_integral import patch_integral
+from macroslip.traction.patch_integral import patch_of
 from macroslip.traction.traction_law import register_type
 
 #: √B at which Crook's shear stress peaks (B = 2.2767).
@@ -50,7 +50,7 @@ def traction(law, load, film_thickness, slip):
     # A power takes as long as both, and film formulas need the logarithm too.
     root_load = math.exp(math.log(load) * (1.0 / 3.0))
     exponent = law.pressure_exponent * root_load
-    patch, by_log_slip, by_exponent = patch_integral(exponent, law.heating * abs(slip))
+    patch, by_log_slip, by_exponent = patch_of(exponent, law.heating * abs(slip))
     viscous = law.conductance * root_load * root_load / film_thickness
     force = viscous * patch * slip
     by_load = (2.0 / 3.0) * force / load + viscous * slip * by_exponent * exponent / (3.0 * load)
@@ -63,4 +63,4 @@ def rising_slip(law, load, film_thickness):
     return _ROOT_HEATING_AT_PEAK / law.heating * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
 
 
-register_type(BarusCrook, traction=traction, rising_slip=rising_slip)
+register_type(BarusCrook, traction=traction, rising_slip=rising_slip, lanes=True)

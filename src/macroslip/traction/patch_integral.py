@@ -19,8 +19,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba.extending import overload
 
 from macroslip.compiled import jit
+from macroslip.contact.lanes import every, gathered, is_lanes, scattered
 from macroslip.traction.patch_gauss import G_SERIES, cool_patch, hot_patch
 
 
@@ -41,8 +43,9 @@ _COOL = 0.02
 _G_SERIES = np.array(G_SERIES)
 _M_SERIES = _power_series_of_m()
 _HALF_ZETA_3 = 0.6010284515797971
-#: Largest P served by the Gauss rule.
+#: Largest P served by the Gauss rule, and B0 below which B0 e^P is below `_COOL` up to there.
 _LARGEST_P = 1.2
+_COOL_START = _COOL * math.exp(-_LARGEST_P)
 
 
 @jit
@@ -105,13 +108,12 @@ def patch_integral(pressure_exponent, root_heating):
     1.160551948246
     """
     p = pressure_exponent
-    growth = math.exp(0.5 * p)
     heating = root_heating * root_heating
-    q1 = root_heating * growth
-    cool = q1 * q1 < _COOL
     if p < _LARGEST_P:
-        return cool_patch(p, heating) if cool else hot_patch(p, heating)
-    if cool:
+        return cool_patch(p, heating) if heating < _COOL_START else hot_patch(p, heating)
+    growth = math.exp(0.5 * p)
+    q1 = root_heating * growth
+    if q1 * q1 < _COOL:
         return _patch_by_series(p, heating, growth * growth)
     h = 0.5 * p
     u0 = math.asinh(root_heating)
@@ -124,15 +126,50 @@ def patch_integral(pressure_exponent, root_heating):
     return value, slope * scale - 2.0 * value, 0.5 * w1 * h * scale - value / h
 
 
+def patch_of(pressure_exponent, root_heating):
+    """`patch_integral` of floats, or of numbers in lanes."""
+    return patch_integral(pressure_exponent, root_heating)
+
+
+@overload(patch_of)
+def _patch_of(pressure_exponent, root_heating):
+    if not is_lanes(pressure_exponent):
+        return lambda pressure_exponent, root_heating: patch_integral(pressure_exponent, root_heating)
+    return lambda pressure_exponent, root_heating: _patch_in_lanes(pressure_exponent, root_heating)
+
+
+@jit
+def _patch_in_lanes(p, root_heating):
+    if every(p >= _LARGEST_P):
+        heating, exp_p = root_heating * root_heating, math.exp(p)
+        if every(heating * exp_p < _COOL):
+            return _patch_by_series(p, heating, exp_p)
+    p1, p2, p3 = scattered(p)
+    q1, q2, q3 = scattered(root_heating)
+    one, two, three = patch_integral(p1, q1), patch_integral(p2, q2), patch_integral(p3, q3)
+    return gathered(one[0], two[0], three[0]), gathered(one[1], two[1], three[1]), gathered(one[2], two[2], three[2])
+
+
+def _settled(term, value):
+    """Whether a term adds nothing to a sum, in any lane."""
+    return abs(term) < 1e-17 * value
+
+
+@overload(_settled)
+def _settled_of(term, value):
+    if is_lanes(term):
+        return lambda term, value: every(abs(term) < 1e-17 * value)
+    return lambda term, value: abs(term) < 1e-17 * value
+
+
 @jit
 def _patch_by_series(p, heating, exp_p):
     """The same three numbers from g(B) = Σ g_n B^n, integrated term by term, for small B0 e^P and P not small."""
-    value = 0.0
-    slope_log_slip = 0.0
-    slope_pressure = 0.0
+    # Of the type of P: a float, or lanes.
+    value = slope_log_slip = slope_pressure = 0.0 * p
     # (B0 e^P)^n e^P and e^{−(n+1)P} keep every factor within floating point.
     power = exp_p
-    decay = 1.0
+    decay = 1.0 + value
     for n in range(_G_SERIES.size):
         decay /= exp_p
         x = (n + 1.0) * p
@@ -141,7 +178,7 @@ def _patch_by_series(p, heating, exp_p):
         value += term
         slope_log_slip += 2.0 * n * term
         slope_pressure += (weight - 2.0 * term) / p
-        if abs(term) < 1e-17 * value:
+        if _settled(term, value):
             break
         power *= heating * exp_p
     return value, slope_log_slip, slope_pressure

@@ -21,6 +21,7 @@ _traction: dict[type, Callable] = {}
 _rising_slip: dict[type, Callable] = {}
 _microslip: dict[type, Callable] = {}
 _chord: dict[type, Callable] = {}
+_of_lanes: set[type] = set()
 
 
 def register(
@@ -66,6 +67,7 @@ def register_type(
     rising_slip: Callable,
     microslip: Callable | None = None,
     chord: Callable | None = None,
+    lanes: bool = False,
 ) -> None:
     """Register the compiled functions of a law's type, without a name to choose it by.
 
@@ -79,6 +81,8 @@ def register_type(
     chord : callable, optional
         Compiled `chord(law, load, film_thickness, cosine, |slip|)`: traction per length [N/m] on the chord whose length and
         largest pressure are `cosine` times those of the middle. A law without it spreads traction as the load.
+    lanes : bool
+        Whether `traction` takes numbers in lanes too.
     """
     depend_on(traction, rising_slip)
     _traction[law] = traction
@@ -89,6 +93,13 @@ def register_type(
     if chord is not None:
         depend_on(chord)
         _chord[law] = chord
+    if lanes:
+        _of_lanes.add(law)
+
+
+def traction_takes_lanes(law: type) -> bool:
+    """Whether traction under a law of this type can be had for several states at once, in `macroslip.contact.lanes`."""
+    return law in _of_lanes
 
 
 def patch_traction(law, load, film_thickness, slip):
