@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from macroslip.contact import table_store
 from macroslip.mechanisms import Laws
-from macroslip.roller import play_build, raceway_build
+from macroslip.roller import play_build, raceway_build, raceway_sheets
 from macroslip.roller.cage_force import cage_force
 from macroslip.roller.contact import raceway_contact
 from macroslip.roller.contact_force import raceway_force
@@ -18,8 +18,9 @@ from macroslip.roller.forces import Station, slip_forces
 from macroslip.roller.friction_power import friction_power
 from macroslip.roller.model import roller_model
 from macroslip.roller.play import carried, film_load
+from macroslip.roller.raceway_sheets import stored_sheets
 from macroslip.roller.raceway_table import no_raceway_table, place_of, table_force
-from macroslip.roller.table_box import LARGEST_ERROR, TableBox, error_summary, table_box
+from macroslip.roller.table_box import LARGEST_ERROR, SPEED_SPACING, TableBox, error_summary, table_box, wide_box
 from macroslip.roller.tables import needs_tables, tabulated
 
 BOX = TableBox(highest_load=9e4, highest_cage_load=1.8e3, lowest_speed=0.37, highest_speed=0.42)
@@ -251,12 +252,29 @@ def test_no_load_no_friction(made):
 
 
 def test_a_worse_table_marks_more_cells(rows, monkeypatch):
-    contact = rows["downwind"].inner._replace(table=no_raceway_table())
-    monkeypatch.setattr(raceway_build, "_LOAD_SPACING", 1.0)
-    coarse = raceway_build.raceway_table(contact, BOX)
+    contact = raceway_sheets.bare(rows["downwind"].inner)
+    monkeypatch.setattr(raceway_sheets, "_LOAD_SPACING", 1.0)
+    axes, numbers = raceway_sheets.sheet_axes(contact, BOX.highest_load), raceway_build.sheet_numbers(BOX)
+    sheets = [raceway_sheets.made_sheet(contact, axes, number) for number in numbers]
+    coarse = raceway_build.from_sheets(contact, axes, numbers, sheets)
     assert coarse.good.mean() < 0.6
     errors = raceway_build.raceway_errors(contact, coarse, BOX)
     assert errors[1] < 20 * LARGEST_ERROR and errors[2] < 0.9
+
+
+def test_cases_share_their_sheets(rows, tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(table_store, "_in_memory", table_store.OrderedDict())
+    contact, faster = rows["downwind"].inner, BOX._replace(lowest_speed=0.41, highest_speed=0.45)
+    made = []
+    monkeypatch.setattr(raceway_build, "stored_sheets", lambda *args: made.append(args[2]) or stored_sheets(*args))
+    tables = [raceway_build.raceway_table(contact, box)[0] for box in (BOX, faster, faster)]
+    one, other = made
+    assert len(list((tmp_path / "macroslip" / "tables").glob("*.table"))) == len({*one, *other}) < len(one) + len(other)
+    assert tables[1] is tables[2]
+    values = [looked_up(table, 500.0, 0.415, 0.02) for table in tables]
+    assert values[0].known and values[1].known
+    assert values[1][1:] == pytest.approx(values[0][1:], rel=1e-4)
 
 
 def test_rollers_that_need_no_table(bearing, lubricant):
@@ -272,6 +290,15 @@ def test_boxes():
     assert one.lowest_speed < 0.37 and one.highest_speed > 0.4
     turning = table_box(np.array([-0.4, 0.1]), 1e4, 30.0)
     assert 0.09 < turning.lowest_speed < 0.1
+    assert wide_box(one) == wide_box(wide_box(one)) and wide_box(one).lowest_speed <= one.lowest_speed
+
+
+@pytest.mark.parametrize("slowest", [0.37, 0.1, 0.399])
+def test_sheets_reach_from_the_lowest_to_the_highest_speed(slowest):
+    box = table_box(np.array([-0.4, -slowest]), 1e4, 30.0)
+    for numbers in (raceway_build.sheet_numbers(box), raceway_build.sheet_numbers(box._replace(lowest_speed=slowest))):
+        assert math.exp(numbers[0] * SPEED_SPACING) <= slowest and math.exp(numbers[-1] * SPEED_SPACING) >= 0.4
+        assert len(numbers) == max(5, round(math.log(box.highest_speed / box.lowest_speed) / SPEED_SPACING) + 1)
 
 
 def test_errors_of_nothing_known():
@@ -281,10 +308,10 @@ def test_errors_of_nothing_known():
 
 def test_stored_tables_are_the_same(made, rows, monkeypatch):
     monkeypatch.setattr(table_store, "_in_memory", table_store.OrderedDict())
-    monkeypatch.setattr(raceway_build, "raceway_table", None)
+    monkeypatch.setattr(raceway_sheets, "made_sheet", None)
     again, report = tabulated(rows, BOX)
     assert report == made[1]
     np.testing.assert_array_equal(again["upwind"].outer.table.coefficients, made[0]["upwind"].outer.table.coefficients)
     model = rows["downwind"]
     most = play_build.highest_body_force(model, 0.42)
-    assert play_build.faded_load(model.films, most, 0.42) == again["upwind"].films.faded_load
+    assert play_build.faded_load(again["upwind"].films, most, 0.42) == again["upwind"].films.faded_load

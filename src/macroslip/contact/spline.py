@@ -123,6 +123,21 @@ def spline_coefficients(values: np.ndarray, dimension: int) -> np.ndarray:
     return np.moveaxis(solved, 0, dimension)
 
 
+def middle_values(coefficients: np.ndarray, dimensions: int) -> np.ndarray:
+    """Values of the tensor-product spline in the middles of its cells, from its coefficients.
+
+    Examples
+    --------
+    >>> middle_values(np.arange(-1.0, 6.0), 1)
+    array([0.5, 1.5, 2.5, 3.5])
+    """
+    for dimension in range(dimensions):
+        moved = np.moveaxis(coefficients, dimension, 0)
+        outer, inner = moved[:-3] + moved[3:], moved[1:-2] + moved[2:-1]
+        coefficients = np.moveaxis((outer + 23.0 * inner) / 48.0, 0, dimension)
+    return coefficients
+
+
 def tensor_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
     """Coefficients of the tensor-product spline along the first `dimensions` dimensions, read-only and in C order."""
     for dimension in range(dimensions):

@@ -15,7 +15,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from filelock import FileLock, Timeout
@@ -33,7 +33,9 @@ _PATIENCE = 60.0
 #: End of the names of stored tables.
 _ENDING = ".table"
 
-_in_memory: OrderedDict[str, list[np.ndarray]] = OrderedDict()
+Made = TypeVar("Made")
+
+_in_memory: OrderedDict[str, Any] = OrderedDict()
 _locks: dict[str, threading.Lock] = {}
 _guard = threading.Lock()
 
@@ -64,13 +66,28 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
         From `table_key`.
     make : callable
     """
+    return remembered(key, lambda: _from_disk_or_made(key, make))
+
+
+def remembered(key: str, make: Callable[[], Made]) -> Made:
+    """What is called `key`, made only if this process has not made it or has forgotten it.
+
+    Parameters
+    ----------
+    key : str
+        From `table_key`.
+    make : callable
+        Returns arrays, or tuples of them.
+    """
     with _guard:
         lock = _locks.setdefault(key, threading.Lock())
     with lock:
         with _guard:
             found = _in_memory.get(key)
+            if found is not None:
+                _in_memory.move_to_end(key)
         if found is None:
-            found = _from_disk_or_made(key, make)
+            found = make()
             with _guard:
                 _in_memory[key] = found
                 while len(_in_memory) > 1 and sum(map(_size, _in_memory.values())) > _MOST_IN_MEMORY:
@@ -78,8 +95,10 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
         return found
 
 
-def _size(arrays: Sequence[np.ndarray]) -> int:
-    return sum(one.nbytes for one in arrays)
+def _size(value: Any) -> int:
+    if isinstance(value, np.ndarray):
+        return value.nbytes
+    return sum(map(_size, value)) if isinstance(value, tuple | list) else 0
 
 
 def folder() -> Path:

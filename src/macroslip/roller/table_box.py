@@ -10,10 +10,13 @@ import numpy as np
 
 #: Relative error of force and of power in the middle of a cell beyond which the laws are asked there.
 LARGEST_ERROR = 3e-5
-#: Factors to which the loads and speeds of a case are rounded, part of the highest speed below which no table goes, and
-#: the highest load of a table, at least [N]. The cage carries the difference of the raceways' tractions, 0.004 of the
-#: highest roller load on the bundled histories; here it may be this part.
-_LOAD_STEP, _SPEED_STEP, _SLOWEST, _LEAST_HIGHEST_LOAD, _CAGE_LOAD = math.sqrt(2.0), 1.04, 0.25, 100.0, 0.02
+#: Factor to which the highest load is rounded, part of the highest speed below which no table goes, and the highest load
+#: of a table, at least [N]. The cage carries the difference of the raceways' tractions, 0.004 of the highest roller load on
+#: the bundled histories; here it may be this part.
+_LOAD_STEP, _SLOWEST, _LEAST_HIGHEST_LOAD, _CAGE_LOAD = 2.0, 0.25, 100.0, 0.02
+#: Distance between nodes of the logarithm of speed, at whose multiples they lie; and multiples of these to which the
+#: speeds of small tables are rounded.
+SPEED_SPACING, _WIDE_SPEED = 0.055, 4
 
 
 class TableBox(NamedTuple):
@@ -54,20 +57,34 @@ def table_box(ring_speeds: np.ndarray, highest_load: float, body_force: float) -
     Examples
     --------
     >>> [round(one, 4) for one in table_box(np.array([-0.40, -0.38]), 5e4, 40.0)]
-    [65536.0, 1310.72, 0.3751, 0.4057]
+    [65536.0, 1310.72, 0.3716, 0.4148]
     """
     fastest = float(np.max(np.abs(ring_speeds)))
     if fastest == 0.0:
         return None
-    load = _LOAD_STEP ** math.ceil(math.log(1.02 * (highest_load + body_force) + _LEAST_HIGHEST_LOAD, _LOAD_STEP))
+    highest = 1.02 * (highest_load + body_force) + _LEAST_HIGHEST_LOAD
+    load = _LOAD_STEP ** math.ceil(math.log(highest, _LOAD_STEP))
     turns = np.min(ring_speeds) * np.max(ring_speeds) <= 0.0
     slowest = max(0.0 if turns else float(np.min(np.abs(ring_speeds))), _SLOWEST * fastest)
     return TableBox(
         load,
         max(1e3, _CAGE_LOAD * load),
-        _SPEED_STEP ** math.floor(math.log(slowest / 1.001, _SPEED_STEP)),
-        _SPEED_STEP ** math.ceil(math.log(fastest * 1.001, _SPEED_STEP)),
+        *_rounded(slowest / 1.001, fastest * 1.001, SPEED_SPACING),
     )
+
+
+def _rounded(slowest: float, fastest: float, step: float) -> tuple[float, float]:
+    """Two speeds [m/s], rounded outward to multiples of a step in the logarithm."""
+    return math.exp(step * math.floor(math.log(slowest) / step)), math.exp(step * math.ceil(math.log(fastest) / step))
+
+
+def wide_box(box: TableBox) -> TableBox:
+    """The box with its speeds rounded further outward, for tables that are cheap to make over more speeds.
+
+    Cases of one bearing then share theirs.
+    """
+    low, high = _rounded(box.lowest_speed * 1.001, box.highest_speed / 1.001, _WIDE_SPEED * SPEED_SPACING)
+    return box._replace(lowest_speed=low, highest_speed=high)
 
 
 def values_at(kernel: Callable, states: Sequence[np.ndarray], count: int) -> np.ndarray:

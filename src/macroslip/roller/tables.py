@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import math
-import time
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.contact.spline import Axis
-from macroslip.contact.table_store import stored, table_key
+from macroslip.contact.table_store import remembered, table_key
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.roller.films import Films
 from macroslip.roller.forces import INNER, OUTER
 from macroslip.roller.model import RollerModel
 from macroslip.roller.plane_build import cage_table, film_table, pocket_table
 from macroslip.roller.play_build import faded_load, highest_body_force, play_table
-from macroslip.roller.raceway_build import raceway_errors, raceway_table, raceway_values
-from macroslip.roller.raceway_table import CHANNELS, RacewayTable, no_raceway_table
-from macroslip.roller.table_box import TableBox
+from macroslip.roller.raceway_build import raceway_table
+from macroslip.roller.table_box import TableBox, wide_box
 from macroslip.traction.film_shear_law import FilmShear
 
 
@@ -67,19 +64,16 @@ def tabulated(
     """
     model = next(iter(models.values()))
     with ThreadPoolExecutor(min(threads, 2)) as pool:
-        raceways = pool.map(partial(_stored_raceway_table, box=box), (model.inner, model.outer))
+        raceways = pool.map(partial(raceway_table, box=box), (model.inner, model.outer))
         (inner, of_inner, inner_time), (outer, of_outer, outer_time) = raceways
-    cage, of_cage = cage_table(model.cage, box)
+    small = wide_box(box)
+    cage, of_cage = remembered(table_key(model.cage, small), lambda: cage_table(model.cage, small))
     films = model.films
     if isinstance(films, Films):
-        films = films._replace(inner_table=film_table(films, INNER, box), outer_table=film_table(films, OUTER, box))
-        body = highest_body_force(model, box.highest_speed)
-        films = films._replace(
-            cage_table=pocket_table(films, box),
-            play_table=play_table(films, body, box),
-            faded_load=faded_load(films, body, box.highest_speed),
-            faded_speed=box.highest_speed,
-        )
+        body = highest_body_force(model, small.highest_speed)
+        films = remembered(table_key(films, body, small), partial(_with_tables, films, body, small))
+        load = faded_load(films, highest_body_force(model, box.highest_speed), box.highest_speed)
+        films = films._replace(faded_load=load, faded_speed=box.highest_speed)
     planes: list = [cage]
     if isinstance(films, Films):
         planes += [films.inner_table, films.outer_table, films.cage_table, films.play_table]
@@ -98,26 +92,11 @@ def tabulated(
     )
 
 
+def _with_tables(films: Films, body: float, box: TableBox) -> Films:
+    """Films with their tables, for body forces up to `body` [N]."""
+    films = films._replace(inner_table=film_table(films, INNER, box), outer_table=film_table(films, OUTER, box))
+    return films._replace(cage_table=pocket_table(films, box), play_table=play_table(films, body, box))
+
+
 def _side(contact: CurvedContact) -> float:
     return math.copysign(1.0, contact.shape.spin_ratio)
-
-
-def _stored_raceway_table(contact: CurvedContact, box: TableBox) -> tuple[RacewayTable, np.ndarray, float]:
-    """A raceway's table, its errors and the processor time it took to make [s], from the store or made."""
-    shape = contact.shape._replace(spin_ratio=abs(contact.shape.spin_ratio))
-    alike = contact._replace(shape=shape, table=no_raceway_table())
-
-    def make() -> list[np.ndarray]:
-        # Compilation, at the first table after installation, is no part of the time.
-        raceway_values(alike, *np.full((3, 1), np.nan), np.empty((1, CHANNELS)))
-        started = time.thread_time()
-        table = raceway_table(alike, box)
-        errors = raceway_errors(alike, table, box)
-        axes = np.array([table.load, table.speed, table.ratio])
-        numbers = np.array([table.stretch, table.merging_ratio, time.thread_time() - started])
-        return [axes, numbers, table.coefficients, table.good, errors]
-
-    axes, numbers, coefficients, good, errors = stored(table_key(alike, box), make)
-    load, speed, ratio = (Axis(float(first), float(per_spacing), int(cells)) for first, per_spacing, cells in axes)
-    table = RacewayTable(load, speed, ratio, float(numbers[0]), float(numbers[1]), 1.0, coefficients, good)
-    return table, errors, float(numbers[2])
