@@ -49,7 +49,8 @@ def chord_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     return cosine, 0.25 * np.pi * weights * cosine
 
 
-_COSINES, _WEIGHTS = chord_rule(18)
+#: cos θ and weights of the rule along a chord.
+_COSINES, WEIGHTS = chord_rule(18)
 
 
 @jit
@@ -134,7 +135,7 @@ def stress_along(fluid, viscosities, limits, film_thickness, slip):
     rate, heat = slip / film_thickness, fluid.heating * film_thickness * slip
     for node in range(_COSINES.size):
         stress, _, _ = heated_shear(fluid.rheology, viscosities[node] * rate, limits[node], heat)
-        total += _WEIGHTS[node] * stress
+        total += WEIGHTS[node] * stress
     return total
 
 

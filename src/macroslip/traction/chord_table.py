@@ -16,18 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline, jit_lawless, jit_part
+from macroslip.compiled import jit_inline, jit_part
 from macroslip.contact.spline import tensor_coefficients
 from macroslip.contact.spline_cell import along_line, in_cell, weights_and_slopes
 from macroslip.contact.table_store import stored, table_key
-from macroslip.traction.chord import (
-    Fluid,
-    along_chord,
-    characteristic_slip,
-    characteristic_stress,
-    log_viscosity,
-    stress_along,
-)
+from macroslip.traction.chord import Fluid, characteristic_slip, characteristic_stress, log_viscosity
+from macroslip.traction.chord_build import chord_coefficients
 from macroslip.traction.rheology import EYRING, LIMITING_SHEAR, NEWTONIAN
 
 #: Largest pressure of the table [Pa]; higher ones are treated as this one.
@@ -71,7 +65,7 @@ class ChordTable(NamedTuple):
 
 @lru_cache(maxsize=16)
 def chord_table(fluid: Fluid) -> ChordTable:
-    """The table of a fluid, computed in half a second to two seconds and kept, by this process and on disk.
+    """The table of a fluid, computed in some tenths of a second and kept, by this process and on disk.
 
     Notes
     -----
@@ -92,36 +86,12 @@ def chord_table(fluid: Fluid) -> ChordTable:
     pressures = np.maximum(roots**4, _LOWEST_PRESSURE)
     viscosities = tensor_coefficients(np.array([log_viscosity(fluid, p)[0] for p in pressures]), 1)
     grid = pressures, slips, films
-    (values,) = stored(table_key("chord", fluid, *grid), lambda: [tensor_coefficients(_fill(fluid, *grid), 3)])
+    (values,) = stored(table_key("chord", fluid, *grid), lambda: [chord_coefficients(fluid, *grid)])
     return ChordTable(fluid, values, viscosities, float(roots[1]), slip_spacing, film_spacing, float(films[0]))
 
 
 def _slip_scale(fluid: Fluid, pressure: float, film_thickness: float) -> float:
     return characteristic_slip(fluid, log_viscosity(fluid, pressure)[0], pressure, film_thickness)
-
-
-@jit
-def _reference(fluid, log_eta, pressure, film_thickness, scale):
-    """Ln of the stress to which the table's values refer."""
-    if fluid.rheology == NEWTONIAN:
-        return log_eta + math.log(scale / film_thickness)
-    return math.log(characteristic_stress(fluid, pressure))
-
-
-@jit_lawless
-def _fill(fluid, pressures, slips, films):
-    values = np.empty((pressures.size, films.size, slips.size))
-    for i in range(pressures.size):
-        log_eta, _ = log_viscosity(fluid, pressures[i])
-        viscosities, limits = along_chord(fluid, pressures[i])
-        for k in range(films.size):
-            film = math.exp(films[k])
-            scale = characteristic_slip(fluid, log_eta, pressures[i], film)
-            reference = _reference(fluid, log_eta, pressures[i], film, scale)
-            for j in range(slips.size):
-                stress = stress_along(fluid, viscosities, limits, film, scale * math.exp(slips[j]))
-                values[i, k, j] = math.log(stress) - reference
-    return values
 
 
 class FilmPlace(NamedTuple):
