@@ -12,13 +12,14 @@ from numba.extending import overload
 
 from macroslip.compiled import entry, jit, jit_inline
 from macroslip.integrate import entry_types as types
+from macroslip.integrate.ahead import wait_for_all
 from macroslip.integrate.detail import book_passage
 from macroslip.integrate.entry_types import PLAIN, StageForces, Value
 from macroslip.integrate.held_contact import relaxation_rate, rising_at, slips_everywhere
 from macroslip.integrate.measures import note_state, write_trace
 from macroslip.integrate.sealed import Entries, SealedModel
 from macroslip.reference import Reference, packed, write
-from macroslip.roller.contact_force import CurvedContact, Detail
+from macroslip.roller.contact_force import CurvedContact, Detail, is_curved
 from macroslip.roller.forces import SlipForces, slip_forces, station
 from macroslip.roller.friction_power import power_rule
 from macroslip.roller.model import RollerModel
@@ -109,25 +110,30 @@ _ENTRIES = {
 #: Numbers of a roller that its sealed model repeats.
 _GEOMETRY = [name for name in SealedModel._fields if name in RollerModel._fields]
 
-_compiled: dict[Any, dict[str, Any]] = {}
+#: Entries that `macroslip.integrate.ahead` compiles at a first run, while this process compiles the others.
+AHEAD = ("passage", "station", "note", "trace")
+
+_compiled: dict[Any, Any] = {}
 _lock = threading.Lock()
 
 
-def _entries(kind: Any) -> dict[str, Any]:
-    """The entries of all rollers of a type, which is compiled once."""
+def compiled_entry(kind: Any, name: str) -> Any:
+    """An entry of all rollers of a type, compiled once."""
+    if (kind, name) not in _compiled:
+        function, given, result = _ENTRIES[name]
+        target = result if isinstance(result, Reference) else Reference(result)
+        _compiled[kind, name] = entry(function, Reference(kind), Reference(given), target)
+    return _compiled[kind, name]
+
+
+def _addresses(kind: Any) -> dict[str, int]:
+    names = [name for name in _ENTRIES if name != "stages" or takes_lanes(kind)]
     with _lock:
-        if kind not in _compiled:
-            _compiled[kind] = {
-                name: entry(
-                    function,
-                    Reference(kind),
-                    Reference(given),
-                    result if isinstance(result, Reference) else Reference(result),
-                )
-                for name, (function, given, result) in _ENTRIES.items()
-                if name != "stages" or takes_lanes(kind)
-            }
-        return _compiled[kind]
+        for name in sorted(names, key=AHEAD.__contains__):
+            if name in AHEAD and is_curved(kind.types[-1]):
+                wait_for_all()
+            compiled_entry(kind, name)
+        return {name: _compiled[kind, name].address for name in names}
 
 
 @jit
@@ -149,7 +155,7 @@ def sealed(model: RollerModel, *, detailed: bool = True) -> SealedModel:
     SealedModel
         Of the same type whatever the laws are, which are compiled on the first call for such a roller.
     """
-    addresses = {name: one.address for name, one in _entries(numba.typeof(model)).items()}
+    addresses = _addresses(numba.typeof(model))
     entries = Entries(**{"stages": 0} | addresses)
     data = np.empty(_pack(model, np.empty(0, dtype=np.uint8)), dtype=np.uint8)
     _pack(model, data)

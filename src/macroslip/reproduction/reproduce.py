@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import macroslip
 from macroslip.errors import MacroslipError
 from macroslip.files import published_together
+from macroslip.integrate.ahead import compile_ahead
 from macroslip.reproduction.figure_files import figures, save_figures
 from macroslip.reproduction.headline import failure_line, numerical_line, statement_lines
 from macroslip.reproduction.model_run import (
@@ -100,6 +101,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: StageRep
             progress(stage, done, total)
 
     directory = Path(directory)
+    compile_ahead(physical=True)
     reused: list[str] = []
     with published_together(directory, SUMMARY) as folder:
         runs = {name: compute_model(name, directory / FOLDER, threads, report, reused) for name in MODELS}

@@ -14,6 +14,7 @@ from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
 from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.errors import InputError
 from macroslip.film.film_law import film_range_notes
+from macroslip.integrate.ahead import wait_for_integrator
 from macroslip.integrate.entries import sealed
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.load_zone import empty_classes, firm_interference
@@ -104,10 +105,12 @@ def simulate(
         drag = _drag_power(case, model, motion, edges[0], end)
         evaluated = partial(evaluated_models, case, motion=motion, largest=largest, threads=threads)
         return simulate_whole_bearing(case, models, motion, times, evaluated, _notes(case, largest), drag, progress)
+    models, evaluation = evaluated_models(case, models, motion, largest, threads)
     limits = radau_limits(case, motion, model, largest) or _fixed_step(case, motion, model)
     stops = np.unique(np.concatenate([edges, trace_time, [end]]))
-    models, evaluation = evaluated_models(case, models, motion, largest, threads)
     rollers = {row: sealed(one, detailed=case.contact_details) for row, one in models.items()}
+    if isinstance(limits, Limits):
+        wait_for_integrator()
 
     def run(row: str, angle: float) -> tuple[int, RollerRecord]:
         record = new_record(edges, trace_time, highest_speed(motion, model))
