@@ -123,6 +123,6 @@ RIVALS = (
     Rival("scipy_bdf", "SciPy solve_ivp, BDF", 200.0, lambda: scipy_solver("BDF"), _scipy_settings, 0.3, True),
     Rival(CVODE_COMPILED, "SUNDIALS CVODE, compiled callbacks", 20.0, _cvode_compiled, _cvode_settings, 1.0),
     Rival(CVODE, "SUNDIALS CVODE, through scikit-sundae", 20.0, lambda: _room("cvode"), _cvode_python_settings, 0.15),
-    Rival("lsoda", "LSODA (numbalsoda)", 5.0, lambda: _room("lsoda"), _lsoda_settings, 1.0),
+    Rival("lsoda", "LSODA (numbalsoda)", 12.0, lambda: _room("lsoda"), _lsoda_settings, 1.0),
     Rival(EULER, "the paper's backward Euler, fixed step", 20.0, lambda: _room("euler"), _euler_settings, 0.3),
 )

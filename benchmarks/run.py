@@ -30,7 +30,7 @@ TARGETS = {
     "quadrature_ratio": 5.0,
     "overhead_factor": 1.5,
     "force_evaluation_ns": 400.0,
-    "real_time_factor": 20_000.0,
+    "real_time_factor": 40_000.0,
     "thread_speedup": 1.8,
     "physical_real_time_factor": 1_000.0,
     "tables_real_time_factor": 20_000.0,
