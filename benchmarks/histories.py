@@ -16,7 +16,8 @@ from macroslip.integrate.path import Limits
 from macroslip.integrate.sealed import SealedModel
 from macroslip.loads import HubLoads, bundled_cases, main_bearing_load
 from macroslip.mechanisms import Laws
-from macroslip.result.simulate import evaluated_models, radau_limits
+from macroslip.result.evaluation import evaluated_models
+from macroslip.result.simulate import radau_limits
 from macroslip.ring.motion import ring_motion
 from macroslip.ring.orbit import Motion
 from macroslip.roller.model import RollerModel, highest_load, ring_geometry, roller_model
