@@ -27,24 +27,24 @@ from macroslip.roller.table_box import LARGEST_ERROR, SPEED_SPACING, TableBox, e
 #: Part of the largest force at the same load and speed below which an error of force counts as one of this part: a
 #: gripped roller's force passes through zero.
 _SMALL_FORCE = 0.05
-#: Cells of speed of a table, at least.
-_LEAST_CELLS = 4
+#: Cells of speed of a table, at least, and beyond the speeds of its box: next to its ends the splines are less good.
+_LEAST_CELLS, _BEYOND = 4, 1
 #: Random loads and speeds at which a finished table is measured, with slips at each, and the largest ratio of slip to
 #: speed of a held roller there.
 _STATES, _SLIPS, _USUAL_RATIO = 200, 10, 0.006
 
 
 def sheet_numbers(box: TableBox) -> range:
-    """Numbers of the sheets between the speeds of a box, one more than the table has cells.
+    """Numbers of the sheets of a table for the speeds of a box, one more than the table has cells.
 
     Examples
     --------
     >>> sheet_numbers(TableBox(1e4, 1e3, math.exp(-18 * SPEED_SPACING), math.exp(-12 * SPEED_SPACING)))
-    range(-18, -11)
+    range(-19, -10)
     """
     # Speeds of a box are those of sheets, but for rounding.
-    first = math.floor(math.log(box.lowest_speed) / SPEED_SPACING + 1e-6)
-    last = math.ceil(math.log(box.highest_speed) / SPEED_SPACING - 1e-6)
+    first = math.floor(math.log(box.lowest_speed) / SPEED_SPACING + 1e-6) - _BEYOND
+    last = math.ceil(math.log(box.highest_speed) / SPEED_SPACING - 1e-6) + _BEYOND
     missing = max(_LEAST_CELLS - (last - first), 0)
     return range(first - missing // 2, last + (missing + 1) // 2 + 1)
 
