@@ -14,8 +14,9 @@ WIDTH = 2.0 * math.pi / SECTORS
 
 
 @jit
-def spread_once(surface, interface, way, powers, energy):
-    spread(surface, interface, sectors_of(way, interface), powers, energy / np.abs(powers[:STATIONS]).sum())
+def spread_once(surface, interface, way, powers, energy, growth=0.0):
+    per_power = energy / np.abs(powers[:STATIONS]).sum()
+    spread(surface, interface, sectors_of(way, interface), powers, per_power, growth)
 
 
 @jit
@@ -50,14 +51,31 @@ def test_energy_lies_where_the_roller_passes(interface, start, before, after):
     assert surface[interface, :, 10, 1, 1].sum() == pytest.approx(0.75 * energy)
 
 
+@pytest.mark.parametrize("interface", [0, 1])
+@pytest.mark.parametrize(("before", "after"), [(0.0, 0.9), (0.9, 0.0), (2.0, 2.3)])
+def test_energy_that_grows_along_the_way_lies_where_it_was_spent(interface, before, after):
+    powers = np.zeros(STATIONS + 2)
+    powers[3] = 1.0
+    surface = np.zeros((2, SECTORS, STATIONS, 2, 2))
+    start, ratio, energy, growth = 0.3, 0.454, 8.0, 0.7
+    spread_once(surface, interface, Way(start, ratio, before, after), powers, energy, growth)
+    parts = (np.arange(100_000) + 0.5) / 100_000
+    turning = ratio if interface == 1 else ratio - 1.0
+    places = start + turning * (before + parts * (after - before))
+    weights = energy * (1.0 + growth * (2.0 * parts - 1.0)) / parts.size
+    expected = np.bincount(np.floor(places / WIDTH).astype(int) % SECTORS, weights, minlength=SECTORS)
+    np.testing.assert_allclose(surface[interface].sum(axis=(1, 2, 3)), expected, atol=2e-3)
+    assert surface.sum() == pytest.approx(energy, rel=1e-12)
+
+
 def test_no_power_takes_no_energy():
     record = SimpleNamespace(
-        station_work=np.zeros((2, STATIONS + 2)),
+        station_work=np.zeros((2, STATIONS + 3)),
         station_energy=np.zeros((2, STATIONS)),
         surface_energy=np.zeros((2, SECTORS, STATIONS, 2, 2)),
     )
     record.station_work[0, STATIONS] = 5.0
-    _spread(record, 0, sectors_of(Way(0.0, 0.45, 0.0, 1.0), 0), 1.0)
+    _spread(record, 0, sectors_of(Way(0.0, 0.45, 0.0, 1.0), 0), 1.0, 0.5)
     assert record.surface_energy.sum() == 0.0 == record.station_energy.sum()
     assert record.station_work[0, STATIONS] == 5.0
 

@@ -84,17 +84,26 @@ def _raise(record, orbit, interface, flash, density, ratio, film_ratio):
 
 
 @jit_part
-def collect(record, interface, energy):
-    """Keep energy [J] of a raceway until its contact is looked at."""
+def collect(record, interface, energy, since):
+    """Keep energy [J] of a raceway, spent so long after the last look [s], until its contact is looked at."""
     record.station_work[interface, STATIONS] += energy
+    record.station_work[interface, STATIONS + 2] += energy * since
 
 
 @jit_part
-def _spread(record, interface, passed, part):
+def _mean_time(powers, span):
+    """Mean time of the energy that was kept, over the time since the last look; that is forgotten then."""
+    kept, moment = powers[STATIONS] * span, powers[STATIONS + 2]
+    powers[STATIONS + 2] = 0.0
+    return min(max(moment / kept, 0.0), 1.0) if kept > 0.0 else 0.5
+
+
+@jit_part
+def _spread(record, interface, passed, part, mean_time):
     """Spread a part of what was kept over the stations, and over the places of the raceway that were passed.
 
-    Along the roller it is in proportion to the powers of `station_work`; along the way it is even. Without any power yet
-    it is kept further.
+    Along the roller it is in proportion to the powers of `station_work`; along the way it is linear, with the
+    `mean_time` that it has. Without any power yet it is kept further.
     """
     powers = record.station_work[interface]
     energy, total = part * powers[STATIONS], 0.0
@@ -105,7 +114,8 @@ def _spread(record, interface, passed, part):
     per_power = energy / total
     for k in range(STATIONS):
         record.station_energy[interface, k] += per_power * abs(powers[k])
-    spread(record.surface_energy, interface, passed, powers, per_power)
+    growth = min(max(3.0 * (2.0 * mean_time - 1.0), -1.0), 1.0)
+    spread(record.surface_energy, interface, passed, powers, per_power, growth)
     powers[STATIONS] -= energy
 
 
@@ -113,15 +123,16 @@ def _spread(record, interface, passed, part):
 def book_raceway(record, passage, interface, contact, load, at, slip):
     """Spread the energy kept so far as power lies along the roller, and raise the extremes.
 
-    Half of it as power lay at the last look and half as it lies now. Without load all of it as power lay when there last
-    was some; before that it is kept.
+    How power lies along the roller is taken as linear in time from the last look to this one. Without load all energy is
+    spread as power lay when there last was some; before that it is kept.
     """
     ring_speed, passed = at.ring_speed, sectors_of(passage.way, interface)
     powers = record.station_work[interface]
+    mean_time = _mean_time(powers, passage.span)
     if load <= 0.0:
-        _spread(record, interface, passed, 1.0)
+        _spread(record, interface, passed, 1.0, mean_time)
         return
-    _spread(record, interface, passed, 0.5)
+    _spread(record, interface, passed, 1.0 - mean_time, mean_time)
     entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
     film, _, _ = film_thickness(contact.film, load, entrainment)
     share = asperity_share(contact.asperity_load, load, entrainment, film)
@@ -159,7 +170,7 @@ def book_raceway(record, passage, interface, contact, load, at, slip):
         flash_power, flash_width, ring_speed - slip, ring_speed, contact.effusivity_1, contact.effusivity_2
     )
     powers[STATIONS + 1] = 1.0 if film >= contact.roughness else 0.0
-    _spread(record, interface, passed, 1.0)
+    _spread(record, interface, passed, 1.0, mean_time)
     _raise(record, passage.orbit, interface, flash, density, fastest / entrainment, film / contact.roughness)
 
 

@@ -1,7 +1,8 @@
 """When a roller's contacts are evaluated station by station (a look): at every step that would cost more than the forces.
 
-Between two looks the energies of the raceways are kept. A look spreads them over the way since the one before, half of
-them as power lay along the roller at that one and half as it lies now, and raises the extremes of the orbit.
+Between two looks the energies of the raceways are kept, and when they were spent. A look spreads them over the way since the
+one before, as if power had passed linearly in time from how it lay along the roller at that one to how it lies now, and
+raises the extremes of the orbit.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ class Highest(NamedTuple):
 
     Attributes
     ----------
-    inner, outer : float
-        Power at the raceways [W].
+    inner, outer, cage : float
+        Power at the interfaces [W].
     inner_density, outer_density : float
         Power over load^(2/3), to which the area is in proportion.
     ratio : float
@@ -33,6 +34,7 @@ class Highest(NamedTuple):
 
     inner: float
     outer: float
+    cage: float
     inner_density: float
     outer_density: float
     ratio: float
@@ -69,7 +71,7 @@ class Looks(NamedTuple):
 @jit_part
 def no_looks():
     """Before the first look."""
-    return Looks(0, -1, math.nan, 0.0, 0.0, 0.0, Highest(0.0, 0.0, 0.0, 0.0, 0.0))
+    return Looks(0, -1, math.nan, 0.0, 0.0, 0.0, Highest(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 @jit_part
@@ -91,10 +93,10 @@ def _density(power, load):
 def _values(state):
     """Values of a state by which a look is decided."""
     at, slip = state.at, state.slip
-    inner, outer, _ = state.powers
+    inner, outer, cage = state.powers
     entrainment = max(abs(at.ring_speed - 0.5 * slip), LOWEST_ENTRAINMENT_SPEED)
     ratio = abs(slip) / entrainment
-    return Highest(inner, outer, _density(inner, at.inner_load), _density(outer, at.outer_load), ratio)
+    return Highest(inner, outer, cage, _density(inner, at.inner_load), _density(outer, at.outer_load), ratio)
 
 
 @jit_part
@@ -105,11 +107,12 @@ def _is_due(now, looks):
     due |= abs(now.outer - looks.outer) > LOOK_CHANGE * highest.outer
     due |= now.inner_density > LOOK_RISE * highest.inner_density
     due |= now.outer_density > LOOK_RISE * highest.outer_density
+    due |= now.cage > LOOK_RISE * highest.cage
     return due or now.ratio > LOOK_RISE * highest.ratio
 
 
 @jit_part
-def follow(record, path, state, energies, orbit, looks):
+def follow(record, path, state, energies, length, orbit, looks):
     """Keep the energies of a step that ends in `state`, and look at its contacts where that is due.
 
     Parameters
@@ -120,6 +123,8 @@ def follow(record, path, state, energies, orbit, looks):
         At the end of the step.
     energies : tuple of float
         Of the step at inner and outer raceway [J].
+    length : float
+        Of the step [s].
     orbit : int
         Of the step, or −1.
     looks : Looks
@@ -130,8 +135,9 @@ def follow(record, path, state, energies, orbit, looks):
     """
     if not path.model.detailed:
         return looks
-    collect(record, 0, energies[0])
-    collect(record, 1, energies[1])
+    since = state.time - 0.5 * length - looks.time
+    collect(record, 0, energies[0], since)
+    collect(record, 1, energies[1], since)
     turn = abs(state.at.ring_speed) * (state.time - looks.time) / path.model.outer_radius
     if orbit != looks.orbit or turn >= LOOK_TURN or _is_due(_values(state), looks):
         return looked(record, path, state, orbit, looks)
@@ -151,6 +157,7 @@ def looked(record, path, state, orbit, looks):
         now = Highest(
             max(now.inner, before.inner),
             max(now.outer, before.outer),
+            max(now.cage, before.cage),
             max(now.inner_density, before.inner_density),
             max(now.outer_density, before.outer_density),
             max(now.ratio, before.ratio),

@@ -153,7 +153,7 @@ def integrate_radau(path, slip, stops, classes, record):
             looks = started(looks, path, state)
             peaks = book(record, path, state, step, tried.stages, tried.found, peaks, pace.zone == EDGE)
             energies = (tried.found.inner_energy, tried.found.outer_energy)
-            looks = follow(record, path, after, energies, peaks.orbit, looks)
+            looks = follow(record, path, after, energies, step.length, peaks.orbit, looks)
         record.worst[0] = max(record.worst[0], tried.stages.unbalanced)
         memory = _learnt(memory, state, after, step, tried.stages, pace.zone)
         state = after

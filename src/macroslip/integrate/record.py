@@ -65,9 +65,9 @@ class RollerRecord(NamedTuple):
         Energy at the places of the raceways, by sign of slip and film regime [J], see `macroslip.integrate.surface`.
     surface_density : ndarray, shape (2, sectors, stations)
         Largest power per area at the places of the raceways, mean over the contact's width [W/m²].
-    station_work : ndarray, shape (2, stations + 2)
+    station_work : ndarray, shape (2, stations + 3)
         Work space: power at each station when the raceway last had load, with the sign of slip [W], energy not yet given
-        to them [J], and the film regime they belong to.
+        to them [J], the film regime they belong to, and that energy times the time since the last look [J s].
     """
 
     edges: np.ndarray
@@ -121,7 +121,7 @@ def new_record(edges: np.ndarray, trace_time: np.ndarray, highest_speed: float) 
         quadrature=np.zeros((2, 2)),
         surface_energy=np.zeros((2, SECTORS, STATIONS, len(SLIP_SIGNS), len(FILM_REGIMES))),
         surface_density=np.zeros((2, SECTORS, STATIONS)),
-        station_work=np.zeros((2, STATIONS + 2)),
+        station_work=np.zeros((2, STATIONS + 3)),
     )
 
 

@@ -50,6 +50,8 @@ class Passed(NamedTuple):
         The first sector, not wound back either, and how many there are.
     first : int
         The first sector as the maps count it.
+    direction : float
+        1 where the way leads from `start` to `end`, −1 where the other way.
     """
 
     start: float
@@ -57,6 +59,7 @@ class Passed(NamedTuple):
     lowest: int
     count: int
     first: int
+    direction: float
 
 
 @jit_part
@@ -68,12 +71,13 @@ def sectors_of(way, interface):
     after = (way.start_angle + ratio * way.after) * per_angle
     start, end = min(before, after), max(before, after)
     lowest = math.floor(start)
-    return Passed(start, end, lowest, math.floor(end) - lowest + 1, lowest % SECTORS)
+    direction = 1.0 if before <= after else -1.0
+    return Passed(start, end, lowest, math.floor(end) - lowest + 1, lowest % SECTORS, direction)
 
 
 @jit_part
-def spread(surface, interface, passed, powers, per_power):
-    """Give the places a roller passes their energy, evenly along the way.
+def spread(surface, interface, passed, powers, per_power, growth):
+    """Give the places a roller passes their energy, linearly along the way.
 
     Parameters
     ----------
@@ -86,13 +90,17 @@ def spread(surface, interface, passed, powers, per_power):
         place which film regime it is.
     per_power : float
         Energy per power [J/W].
+    growth : float
+        Of the energy along the way, over its mean: from −1, nothing at the end, to 1, nothing at the beginning.
     """
     regime, place = int(powers[STATIONS + 1]), passed.first
     for n in range(passed.count):
         sector, share = passed.lowest + n, per_power
         if passed.count > 1:
-            within = min(passed.end, sector + 1.0) - max(passed.start, float(sector))
-            share *= within / (passed.end - passed.start)
+            way = passed.end - passed.start
+            here = (max(passed.start, float(sector)) - passed.start) / way
+            there = (min(passed.end, sector + 1.0) - passed.start) / way
+            share *= (there - here) * (1.0 + passed.direction * growth * (there + here - 1.0))
         energies = surface[interface, place]
         for k in range(STATIONS):
             energies[k, 1 if powers[k] > 0.0 else 0, regime] += share * abs(powers[k])

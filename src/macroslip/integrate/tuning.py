@@ -125,10 +125,9 @@ HIGHEST_RISE, MOST_UNEVEN = 1.1, 4.0
 #: spins pass zero, one a little after the other, and their ratio is any number.
 SPIN_RATIO_SPEED = 0.1
 #: A roller's contacts are looked at station by station after a change of a raceway's power by this part of the largest
-#: looked at in its orbit, a rise of its power per area or of the slide-roll ratio above the highest there by this factor,
-#: and in any case after this way [rad]. On 14B and 24A over 600 s, against looks at every step: extremes at the raceways are
-#: low by 0.6 % on average and 18 % at most, up to 0.7 % of the energy lies at other stations, and a roller takes 0.65 to 0.9
-#: of the time.
-LOOK_CHANGE, LOOK_RISE, LOOK_TURN = 0.1, 1.03, 0.175
+#: looked at in its orbit, a rise of its power per area, of the cage's power or of the slide-roll ratio above the highest there
+#: by this factor, and in any case after this way [rad]. On 14B and 24A over 600 s, against looks at every step: extremes at the
+#: raceways are low by 0.5 % on average and 18 % at most, and up to 0.5 % of the energy lies at other stations.
+LOOK_CHANGE, LOOK_RISE, LOOK_TURN = 0.1, 1.03, 0.35
 #: Looks from one at the quadrature's error to the next, which takes as long as a hundred others.
 FINE_LOOKS = 1024

@@ -37,7 +37,7 @@ class Details(NamedTuple):
         Energy at the places of the raceways of a row, by sign of slip and film regime [J].
     surface_density : ndarray, shape (2, 2, sectors, stations)
         Largest power per area there [W/m²].
-    station_work : ndarray, shape (n, 2, stations + 2)
+    station_work : ndarray, shape (n, 2, stations + 3)
         Work space, see `macroslip.integrate.record.RollerRecord`.
     place : ndarray, shape (n, 3)
         Where the roller was when it was booked last: its angle and the shaft's [rad], neither wound back, and the time [s].
@@ -85,7 +85,7 @@ def new_details(count: int, orbits: int, *, wanted: bool) -> Details:
         quadrature=np.zeros((count, 2, 2)),
         surface_energy=np.zeros((len(ROWS), 2, SECTORS, STATIONS, len(SLIP_SIGNS), len(FILM_REGIMES))),
         surface_density=np.zeros((len(ROWS), 2, SECTORS, STATIONS)),
-        station_work=np.zeros((count, 2, STATIONS + 2)),
+        station_work=np.zeros((count, 2, STATIONS + 3)),
         place=np.full((count, 3), np.nan),
         looks=np.zeros(count, dtype=np.int64),
         wanted=wanted,
@@ -149,15 +149,17 @@ def _book(bearing, moment, due, shaft_angle, time, orbit, details):
 
 
 @jit_merged
-def _collect(first, last, h, part, details):
+def _collect(first, last, time, h, part, details):
     for j in range(details.station_work.shape[0]):
+        since = time + 0.5 * h - details.place[j, 2] if details.looks[j] else 0.0
         for i in range(2):
             energy = h * ((1.0 - part) * first.powers[j, i, 0] + part * last.powers[j, i, 0])
             details.station_work[j, i, STATIONS] += energy
+            details.station_work[j, i, STATIONS + 2] += energy * since
 
 
-def collect(bearing, first, last, h, part, details):
-    """Add the raceways' energies of a step of `h` [s], whose last stage has the weight `part`, to those not yet spread."""
+def collect(bearing, first, last, time, h, part, details):
+    """Add the raceways' energies of a step of `h` from `time` on [s], whose last stage has the weight `part`, to those kept."""
 
 
 def book_details(bearing, moment, due, shaft_angle, time, orbit, details):
@@ -177,10 +179,10 @@ def book_details(bearing, moment, due, shaft_angle, time, orbit, details):
 
 
 @overload(collect)
-def _collect_of(bearing, first, last, h, part, details):
+def _collect_of(bearing, first, last, time, h, part, details):
     if has_details(bearing):
-        return lambda bearing, first, last, h, part, details: _collect(first, last, h, part, details)
-    return lambda bearing, first, last, h, part, details: None
+        return lambda bearing, first, last, time, h, part, details: _collect(first, last, time, h, part, details)
+    return lambda bearing, first, last, time, h, part, details: None
 
 
 @overload(book_details)

@@ -116,7 +116,7 @@ def _book(bearing, motion, middle_speed, start, end, orbit, space, record):
         book_stage(space.first, h * (1.0 - GAMMA), orbit, record)
         book_stage(space.last, h * GAMMA, orbit, record)
         book_state(bearing, end.shaft_speed, space.last, h, record)
-        collect(bearing, space.first, space.last, h, GAMMA, record.details)
+        collect(bearing, space.first, space.last, start.time, h, GAMMA, record.details)
         angle = instant(motion, end.interval, end.time).shaft_angle
         book_details(bearing, space.last, space.tractions.due, angle, end.time, orbit, record.details)
     book_flows(bearing, middle_speed, space.first, h * (1.0 - GAMMA), record.book)
