@@ -105,8 +105,8 @@ def integrate_fixed_step(path, slip, end, record):
             else:
                 add_rolling(record, before.rolling_power, span)
                 book_mechanisms_of(record, model, at, before, slip_before, span)
-            collect(record, 0, span * inner)
-            collect(record, 1, span * outer)
+            collect(record, 0, span * inner, 0.5 * span)
+            collect(record, 1, span * outer, 0.5 * span)
             way = Way(path.start_angle, model.orbit_ratio, turned, instant(motion, interval, after).shaft_angle)
             fine = record.count[0] % FINE_LOOKS == 0
             book_passage_of(record, model, reached, forces, slip, Passage(orbit, way, span, fine))
