@@ -72,15 +72,15 @@ def carried(films, play, body, ring_speed):
     ring_speed : float
         u2 [m/s].
     """
-    known, load = tabled_load(films.play_table, play, body, ring_speed)
-    return load if known else _solved(films, play, body, ring_speed, load)
+    known = tabled_load(films.play_table, play, body, ring_speed)
+    return _solved(films, play, body, ring_speed) if math.isnan(known) else known
 
 
 @jit
-def _solved(films, play, body, ring_speed, guess):
+def _solved(films, play, body, ring_speed):
     log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
     low, high = _LOWEST, _HIGHEST
-    place = math.log(guess) if guess > 0.0 else 0.0
+    place = 0.0
     for _ in range(_ITERATIONS):
         excess, slope = _excess(films, place, body, play, log_speed)
         if excess > 0.0:
@@ -90,11 +90,10 @@ def _solved(films, play, body, ring_speed, guess):
         following = place - excess / slope if slope < 0.0 else low
         if not low < following < high:
             following = 0.5 * (low + high)
-        change = abs(following - place)
-        place = following
-        # Newton's next change would be of the order of this one squared.
-        if change < 1e-7:
+        if abs(following - place) < 1e-12 * (1.0 + abs(place)):
+            place = following
             break
+        place = following
     # In proportion to speed where it vanishes.
     return math.exp(place) * min(1.0, 0.5 * abs(ring_speed) / LOWEST_SPEED)
 
@@ -105,13 +104,13 @@ def _film_load(films, load, approach, body, ring_speed):
         return carried(films, -approach, body, ring_speed)
     if load >= films.faded_load and abs(ring_speed) <= films.faded_speed:
         return 0.0
-    known, most = tabled_load(films.play_table, 0.0, body, ring_speed)
-    if not known:
+    most = tabled_load(films.play_table, 0.0, body, ring_speed)
+    if math.isnan(most):
         log_speed = math.log(max(0.5 * abs(ring_speed), LOWEST_SPEED))
         excess, _ = _excess(films, math.log(_FADED * load), body, 0.0, log_speed)
         if excess <= 0.0:
             return 0.0
-        most = _solved(films, 0.0, body, ring_speed, most)
+        most = _solved(films, 0.0, body, ring_speed)
     return most * math.exp(-load / most) if most > _FADED * load else 0.0
 
 

@@ -6,6 +6,7 @@ ln |u2|. A cell in which their error is too large is marked; there, as outside t
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -49,19 +50,15 @@ def no_play_table() -> PlayTable:
 def tabled_load(table, play, body, ring_speed):
     """Load q [N] of the film that no body force presses on, from play p ≥ 0 [m], B [N] and u2 [m/s].
 
-    Returns
-    -------
-    bool, float
-        Whether the table holds the state, and the load; a guess in a cell where the splines are not good, and outside the
-        table 1 N.
+    NaN where the table does not hold the state.
     """
     if table.play.cells == 0 or ring_speed == 0.0:
-        return False, 1.0
+        return math.nan
     log_play, log_body, log_speed, _ = logarithms(play + LEAST_PLAY, abs(body) + LEAST_FORCE, abs(ring_speed), 1.0)
     i, t = cell_of(table.play, log_play)
     k, s = cell_of(table.body, log_body)
     j, u = cell_of(table.speed, log_speed)
-    if i < 0 or k < 0 or j < 0:
-        return False, 1.0
+    if i < 0 or k < 0 or j < 0 or not table.good[i, k, j]:
+        return math.nan
     value, _, _, _ = channels_in_cell(table.coefficients, (i, k, j), (t, s, u))  # pyright: ignore[reportCallIssue]
-    return table.good[i, k, j], value[0] if body >= 0.0 else value[1]
+    return value[0] if body >= 0.0 else value[1]
