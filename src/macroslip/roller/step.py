@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from macroslip.compiled import jit_inline
+
 #: Most stages of a step.
 STAGES = 3
 _AT_STAGES = (STAGES,)
@@ -15,7 +17,8 @@ _BY_INTERFACE, _BY_RACEWAY = (STAGES, 3), (STAGES, 2)
 #: start, end : times [s]
 #: stages : number of stages
 #: stretch : number of the stretch of smooth loads it lies in; no parabola reaches from one to the next
-#: snaps : 1 where power may have a peak between the stages
+#: sampled : 1 where peaks of power between the stages stand in rows without weight before this one
+#: pure_speed : speed u2 of the raceways past a roller in pure rolling, at the end [m/s]
 #: time, weight : of the stages [s]; Σ weight · power is the energy of the step
 #: inner_slip, outer_slip : Δu at the middle of the raceway contacts [m/s]
 #: inner_speed, outer_speed : u2 of the rings past the roller's centre [m/s]
@@ -30,7 +33,8 @@ _BY_INTERFACE, _BY_RACEWAY = (STAGES, 3), (STAGES, 2)
 #: power_before : frictional power at the start [W]
 STEP = np.dtype(
     [
-        ("start", "f8"), ("end", "f8"), ("stages", "i8"), ("stretch", "i8"), ("snaps", "i8"),
+        ("start", "f8"), ("end", "f8"), ("stages", "i8"), ("stretch", "i8"), ("sampled", "i8"),
+        ("pure_speed", "f8"),
         ("time", "f8", _AT_STAGES), ("weight", "f8", _AT_STAGES),
         ("inner_slip", "f8", _AT_STAGES), ("outer_slip", "f8", _AT_STAGES),
         ("inner_speed", "f8", _AT_STAGES), ("outer_speed", "f8", _AT_STAGES), ("cage_speed", "f8", _AT_STAGES),
@@ -48,3 +52,26 @@ BUFFER = 2**20
 def new_steps(rollers: int = 1, bytes_: int = BUFFER) -> np.ndarray:
     """An empty buffer of steps, shape (steps, rollers); at least 16 steps."""
     return np.zeros((max(bytes_ // (STEP.itemsize * rollers), 16), rollers), STEP)
+
+
+@jit_inline
+def write_stage(row, k, time, weight, body, at, forces, slip, power):
+    """Write stage `k` of a step on an imposed orbit: time and weight [s], station, forces, slip [m/s] and powers [W]."""
+    row.time[k], row.weight[k], row.pure_speed = time, weight, at.ring_speed
+    row.inner_slip[k] = row.outer_slip[k] = slip
+    row.inner_speed[k] = row.outer_speed[k] = at.ring_speed
+    row.cage_speed[k] = at.ring_speed - slip
+    row.inner_load[k], row.outer_load[k], row.elastic_load[k] = at.inner_load, at.outer_load, at.elastic_load
+    row.cage_load[k] = forces.cage_load
+    row.force[k, 0], row.force[k, 1], row.force[k, 2] = forces.inner, forces.outer, forces.cage
+    row.power[k, 0], row.power[k, 1], row.power[k, 2] = power
+    row.rolling[k, 0], row.rolling[k, 1], row.rolling[k, 2] = (
+        forces.inner_rolling,
+        forces.outer_rolling,
+        forces.cage_rolling,
+    )
+    row.rough[k, 0], row.rough[k, 1], row.rough[k, 2] = forces.inner_rough, forces.outer_rough, forces.cage_rough
+    row.lag_power[k, 0] = at.ring_speed * body.inner.curvature * forces.inner_lag
+    row.lag_power[k, 1] = at.ring_speed * body.outer.curvature * forces.outer_lag
+    row.skew_power[k, 0] = -at.ring_speed * body.inner.spin * forces.inner_skew
+    row.skew_power[k, 1] = -at.ring_speed * body.outer.spin * forces.outer_skew

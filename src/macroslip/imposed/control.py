@@ -1,0 +1,267 @@
+"""Length of a step: bounds that are known beforehand, and the estimated errors of slip and energy of a step that was tried.
+
+Energy is a sum over three instants of a step. Where power is smooth, the embedded estimate is far above the error of the
+sum. Where power has a kink inside the step, or falls to zero at its end with an infinite slope, estimate and error are of
+the same size, and the estimate may be small by accident.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.imposed.radau import EIGENVALUE, NODES, WEIGHTS, between_stages, forces_of
+from macroslip.imposed.tuning import (
+    AT_END,
+    CUSP_LOOK,
+    CUSP_WEIGHT,
+    DEFECT_NODES,
+    DEFECT_WEIGHT,
+    ENERGY_SHARE,
+    FALLEN,
+    FORGOTTEN,
+    KINK_WEIGHT,
+    NO_ENERGY,
+    SAFETY,
+    SHORT_PART,
+    SLIP_SHARE,
+)
+from macroslip.imposed.zones import EDGE, FIRM
+from macroslip.ring.orbit import instant, interval_of
+from macroslip.roller.forces import net_force, powers
+
+_ROOT_6 = math.sqrt(6.0)
+
+
+def _embedded_difference() -> tuple[float, float, float, float]:
+    """Weights of (third-order rule with weight 1/EIGENVALUE at the start) − (Radau rule), at nodes 0, c1, c2, 1."""
+    first = 1.0 / EIGENVALUE
+    rest = np.linalg.solve(np.vander(NODES, 3, increasing=True).T, np.array([1.0 - first, 0.5, 1.0 / 3.0]))
+    one, two, three = (float(x) for x in rest - np.array(WEIGHTS))
+    return first, one, two, three
+
+
+EMBEDDED = _embedded_difference()
+
+
+@jit
+def cubic(x, g0, g1, g2, g3):
+    """Value at x of the cubic through the values at 0, c1, c2 and 1."""
+    a, b = NODES[0], NODES[1]
+    return (
+        g0 * (x - a) * (x - b) * (x - 1.0) / (-a * b)
+        + g1 * x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
+        + g2 * x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
+        + g3 * x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
+    )
+
+
+@jit
+def crossing(g0, g1, g2, g3):
+    """First change of sign of the cubic through a step's nodes, as a part of the step; 1 if there is none inside.
+
+    Parameters
+    ----------
+    g0, g1, g2, g3 : float
+        Values at the start and at the three stages.
+
+    Returns
+    -------
+    float
+        Between `AT_END` and 1 − `AT_END`, or exactly 1.
+
+    Examples
+    --------
+    >>> round(crossing(-0.5, NODES[0] - 0.5, NODES[1] - 0.5, 0.5), 12)
+    0.5
+    >>> crossing(1.0, 2.0, 3.0, 4.0)
+    1.0
+    """
+    if g0 * g1 < 0.0:
+        low, high, below = 0.0, NODES[0], g0
+    elif g1 * g2 < 0.0:
+        low, high, below = NODES[0], NODES[1], g1
+    elif g2 * g3 < 0.0:
+        low, high, below = NODES[1], 1.0, g2
+    else:
+        return 1.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        if cubic(middle, g0, g1, g2, g3) * below > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high if AT_END < high < 1.0 - AT_END else 1.0
+
+
+@jit_inline
+def _lean(at):
+    """Body force along the contact normal, positive outward [N]."""
+    return at.outer_load - at.inner_load
+
+
+@jit
+def first_cusp(state, free, step):
+    """Part of a step at which traction first has a cusp because a light contact's load passes through zero; else 1.
+
+    At the cage it is predicted with the traction at the start, whose change is small against the roller's weight. A
+    `free` roller has another where it leans over from one raceway to the other. Where the shaft turns back all friction
+    has one.
+    """
+    at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
+    held = state.forces.cage_load - at.tangential
+    part = crossing(at.tangential + held, at1.tangential + held, at2.tangential + held, at3.tangential + held)
+    part = min(part, crossing(at.ring_speed, at1.ring_speed, at2.ring_speed, at3.ring_speed))
+    if free:
+        part = min(part, crossing(_lean(at), _lean(at1), _lean(at2), _lean(at3)))
+    return part
+
+
+@jit
+def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
+    """Estimated error of the slip after the step [m/s] (Hairer & Wanner IV.8), filtered by the least slope [N s/m]."""
+    e1 = -(13.0 + 7.0 * _ROOT_6) / 3.0
+    e2 = -(13.0 - 7.0 * _ROOT_6) / 3.0
+    e3 = -1.0 / 3.0
+    return (-force_0 + scale * (e1 * z1 + e2 * z2 + e3 * z3)) / (scale * EIGENVALUE + slope)
+
+
+@jit
+def _defect_error(path, state, step, stages, looks):
+    """Error of slip [m/s] by the equation's defect between the stages, at `looks` places.
+
+    The embedded estimate is one number and may vanish by accident, especially where grip does so between two stages.
+    """
+    worst = 0.0
+    turn = step.length * path.body.mobility
+    for check in range(looks):
+        part = DEFECT_NODES[check]
+        here = interval_of(path.motion, state.time + part * step.length, state.interval)
+        there, between, rate = between_stages(path, state, step, stages, here, part)
+        push = forces_of(path, there, between)
+        defect = rate + turn * net_force(push)
+        worst = max(worst, DEFECT_WEIGHT * abs(defect) / (1.0 + turn * abs(push.slope)))
+    return worst
+
+
+@jit_inline
+def slip_error(path, state, step, stages, zone):
+    """Estimated error of slip of a step [m/s], and the force evaluations that took."""
+    microslip = path.body.microslip
+    slip_off, looks = 0.0, 0
+    if not (zone == FIRM and microslip):
+        # A held roller's slip is the balance of the instant, solved for at the end of the step.
+        least = max(min(state.forces.slope, stages.f1.slope, stages.f2.slope, stages.f3.slope), 0.0)
+        slip_off = abs(embedded_slip_error(step.scale, least, net_force(state.forces), stages.s1, stages.s2, stages.s3))
+    if zone != FIRM:
+        # Grip may cease between two stages; with microslip it does so gradually.
+        looks = 2 if zone == EDGE and not microslip else 1
+        slip_off = max(slip_off, _defect_error(path, state, step, stages, looks))
+    if microslip:
+        # Slip that the next step forgets need not be known so well.
+        slip_off /= 1.0 + FORGOTTEN * step.length * path.body.mobility * max(stages.f3.slope, 0.0)
+    return slip_off, looks
+
+
+@jit_inline
+def missed_way(path, state, step):
+    """Error of the method's quadrature for the way of the rings past the roller in a step [m]; it is known exactly.
+
+    Speed is linear between the samples of the loads, and friction follows it: kinks of both lie at the same instants.
+    """
+    before = instant(path.motion, state.interval, state.time)
+    after = instant(path.motion, step.interval, step.times[2])
+    way = -path.body.orbit_ratio * path.body.outer_radius * (after.shaft_angle - before.shaft_angle)
+    found = WEIGHTS[0] * step.at1.ring_speed + WEIGHTS[1] * step.at2.ring_speed + WEIGHTS[2] * step.at3.ring_speed
+    return step.length * found - way
+
+
+@jit_inline
+def _kink_error(path, state, step, totals):
+    """Error of the energy [J] by kinks of the speed inside a step that spans samples; `totals` are powers at four nodes."""
+    if step.interval == state.interval:
+        return 0.0
+    fastest = max(
+        abs(state.at.ring_speed), abs(step.at1.ring_speed), abs(step.at2.ring_speed), abs(step.at3.ring_speed)
+    )
+    missed = abs(missed_way(path, state, step))
+    if fastest == 0.0:
+        # At rest where it is looked at; the shaft may have turned in between.
+        return math.inf if missed > 0.0 else 0.0
+    return KINK_WEIGHT * missed / fastest * max(totals)
+
+
+@jit
+def _cusp_error(path, state, step, stages, totals, zone):
+    """Error of the energy [J] where the cage's load is all but gone at one end of a step, by a look between the stages.
+
+    Returns
+    -------
+    float, int
+        With the force evaluations it took.
+    """
+    first, last = abs(state.forces.cage_load), abs(stages.f3.cage_load)
+    if zone == EDGE or min(first, last) >= FALLEN * max(first, last):
+        return 0.0, 0
+    if zone == FIRM and path.body.microslip:
+        return 0.0, 0  # the raceways' power, beside which the cage's is little, has no cusp there
+    here = interval_of(path.motion, state.time + CUSP_LOOK * step.length, state.interval)
+    there, slip, _ = between_stages(path, state, step, stages, here, CUSP_LOOK)
+    if zone == FIRM:
+        # Between stages the polynomial of slip is far from balance, which for the cage is that of pure rolling.
+        slip = 0.0
+    inner, outer, cage = powers(path.body, there, forces_of(path, there, slip), slip)
+    missed = inner + outer + cage - cubic(CUSP_LOOK, totals[0], totals[1], totals[2], totals[3])
+    return CUSP_WEIGHT * step.length * abs(missed), 1
+
+
+@jit_inline
+def energy_error(path, state, step, stages, totals, zone):
+    """Estimated error of the energy of a step [J], from the roller's powers at four nodes [W], and evaluations it took."""
+    one, two, three, four = totals
+    embedded = abs(step.length * (EMBEDDED[0] * one + EMBEDDED[1] * two + EMBEDDED[2] * three + EMBEDDED[3] * four))
+    cusp, looks = _cusp_error(path, state, step, stages, totals, zone)
+    return max(embedded, _kink_error(path, state, step, totals), cusp), looks
+
+
+@jit
+def held_energy_error(energy, length, before, after):
+    """Estimated error of the energy of a held step [J], from powers at its ends [W].
+
+    Simpson's rule is off in proportion to the fourth power of the step, the trapezoidal rule to the second; the square of
+    twice what they differ by relatively has the order of the one, and for a power that grows as an exponential eighty
+    times its error. Errors of a rising and of a falling power are of one sign and add up, hence the margin.
+    """
+    difference = 2.0 * energy - length * (before + after)
+    return difference * difference / abs(energy) if energy != 0.0 else math.inf
+
+
+@jit_inline
+def error_ratio(limits, slip_off, energy_off, energy, mean_power, h, sample_step):
+    """Error of a step over what is allowed: the larger of slip's and energy's.
+
+    Parameters
+    ----------
+    slip_off, energy_off : float
+        Estimated errors [m/s], [J].
+    energy : float
+        Dissipated in the step [J].
+    mean_power : float
+        Since the start of the history or, in the window, of that [W].
+    h, sample_step : float
+        Length of the step and of the loads' sample interval [s].
+    """
+    error = abs(slip_off) / (SLIP_SHARE * limits.tolerance * limits.speed_scale + 1e-300)
+    # Power jumps with the shaft's acceleration at every sample; what it does in a short part of a sample interval may
+    # be off by what is allowed in that part.
+    share = max(h, SHORT_PART * sample_step)
+    worth = max(mean_power * share, energy, NO_ENERGY * limits.energy_scale)
+    return max(error, abs(energy_off) / (ENERGY_SHARE * limits.tolerance * worth + 1e-300))
+
+
+@jit_inline
+def step_factor(error):
+    """Factor on the step by its error over what is allowed; the estimates are of third order."""
+    return SAFETY / math.sqrt(math.sqrt(max(error, 1e-8)))
