@@ -21,6 +21,7 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.asperities import asperity_patch
 from macroslip.contact.spline import spline_value
+from macroslip.contact.traction import Fluid, chord_stress
 
 #: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below round-off of the rest.
 _NO_SLIP = 1e-30
@@ -235,3 +236,35 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
     for n in range(loads.size):
         patch_traction(patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], found[n])
     return found
+
+
+def patch_power(patch: Patch, chords: Chords, load: float, film: float, ring_speed: float, slip: float) -> float:
+    """Frictional power of a film [W], ∫τ v dA, by the rule of `patch_traction`; parameters as there."""
+    found = np.empty(4)
+    patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, found)
+    return _power(patch, found[0], found[1], found[2], ring_speed, slip)
+
+
+def _power(patch: Patch, pull: float, lag: float, skew: float, ring_speed: float, slip: float) -> float:
+    curvature = patch.curvature_ratio * patch.roller_radius
+    return float(slip * (pull - lag) + ring_speed * (curvature * lag - patch.spin_ratio * skew))
+
+
+def fine_power(patch: Patch, fluid: Fluid, load: float, film: float, ring_speed: float, slip: float) -> float:
+    """The same by a finer rule, and with the stress of every chord by quadrature in place of the oil's table."""
+    root = load ** (1.0 / 3.0)
+    across = patch.across * root
+    end = min(1.0, patch.half_length / across)
+    bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
+    spin = ring_speed * patch.spin_ratio
+    first, second = rolling_lines(bend, spin, slip, across * end)
+    edges = np.array([-end, first / across, second / across, end])
+    lengths = np.diff(edges)
+    place = (edges[:-1, None] + lengths[:, None] * _FINE_NODES).ravel()
+    weight = (lengths[:, None] * _FINE_WEIGHTS).ravel()
+    station, cosine = across * place, np.sqrt(1.0 - place**2)
+    local = slip + station * (bend * station - spin)
+    stress = chord_stress(fluid, patch.pressure * root * np.maximum(cosine, 1e-9), film, np.maximum(np.abs(local), _NO_SLIP))
+    part = 2.0 * across * patch.along * root * weight * cosine * np.copysign(stress, local)
+    lag = part * station**2 * 0.5 / (patch.contour_radius * patch.roller_radius)
+    return _power(patch, part.sum(), lag.sum(), (part * station).sum(), ring_speed, slip)

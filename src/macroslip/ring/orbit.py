@@ -104,3 +104,18 @@ def instant(motion, interval, time):
         near[1] + (far[1] - near[1]) * share,
         near[2] + (far[2] - near[2]) * share,
     )
+
+
+def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
+    """Angle that the shaft has turned since the first sample [rad], at times [s] of the history.
+
+    Examples
+    --------
+    >>> motion = Motion(np.array([0.0, 2.0]), np.array([1.0, 3.0]), np.array([0.0, 4.0]), np.zeros((2, 3)))
+    >>> angle_at(motion, np.array([0.0, 1.0, 2.0])).tolist()
+    [0.0, 1.5, 4.0]
+    """
+    k = np.clip(np.searchsorted(motion.time, time, side="right") - 1, 0, motion.time.size - 2)
+    since = time - motion.time[k]
+    rise = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+    return motion.shaft_angle[k] + (motion.shaft_speed[k] + 0.5 * rise * since) * since

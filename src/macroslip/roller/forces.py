@@ -355,6 +355,33 @@ def raceway_oil(law, tables, load, ln_load, mean, ln_mean, slip):
 
 
 @jit_inline
+def cage_traction(body, tables, load, ln_load, surface_speed, ln_surface):
+    """Traction of the cage's contact under a load > 0 [N], without the oil of the pocket.
+
+    Returns
+    -------
+    tuple of 4 float
+        Force in the spin equation [N], its derivatives by the roller's slip [N s/m] and by load [-], and the power of
+        asperities [W].
+    """
+    law = body.cage
+    # Slip at the cage is −u1, and v slows the roller's surface.
+    if body.closed_form:
+        entrainment = 0.5 * abs(surface_speed)
+        force, slope, by_entrainment, by_load, rough = _closed_form(
+            law, tables, load, ln_load, -surface_speed, entrainment
+        )
+        return force, slope - math.copysign(0.5, surface_speed) * by_entrainment, by_load, rough
+    value, along_load, along_speed = in_plane(law.oil, tables, ln_load, ln_surface)
+    return (
+        -value[0] * surface_speed,
+        value[0] + along_speed[0],
+        -along_load[0] * surface_speed / load,
+        value[1] * value[0] * surface_speed * surface_speed,
+    )
+
+
+@jit_inline
 def cage_contact(body, tables, load, surface_speed, ln_surface):
     """Contact with the cage under |F_n,cage| [N], from the speed of the roller's surface u2 − v [m/s] and its logarithm.
 
@@ -367,19 +394,11 @@ def cage_contact(body, tables, load, surface_speed, ln_surface):
         return Cage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     ln_load = log_load(load)
     friction, by_slip, by_load, rough = 0.0, 0.0, 0.0, 0.0
+    if load > 0.0:
+        friction, by_slip, by_load, rough = cage_traction(body, tables, load, ln_load, surface_speed, ln_surface)
+    if not body.oily:
+        return Cage(friction, 0.0, by_slip, 0.0, by_load, 0.0, 0.0, rough)
     value, along_load, along_speed = in_plane(law.oil, tables, ln_load, ln_surface)
-    # Slip at the cage is −u1, and v slows the roller's surface.
-    if body.closed_form and load > 0.0:
-        entrainment = 0.5 * abs(surface_speed)
-        force, slope, by_entrainment, by_load, rough = _closed_form(
-            law, tables, load, ln_load, -surface_speed, entrainment
-        )
-        friction, by_slip = force, slope - math.copysign(0.5, surface_speed) * by_entrainment
-    elif load > 0.0:
-        friction = -value[0] * surface_speed
-        by_slip = value[0] + along_speed[0]
-        by_load = -along_load[0] * surface_speed / load
-        rough = value[1] * value[0] * surface_speed * surface_speed
     conductance, resistance = value[2], value[3]
     per_load = 1.0 / load if load > 0.0 else 0.0
     shear = -0.5 * resistance * surface_speed
