@@ -23,6 +23,7 @@ from macroslip.contact.asperities import asperity_patch
 from macroslip.contact.spline import spline_value
 from macroslip.contact.traction import Fluid, chord_stress
 
+_asperity_patch = jit(asperity_patch)
 #: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below round-off of the rest.
 _NO_SLIP = 1e-30
 #: Part of the half length below which a piece of the contact is left out.
@@ -222,7 +223,7 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
     rough = 0.0
     if share > 0.0 and patch.boundary_friction > 0.0:
         scale = 0.75 * patch.boundary_friction * share * load / across
-        more, second_moment, more_skew, rough = asperity_patch(
+        more, second_moment, more_skew, rough = _asperity_patch(
             scale, patch.full_slip, across, across * end, slip, bend, spin
         )
         pull, lag, skew = pull + more, lag + second_moment * per_drop, skew + more_skew

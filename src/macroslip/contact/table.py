@@ -19,7 +19,7 @@ from macroslip.contact.patch import Chords, Patch, patch_tractions
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.table_store import remembered, stored, table_key
-from macroslip.contact.traction import chord_table
+from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST_PRESSURE, chord_table
 
 if TYPE_CHECKING:
     from macroslip.contact.laws import ContactLaws, RollerLaws
@@ -311,6 +311,17 @@ def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
     return np.append(found.ravel(), time.thread_time() - began)
 
 
+def _parts(contact: ContactLaws) -> tuple:
+    """All that a contact's traction depends on."""
+    one, oil = contact.interface, contact.interface.lubricant
+    sources = contact.own_sources
+    return (
+        contact.film_name, contact.starvation, contact.thermal_loading, contact.fluid, contact.traction_name,
+        contact.asperity_name, tuple(patch_of(contact)), one.rolling_radius, one.modulus, one.roughness, one.hardness,
+        oil.viscosity, oil.pressure_viscosity, sources, repr(oil) if sources else "",
+    )  # fmt: skip
+
+
 class TableErrors(NamedTuple):
     """Relative errors of force and power of a traction table: median and largest; and the time it took to make [s]."""
 
@@ -335,7 +346,7 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
     contact : ContactLaws
     box : Box
     """
-    grid, key = _grid(contact, box), table_key("traction", *contact.key)
+    grid, key = _grid(contact, box), table_key("traction", *_parts(contact))
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
     record["start"], record["rising"] = tables.add(made.coefficients), tables.add(made.rising)
     for name in ("load", "speed", "ratio"):

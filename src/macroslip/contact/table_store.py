@@ -21,8 +21,6 @@ import numpy as np
 from filelock import FileLock, Timeout
 from platformdirs import user_cache_path
 
-from macroslip.compiled import own_laws
-from macroslip.contact.spline import read_only
 from macroslip.files import UNFINISHED, write_durably
 from macroslip.fingerprint import KERNEL_PARTS, fingerprint
 
@@ -43,7 +41,7 @@ _guard = threading.Lock()
 def table_key(*parts: Any) -> str:
     """Name of a table by all it depends on: numbers, arrays and named tuples of them, and the sources of the laws."""
     digest = hashlib.sha256(fingerprint(*KERNEL_PARTS).encode())
-    for text in (*own_laws(), *(_described(part) for part in parts)):
+    for text in map(_described, parts):
         digest.update(text.encode() + b"\0")
     return digest.hexdigest()
 
@@ -95,6 +93,13 @@ def remembered(key: str, make: Callable[[], Made]) -> Made:
         return found
 
 
+def _read_only(values: np.ndarray) -> np.ndarray:
+    """An array that nobody changes, in C order."""
+    found = np.ascontiguousarray(values)
+    found.flags.writeable = False
+    return found
+
+
 def _size(value: Any) -> int:
     if isinstance(value, np.ndarray):
         return value.nbytes
@@ -129,7 +134,7 @@ def _from_disk_or_made(key: str, make: Callable[[], Sequence[np.ndarray]]) -> li
             held.enter_context(FileLock(path.parent / f"{key[:2]}.lock", timeout=_PATIENCE))
             if (found := _read(path)) is not None:
                 return found
-        made = [read_only(one) for one in make()]
+        made = [_read_only(one) for one in make()]
         if path is not None:
             with contextlib.suppress(OSError):
                 write_durably(path, _content(made))
@@ -154,7 +159,7 @@ def _read(path: Path) -> list[np.ndarray] | None:
         return None
     part, found = io.BytesIO(content[32:]), []
     while part.tell() < len(content) - 32:
-        found.append(read_only(np.load(part, allow_pickle=False)))
+        found.append(_read_only(np.load(part, allow_pickle=False)))
     with contextlib.suppress(OSError):
         os.utime(path)  # the files used last are removed last
     return found

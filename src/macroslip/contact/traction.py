@@ -27,7 +27,7 @@ import numpy as np
 from scipy.ndimage import map_coordinates
 
 from macroslip.contact.hertz import HertzContact
-from macroslip.contact.spline import axis, axis_middles, axis_nodes, middle_values, tensor_coefficients
+from macroslip.contact.spline import axis, spline_coefficients
 from macroslip.contact.table_store import stored, table_key
 from macroslip.errors import InputError
 from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
@@ -58,10 +58,10 @@ _SMALL = 1e-7
 _NO_SLIP = 1e-30
 
 #: Highest and lowest pressure of the chord table [Pa]; pressures beyond are treated as these.
-HIGHEST_PRESSURE, _LOWEST_PRESSURE = 4e9, 10.0
+HIGHEST_PRESSURE, LOWEST_PRESSURE = 4e9, 10.0
 _THINNEST, _THICKEST, _FASTEST = 2e-8, 4e-4, 5.0
 # A thick film of the largest Eyring stress heats by 1e-3 at exp(-10) of its characteristic slip already.
-_LOWEST_LOG_SLIP = -12.0
+LOWEST_LOG_SLIP = -12.0
 #: Pressures, and spacing of slips and of films in their logarithms. Eyring's stress has no corner at a limit: with a third of
 #: the nodes, interpolated stress is off by a tenth of the error with limiting shear.
 _GRIDS = {NEWTONIAN: (80, 0.3, 0.35), LIMITING_SHEAR: (80, 0.3, 0.35), EYRING: (56, 0.45, 0.5)}
@@ -432,8 +432,11 @@ def _local_stress(rheology: int) -> _LocalStress:
     def solved(first: np.ndarray, second: np.ndarray) -> np.ndarray:
         return np.log(heated_shear(rheology, np.exp(first)[:, None], 1.0, np.exp(second)))
 
-    coefficients = tensor_coefficients(solved(axis_nodes(viscous), axis_nodes(heat)), 2)
-    off = np.abs(middle_values(coefficients, 2) - solved(axis_middles(viscous), axis_middles(heat)))
+    coefficients = spline_coefficients(solved(viscous.nodes, heat.nodes), 2)
+    # A spline has one coefficient before its first node.
+    middles = np.meshgrid(*(np.arange(one.cells) + 1.5 for one in (viscous, heat)), indexing="ij")
+    found = map_coordinates(coefficients, middles, order=3, prefilter=False)
+    off = np.abs(found - solved(viscous.middles, heat.middles))
     return _LocalStress(coefficients, off <= _LARGEST_ERROR)
 
 
@@ -497,20 +500,20 @@ def chord_table(fluid: Fluid) -> ChordTable:
     count, slip_spacing, film_spacing = _GRIDS[fluid.rheology]
     roots = np.linspace(0.0, HIGHEST_PRESSURE**0.25, count)
     films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + film_spacing, film_spacing)
-    pressures = np.maximum(roots**4, _LOWEST_PRESSURE)
+    pressures = np.maximum(roots**4, LOWEST_PRESSURE)
     log_eta = log_viscosity(fluid, pressures)
     slowest = characteristic_slip(fluid, log_eta, pressures, math.exp(films[0]))[1:].min()
     # A spline needs five nodes, even where stress is proportional to slip all through: Newtonian, without heating.
-    highest = max(math.log(_FASTEST / slowest) + slip_spacing, _LOWEST_LOG_SLIP + 4.5 * slip_spacing)
-    slips = np.arange(_LOWEST_LOG_SLIP, highest, slip_spacing)
+    highest = max(math.log(_FASTEST / slowest) + slip_spacing, LOWEST_LOG_SLIP + 4.5 * slip_spacing)
+    slips = np.arange(LOWEST_LOG_SLIP, highest, slip_spacing)
 
     def make() -> list[np.ndarray]:
         values = np.stack([_chord_values(fluid, pressure, slips, films) for pressure in pressures])
-        return [tensor_coefficients(values, 3)]
+        return [spline_coefficients(values, 3)]
 
     (coefficients,) = stored(table_key("chord stress", fluid, pressures, slips, films), make)
     return ChordTable(
-        fluid, coefficients, tensor_coefficients(log_eta, 1), float(roots[1]), slip_spacing, film_spacing, float(films[0])
+        fluid, coefficients, spline_coefficients(log_eta, 1), float(roots[1]), slip_spacing, film_spacing, float(films[0])
     )  # fmt: skip
 
 
@@ -552,13 +555,13 @@ def interpolated_stress(table: ChordTable, pressure, film_thickness, slip):
     fluid, shape = table.fluid, table.coefficients.shape
     states = np.broadcast_arrays(pressure, film_thickness, slip)
     pressure, film_thickness, slip = (one.ravel() for one in states)
-    pressure = np.clip(pressure, _LOWEST_PRESSURE, HIGHEST_PRESSURE)
+    pressure = np.clip(pressure, LOWEST_PRESSURE, HIGHEST_PRESSURE)
     # A spline has one coefficient before its first node.
     x = np.sqrt(np.sqrt(pressure)) / table.pressure_spacing + 1.0
     z = np.clip((np.log(film_thickness) - table.lowest_film) / table.film_spacing, 0.0, shape[1] - 3.0) + 1.0
     log_eta = map_coordinates(table.log_viscosities, [np.minimum(x, shape[0] - 2.0)], order=3, prefilter=False)
     log_slip = np.log(slip / characteristic_slip(fluid, log_eta, pressure, film_thickness))
-    y = (log_slip - _LOWEST_LOG_SLIP) / table.slip_spacing
+    y = (log_slip - LOWEST_LOG_SLIP) / table.slip_spacing
     places = [x, z, np.clip(y, 0.0, shape[2] - 3.0) + 1.0]
     value = map_coordinates(table.coefficients, places, order=3, prefilter=False)
     value = value + np.minimum(y, 0.0) * table.slip_spacing

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact.flash import flash_temperature
+from macroslip.contact import flash
 from macroslip.contact.look_up import log_load, log_speed
 from macroslip.contact.patch import Chords, Patch, chord_stress_at, fine_power, patch_power
 from macroslip.contact.table import chords_for, patch_of
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from macroslip.ring.orbit import Motion
     from macroslip.roller.model import Roller
 
+flash_temperature = jit(flash.flash_temperature)
 #: Sectors of a raceway, 5° each, and stations along the roller's length.
 SECTORS, STATIONS = 72, 24
 #: Meaning of `Details.surface_energy` by its last two positions, and of `Details.extreme` by its last.

@@ -12,7 +12,7 @@ from macroslip.bearing import geometry, inertia
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
-from macroslip.contact.laws import RollerLaws, interfaces, prepare
+from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
 from macroslip.contact.look_up import PLANE, REST_SPEED, TRACTION
 from macroslip.contact.table import (
     Box,
@@ -32,11 +32,6 @@ if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.lubricant import Lubricant
 
-#: Share of a roller's load that may lie beyond its ends.
-HIGHEST_TRUNCATED_SHARE = 0.1
-#: Largest gap between a roller and the spar that pushes it [m]: half of a diametral clearance of 0.5 mm, an engineering
-#: estimate; 0.2 to 1 mm is usual.
-_POCKET_GAP = 0.25e-3
 #: Least load of planes [N], and least speed of oil's as part of the fastest.
 _LIGHTEST, _SLOWEST = 1e-4, 1e-4
 
@@ -131,51 +126,6 @@ class TableReport(NamedTuple):
     build_time: float
 
 
-def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
-    """Roller load [N] at which a raceway contact ellipse reaches the ends of the roller.
-
-    Above it the contact is truncated, and Hertz pressure, film and traction formulas no longer describe it.
-    """
-    inner, outer, _ = interfaces(bearing, lubricant)
-    half = 0.5 * bearing.roller_length
-    return min(contact.hertz.load_at_semi_axis_across(half) for contact in (inner, outer))
-
-
-def truncated_share(load: float, truncation: float) -> float:
-    """Share of a roller's load whose part of the Hertz ellipse lies beyond the roller's ends [-].
-
-    Parameters
-    ----------
-    load : float
-        Largest roller load [N].
-    truncation : float
-        From `truncation_load` [N].
-
-    Examples
-    --------
-    >>> truncated_share(1e5, 2e5), round(truncated_share(4e5, 2e5), 4)
-    (0.0, 0.0594)
-    """
-    if load <= truncation:
-        return 0.0
-    part = (truncation / load) ** (1.0 / 3.0)
-    return 1.0 - 0.5 * part * (3.0 - part * part)
-
-
-def highest_load(bearing: Bearing, lubricant: Lubricant, laws: Laws) -> float:
-    """Roller load [N] that a case may not exceed.
-
-    There the ellipse reaches the roller's ends; with microslip, which cuts it off there, a tenth of the load would lie
-    beyond them.
-    """
-    truncation = truncation_load(bearing, lubricant)
-    if not laws.microslip:
-        return truncation
-    # (3t − t³)/2 = 1 − share, with t the half length over the semi-axis.
-    part = 2.0 * math.sin(math.asin(1.0 - HIGHEST_TRUNCATED_SHARE) / 3.0)
-    return truncation / part**3
-
-
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
     """What the ring balance needs of a bearing; `model` is a roller of the downwind row."""
     count = bearing.rollers_per_row
@@ -258,7 +208,7 @@ def body_force(model: RollerModel, shaft_speed: float) -> float:
 
 
 def with_tables(
-    models: dict[str, RollerModel], box: Box, pocket_gap: float = _POCKET_GAP
+    models: dict[str, RollerModel], box: Box, pocket_gap: float = POCKET_GAP
 ) -> tuple[dict[str, Roller], TableReport]:
     """The rollers of both rows with the tables of their contacts, made or from store.
 
@@ -289,7 +239,7 @@ def with_tables(
     return found, TableReport(typical, worst, flat.nbytes, seconds)
 
 
-def _write_contact(record: np.void, tables: Tables, contact, box: Box, pocket_gap: float) -> list[TableErrors]:
+def _write_contact(record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float) -> list[TableErrors]:
     """Write the tables and numbers of one contact; the errors of its traction's table, if it has one."""
     errors = []
     record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
