@@ -14,7 +14,7 @@ import numpy as np
 from numba import types
 from numba.extending import register_jitable
 
-from macroslip.kernel_cache import kernel_folder
+from macroslip.kernel_cache import entered_in_manifest, kernel_folder
 
 _own_laws: list[str] = []
 _stored: list[Any] = []
@@ -146,7 +146,7 @@ def entry(function: Callable, *arguments: Any) -> Any:
     signature = types.void(*arguments)
     with _storing() as folder:
         if folder is not None:
-            with contextlib.suppress(RuntimeError):
+            with contextlib.suppress(RuntimeError), entered_in_manifest(folder, function.__qualname__):
                 return numba.cfunc(signature, cache=True, error_model="numpy")(function)
     return numba.cfunc(signature, error_model="numpy")(function)
 
