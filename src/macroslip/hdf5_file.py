@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from macroslip.errors import InputError
+from macroslip.machine import process_environment
 
 #: Processor time [s] for a file, and bytes read in a second beside it; time by the clock is ten times longer.
 _SECONDS, _RATE = 5.0, 10e6
@@ -68,6 +69,7 @@ def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
         done = subprocess.run(
             command,
             stdin=subprocess.DEVNULL,
+            env=process_environment(),
             capture_output=True,
             text=True,
             timeout=60.0 + 10.0 * seconds,

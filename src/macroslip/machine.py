@@ -1,10 +1,12 @@
-"""The machine on which numbers were measured, without anything that identifies its owner."""
+"""The machine on which numbers were measured, without anything that identifies its owner, and its processes of Python."""
 
 from __future__ import annotations
 
 import importlib.metadata
 import os
 import platform
+import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 _PACKAGES = ("macroslip", "numba", "llvmlite", "numpy", "scipy", "numbalsoda", "scikit-sundae")
@@ -24,6 +26,28 @@ def machine() -> dict[str, str | int | None]:
 def usable_processors() -> int:
     """Processors this process may use; those of the machine where the system does not report it."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def safe_path(entries: Iterable[str]) -> list[str]:
+    """Entries of a path of modules without the current folder, under whatever name.
+
+    Whoever sent a case file may have sent a `numba.py` beside it.
+    """
+
+    def is_here(entry: str) -> bool:
+        try:
+            return not entry or os.path.samefile(entry, os.curdir)
+        except OSError:  # one of the two does not exist
+            return False
+
+    return [one for one in entries if not is_here(one)]
+
+
+def process_environment() -> dict[str, str]:
+    """Environment for a process of Python that is started: it finds the modules of this one, none in the current folder."""
+    given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    modules = dict.fromkeys(safe_path([*given, *sys.path]))
+    return os.environ | {"PYTHONSAFEPATH": "1", "PYTHONPATH": os.pathsep.join(modules)}
 
 
 def _processor() -> str:

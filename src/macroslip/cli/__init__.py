@@ -19,6 +19,7 @@ from macroslip.cli.report import report
 from macroslip.cli.reproduce import reproduce
 from macroslip.cli.run import run
 from macroslip.cli.study import study
+from macroslip.machine import safe_path
 
 app = typer.Typer(
     name="macroslip",
@@ -60,4 +61,6 @@ def main() -> None:
         # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+    # What is started here and gets its path from this process does not get the current folder either.
+    sys.path[:] = safe_path(sys.path)
     app()

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import os
 import subprocess
 import sys
 import time
@@ -17,7 +16,7 @@ from typing import Any
 
 from macroslip.compiled import own_laws
 from macroslip.kernel_cache import kernel_folder
-from macroslip.machine import usable_processors
+from macroslip.machine import process_environment, usable_processors
 
 #: A kernel that is compiled ahead by its name, and one that only the physical model needs.
 _INTEGRATOR, _PHYSICAL = "integrate_radau", "raceway_values"
@@ -46,12 +45,11 @@ def compile_ahead(*, physical: bool) -> None:
         return
     with contextlib.suppress(OSError):
         _running = subprocess.Popen(
-            [sys.executable, "-m", __name__, *(["physical"] if physical else [])],
+            [sys.executable, "-P", "-m", __name__, *(["physical"] if physical else [])],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            # Where this process finds its modules, the other one does.
-            env=os.environ | {"PYTHONPATH": os.pathsep.join(one for one in sys.path if one)},
+            env=process_environment(),
         )
         atexit.register(_stop)
 

@@ -5,7 +5,6 @@ Both take most of a minute, and matplotlib keeps the interpreter's lock.
 
 from __future__ import annotations
 
-import os
 import pickle
 import subprocess
 import sys
@@ -14,6 +13,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+
+from macroslip.machine import process_environment
 
 
 @contextmanager
@@ -36,12 +37,11 @@ def page_written(path: Path, *inputs: Any) -> Iterator[None]:
         pickle.dump((path, inputs), given)
         given.seek(0)
         process = subprocess.Popen(
-            [sys.executable, "-m", __name__],
+            [sys.executable, "-P", "-m", __name__],
             stdin=given,
             stdout=problems,
             stderr=problems,
-            # Where this process finds its modules, the other one does.
-            env=os.environ | {"PYTHONPATH": os.pathsep.join(one for one in sys.path if one)},
+            env=process_environment(),
         )
         try:
             yield

@@ -21,7 +21,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from macroslip.errors import InputError, MacroslipError
-from macroslip.machine import usable_processors
+from macroslip.machine import process_environment, usable_processors
 from macroslip.study.outcome import Outcome
 from macroslip.study.work import work_several
 from macroslip.study.workers import Done
@@ -73,6 +73,7 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
     with dask.config.set({"distributed.worker.profile.enabled": False}):
         if scheduler is None:
             with (
+                _safe_environment(),
                 _started_here(workers) as local,
                 # Not Dask's default: that is the user's own, and whatever they compute meanwhile would come here.
                 Client(local, set_as_default=False) as client,
@@ -90,6 +91,22 @@ def cluster(workers: int | None, scheduler: str | None, note: Callable[[str], No
             raise MacroslipError(_GONE) from None
         with client:
             yield Dask(client, note)
+
+
+@contextmanager
+def _safe_environment() -> Iterator[None]:
+    """Workers have the environment of this process, also those that Dask starts anew: none looks in the current folder."""
+    safe = process_environment()
+    before = {name: os.environ.get(name) for name in safe}
+    os.environ.update(safe)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value
 
 
 def _started_here(workers: int | None) -> Any:
