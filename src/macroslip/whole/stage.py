@@ -222,7 +222,7 @@ def _add_to_border(bearing, stage, at, met, block, border):
             matrix[2, k] += cosine * by
 
 
-@jit
+@jit_inline
 def eliminate(places, size, blocks, borders):
     """Take the rollers out of the cages' borders, once for all right-hand sides of this matrix.
 
@@ -312,22 +312,14 @@ def _begin_cage(bearing, stage, cage, star, border):
         matrix[2, 2] += radial * n_y * n_y + turning_push * n_x * n_x
 
 
-@jit
-def predict_raceways(moments, rollers, sheets):
-    """Write the raceways' forces that follow from the sheets' slopes."""
-    for j in range(moments.size):
-        at, sheet = moments[j], sheets[j]
-        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, rollers[j, 0])
-        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, rollers[j, 1])
-
-
-@jit
+@jit_inline
 def _raceway_forces(assembly, stage, moments, rollers, rests, sheets):
     """Raceway forces at the present state, evaluated where slopes do not serve. Returns the evaluations."""
-    predict_raceways(moments, rollers, sheets)
     for j in range(moments.size):
-        rest = rests[j]
-        if not rest.fresh and is_out_of_reach(sheets[j], moments[j]):
+        rest, at, sheet = rests[j], moments[j], sheets[j]
+        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, rollers[j, 0])
+        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, rollers[j, 1])
+        if not rest.fresh and is_out_of_reach(sheet, at):
             rest.fresh = True
         rest.marked = rest.fresh and not rest.settled
     evaluations = evaluate_marked(assembly, stage.time, moments, rollers, rests, sheets)
@@ -351,7 +343,7 @@ def _place_cages(stage, cages, star):
         cages[c, 5] = star[c, 5] + stage.step * cages[c, 3]
 
 
-@jit
+@jit_inline
 def _assemble(assembly, stage, k, size, space):
     """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
     rollers, cages, moments, sheets = space.rollers[FIRST + k], space.cages[FIRST + k], space.moments[k], space.sheets[0]
@@ -397,7 +389,7 @@ def _update(rollers, cages, size, blocks, borders):
             cages[c, 3] -= borders[c].rest[2]
 
 
-@jit
+@jit_inline
 def _follow(assembly, stage, k, space):
     """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
     bearing = assembly.bearing[0]
@@ -424,7 +416,7 @@ def _follow(assembly, stage, k, space):
         space.rollers[FIRST + k, j, 2] += stage.step * speed
 
 
-@jit
+@jit_inline
 def solve_stage(assembly, stage, k, space):
     """Solve stage `k` (0 or 1) from the guess in its unknowns, which it replaces.
 

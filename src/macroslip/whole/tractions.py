@@ -96,7 +96,7 @@ def _film_load(body, tables, load, approach, outward, ring_speed, at):
     return at.film_load
 
 
-@jit
+@jit_inline
 def locate(assembly, now, rollers, cages, moments, turn):
     """Place all rollers at a time and a (predicted) state.
 
@@ -258,7 +258,7 @@ def raceway_powers(sheet, ratio, spin, pull, shear, load, speed, slip):
     )
 
 
-@jit
+@jit_inline
 def cage_from(body, tables, sheet, push, sliding, part):
     """Friction of the cage F_c [N], its slope by slip [N s/m] and its slope by the push N [-].
 
