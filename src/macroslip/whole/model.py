@@ -161,9 +161,9 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
     The oil in a pocket is as wide as its play leaves it; without play roughness keeps surfaces apart.
     """
     pocket = bearing.pocket
-    # With the shaft at rest, rollers still fall through their play.
-    fastest = max(box.fastest, math.sqrt(2.0 * GRAVITY * bearing.radial_play))
-    box = box._replace(fastest=fastest)
+    # Rollers run through their play beside the motion of the rings, as fast as they fall through it.
+    fall = math.sqrt(2.0 * GRAVITY * bearing.radial_play)
+    box = box._replace(slowest=max(box.slowest - fall, 0.0), fastest=max(box.fastest, fall))
     rollers, report = rollers_with_tables(bearing.models, box, max(pocket.half_gap, pocket.least_film))
     numbers = np.zeros(1, BEARING)
     for name in (*_NUMBERS, "cages", "translates"):
