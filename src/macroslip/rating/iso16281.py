@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from macroslip.compiled import jit_lawless
+from macroslip.compiled import jit
 
 REDUCTION = 0.83
 """lambda nu: reduction of the load rating for edge stress and uneven load along the roller."""
@@ -81,7 +81,7 @@ def ring_ratings(
     return RingRatings(share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9), share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9))
 
 
-@jit_lawless
+@jit
 def damage_series(load, semi_axis, roller_length, rating, stationary):
     """Damage of one ring of one row over a history, (Q_e/Q_c)^(9/2), from the loads of all its rollers.
 
