@@ -30,6 +30,7 @@ from macroslip.film.film_law import register
 from macroslip.film.masjedi_khonsari import RANGES
 from macroslip.lubricant.density import dowson_higginson
 
+_density = jit_inline(dowson_higginson)
 _LOWEST_LOAD = RANGES["load"][0]
 _LOG_HEAVY = math.log(_LOWEST_LOAD)
 _DECADE = math.log(10.0)
@@ -87,7 +88,7 @@ def thickness(law, load, entrainment_speed):
     if log_group < _LOG_HEAVY:
         light, light_by_speed, light_by_load = moes.log_thickness(law.light, log_load, log_speed)
         pressure = law.pressure * math.exp(log_load / 3.0)
-        density = dowson_higginson(pressure)
+        density = _density(pressure)
         light -= math.log(density)
         light_by_load -= 0.2e-9 * pressure / ((1.0 + 1.7e-9 * pressure) ** 2 * density)
         if log_group > _LOG_LIGHT:

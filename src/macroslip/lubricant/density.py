@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from macroslip.compiled import jit
 
-
-@jit
-def dowson_higginson(pressure: float) -> float:
+def dowson_higginson(pressure):
     """Density under pressure over density at ambient pressure, 1 + 0.6 p/(1 + 1.7 p) with p in GPa.
 
     Fitted to mineral oils up to 0.4 GPa and widely used beyond; it tends to 1.353.
 
     Parameters
     ----------
-    pressure : float
+    pressure : array_like
         Pressure p above ambient [Pa], not negative.
 
     Returns
     -------
-    float
+    ndarray
         Density ratio [-], 1 to 1.353.
 
     References
