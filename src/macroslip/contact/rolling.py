@@ -1,0 +1,703 @@
+"""Rolling resistance of a contact, from no load to an elastohydrodynamic film, and contacts that carry little load.
+
+Both surfaces are sheared by the pressure's gradient: F_R = ½ ∫ h ∂p/∂x dA on each, against its motion. The inclined
+pressure pushes body i along its motion with 2 F_R R/R_i, 1/R = 1/R_1 + 1/R_2 with signs, so that all four add up to 0.
+The surfaces lose 2 F_R u, u their mean speed, and the film dissipates it; sliding has no part in it.
+
+An elastic contact is taken in slices along the roller: where F_R per length does not depend on load they give
+2a F_R(w_c), where it goes with the root of load (π/2) a F_R(w_c), w_c = 3Q/(4a) the load of the middle slice. One slice of
+w = (π²/16) w_c over 2a meets both, and lies within 1.5 % of the slices between them.
+
+In Moes' groups M = W (2U)^(−½) and L = G (2U)^¼ the contact has N_F = F_R/(E' R l) (2U)^(−¾). It joins Martin's rigid,
+isoviscous limit N_R = 1.4705 √M and an elastic limit N_E with order n, N_F = (N_R^(−n) + N_E^(−n))^(−1/n). With the share of
+the rigid limit g = N_R^(−n)/(N_R^(−n) + N_E^(−n)),
+
+    F_R = F_F (F_G/F_R,line)^g f^(1−g) + (1 − g) F_B,
+
+F_G the resistance of the rigid gap of finite length, with its fullness φ, and f = f_T f_S the factors of heating and
+starvation of an elastic inlet. F_B is the resistance of the film beside Hertz' ellipse, a ≤ |z| ≤ l/2, where the gap is
+h0 + (z² − a²)/(2R_y) and every slice Martin's:
+
+    F_B = 2 · 4.601 φ η0 u √(2 R_x R_y) ln{[l/2 + √(l²/4 + 2R_y h0 − a²)]/[a + √(2R_y h0)]}.
+
+A light contact gets F_G, a heavy one f N_E over its ellipse and F_B beside it.
+
+The rigid gap h = h0 + x²/(2R_x) + z²/(2R_y), |z| ≤ l/2, has with Reynolds' equation and p ≥ 0 the groups κ = l²/(8 R_y h0) and
+λ = 2 √(2 R_x h0)/l. `gap_table.csv`, made by `python benchmarks/gap_table.py`, holds the ratios c of
+
+    Q   = 4.895 η0 u R_x l/h0     · atan(√κ)/√κ  · c_Q(κ, λ),
+    F_R = 4.601 η0 u l √(R_x/h0)  · asinh(√κ)/√κ · c_F(κ, λ),
+    S = ∫∫ dA/h = 2.0144 l √(2R_x/h0) · asinh(√κ)/√κ · c_S(κ, λ)
+
+over ln(1 + κ) and √s, s = λ √(1 + κ) the width of the pressure over that of the film; c = 1 at s = 0, where every slice
+is Martin's line. A given contact moves along the line κ λ² = R_x/R_y, so that two splines over one variable serve it.
+
+Fullness φ is the share of the length l over which the gap holds oil, in streaks along the motion that are wide against
+√(2R_x h0) and full to far upstream: at a given gap load, resistance and shear go with φ; at a given load h0 goes with φ
+where the contact is a line. Narrower streaks lose pressure at their sides, so that F_R and Q are then smaller still.
+An inlet that begins to be full at S times the film has the factors of `starved_martin` on Q, F_R and ∫∫ dA/h.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline, RectBivariateSpline
+from scipy.optimize import brentq
+from scipy.special import expit
+
+from macroslip.contact.film import joined, log_moes, thermal_loading
+from macroslip.contact.interface import Interface
+from macroslip.errors import InputError
+
+GOKSEM_HARGREAVES_REFERENCE = "Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346 and 353, doi:10.1115/1.3453183"
+BIBOULET_HOUPERT_REFERENCE = "Biboulet and Houpert, Proc. IMechE J 224 (2010) 763 and 777, doi:10.1243/13506501JET608"
+#: What `rolling:` may be, and what to cite for it.
+REFERENCES = {
+    "none": "",
+    "inlet": f"{GOKSEM_HARGREAVES_REFERENCE}; {BIBOULET_HOUPERT_REFERENCE}",
+    "whole-film": "full solutions of the line contact, benchmarks/line_contact.py",
+}
+
+#: Martin's rigid, isoviscous, flooded line contact: in x = √(2 R h0) t the gap is h0 (1 + t²), and the pressure that vanishes
+#: far upstream and ends with zero slope at t_e is dp/dt = 12 η0 u √(2 R h0)/h0² (t² − t_e²)/(1 + t²)³. Martin, Engineering
+#: (London) 102 (1916) 119; the coefficients are computed from this equation. Place of the film's end t_e:
+EXIT = 0.475129920093054
+#: Load per length times h0 over η0 u R: h0 = 4.895 η0 u R/w. Rigid where M is below about 0.3.
+LOAD = 4.894968493913377
+#: Rolling force of one surface per length over η0 u √(R/h0).
+ROLLING_AT_GAP = 4.601076874757563
+#: Rolling force of one surface per length, ½ ∫ h dp/dx dx, over √(η0 u w).
+ROLLING = ROLLING_AT_GAP / math.sqrt(LOAD)
+#: ∫dx/h over √(2 R/h0), from far upstream to the film's end: π/2 + atan(`EXIT`).
+SHEAR = 0.5 * math.pi + math.atan(EXIT)
+#: Film of the volume flow, which is the film where the pressure is highest, over h0.
+FLOW = 1.0 + EXIT**2
+#: N_R/√M.
+RIGID = ROLLING / math.sqrt(2.0)
+_LOG_FLOW, _LOG_RIGID, _LOG_SLICE = math.log(FLOW), math.log(RIGID), math.log(math.pi**2 / 16.0)
+
+#: Largest s and κ of the table of rigid gaps.
+WIDEST, MOST_CURVED = 4.0, 1e5
+_KNOTS = 96
+#: Quantities of a rigid gap.
+_LOAD, _ROLLING, _SHEAR = 0, 1, 2
+#: Order with which the rigid limit joins each elastic one.
+ORDERS = {"inlet": 10.0, "whole-film": 3.64}
+
+
+def starved_martin(inlet: float) -> tuple[float, float, float]:
+    """Load, rolling force and shear of a starved line contact over those of a flooded one with the same h0.
+
+    The film begins with no pressure at t_i < 0, where the gap is S times the film of the volume flow, h0 (1 + t_e²); the
+    pressure ends with zero slope at t_e, which follows from t_i by Martin's equation.
+
+    Parameters
+    ----------
+    inlet : float
+        S, > 1; infinite where flooded.
+
+    Returns
+    -------
+    tuple of float
+        Factors on Q, F_R and ∫dx/h at a given h0 [-], at most 1.
+
+    Notes
+    -----
+    Resistance suffers first: at S = 10 it halves, while shear keeps 85 % and load 82 %.
+
+    Examples
+    --------
+    >>> [round(factor, 3) for factor in starved_martin(10.0)]
+    [0.815, 0.499, 0.852]
+    """
+    if math.isinf(inlet):
+        return 1.0, 1.0, 1.0
+
+    def squared(t: float) -> float:  # ∫ dt/(1 + t²)²
+        return 0.5 * (t / (1.0 + t * t) + math.atan(t))
+
+    def cubed(t: float) -> float:  # ∫ dt/(1 + t²)³
+        return 0.25 * t / (1.0 + t * t) ** 2 + 0.75 * squared(t)
+
+    def flow(start: float, end: float) -> float:
+        return squared(end) - squared(start) - (1.0 + end * end) * (cubed(end) - cubed(start))
+
+    def exit_of(start: float) -> float:
+        return float(brentq(lambda end: flow(start, end), 1e-9 * -start, min(-start, 1.0), xtol=1e-15))
+
+    def inlet_rest(t: float) -> float:
+        return 1.0 + t * t - inlet * (1.0 + exit_of(-t) ** 2)
+
+    start = -float(brentq(inlet_rest, 1e-3, 2.0 * math.sqrt(inlet), xtol=1e-13))
+    end = exit_of(start)
+    # −∫ t dp and ∫ (1 + t²) dp, dp = 1/(1 + t²)² − (1 + t_e²)/(1 + t²)³.
+    ends = [-0.5 / (1.0 + t * t) + 0.25 * (1.0 + end * end) / (1.0 + t * t) ** 2 for t in (start, end)]
+    load = -24.0 * (ends[1] - ends[0])
+    rise = math.atan(end) - math.atan(start)
+    rolling = 6.0 * math.sqrt(2.0) * (rise - (1.0 + end * end) * (squared(end) - squared(start)))
+    return load / LOAD, rolling / ROLLING_AT_GAP, rise / SHEAR
+
+
+def biboulet_houpert(load):
+    """Rolling resistance of an isoviscous line contact, N_F = 1.42 √M/[1 + (0.966 √M)^10]^0.1.
+
+    Parameters
+    ----------
+    load : array_like
+        M = W (2U)^(−½), ≥ 0.
+
+    Returns
+    -------
+    ndarray
+        N_F = F_R/(E' R l) (2U)^(−¾) [-], F_R the force on each surface.
+
+    Notes
+    -----
+    The rigid limit is 3.4 % below Martin's. The elastic limit is 1.47; full solutions of the film give 1.90 at M = 5
+    and 2.05 at M = 20, their inlets alone 1.65.
+
+    References
+    ----------
+    Biboulet and Houpert, Proc. IMechE J 224 (2010) 763. Coefficients as later works quote them.
+
+    Examples
+    --------
+    >>> [float(round(force, 4)) for force in biboulet_houpert(np.array([0.01, 100.0]))]
+    [0.142, 1.47]
+    """
+    root = np.sqrt(load)
+    return 1.42 * root / (1.0 + (0.966 * root) ** 10.0) ** 0.1
+
+
+def starvation_factor(inlet: float) -> float:
+    """Rolling resistance over that of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-], below 1.
+
+    S is the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite where flooded.
+
+    References
+    ----------
+    Biboulet and Houpert, Proc. IMechE J 224 (2010) 777. Coefficients as later works quote them.
+
+    Examples
+    --------
+    >>> round(starvation_factor(10.0), 4), starvation_factor(float("inf"))
+    (0.5255, 1.0)
+    """
+    inverse = 1.0 / inlet
+    return (1.0 + 162.8 * inverse) / (1.0 + (193.1 + 1257.0 * inverse) * inverse)
+
+
+def goksem_hargreaves(load, speed, material):
+    """Rolling resistance of the inlet of a line contact, F_R α_p/(R l) = 4.318 (G U)^0.658 W^0.0126.
+
+    Parameters
+    ----------
+    load : array_like
+        W = w/(E' R), > 0.
+    speed : array_like
+        U = η0 u/(E' R), u the mean of the surface speeds, ≥ 0.
+    material : array_like
+        G = α_p E', > 0.
+
+    Returns
+    -------
+    ndarray
+        F_R α_p/(R l) [-], F_R the force on each surface, against its motion.
+
+    Notes
+    -----
+    It counts the inlet alone. In a full solution of the film the pressure ends at a constriction, where h is below and
+    dp/dx against that of the inlet, so that h dp/dx resists there as well: 30 to 40 % more at M = 2 to 40, L = 13.
+    Isothermal and flooded; piezoviscous and elastic, L = G (2U)^¼ above about 5 and M = W (2U)^(−½) above about 2.
+
+    References
+    ----------
+    Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346. Coefficients as later works quote them.
+
+    Examples
+    --------
+    >>> float(round(goksem_hargreaves(8.36e-5, 2.916e-11, 4846.0), 7))
+    0.0001193
+    """
+    return 4.318 * np.power(material * speed, 0.658) * np.power(load, 0.0126)
+
+
+def inlet_heating_of_rolling(loading):
+    """Rolling resistance over that of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-], above 0, at most 1.
+
+    L_T = η0 β u²/k ≥ 0 is the thermal loading parameter.
+
+    References
+    ----------
+    Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 353. Coefficients as later works quote them.
+
+    Examples
+    --------
+    >>> float(round(inlet_heating_of_rolling(0.038), 4))
+    0.9779
+    """
+    return 1.0 / (1.0 + 0.29 * np.power(loading, 0.78))
+
+
+def log_elastic(name: str, log_load, log_material):
+    """Ln of the elastic limit N_E of a line contact, from ln M and ln L.
+
+    Parameters
+    ----------
+    name : str
+        `inlet`: the lower of Biboulet and Houpert's 1.470 and Goksem and Hargreaves' 2.737 L^(−0.342) M^0.0126, joined with
+        order 10, the order with which Biboulet and Houpert join their limits. In Moes' groups Goksem and Hargreaves'
+        formula is left with (2U)^(−0.0002), which is dropped.
+        `whole-film`, inlet and exit: N_E = 2.026 exp(−0.00481 L) (1 + 1.97 M)^(−0.0692 L/(L + 4.71)), a fit.
+    log_load, log_material : array_like
+
+    Notes
+    -----
+    Of the whole film N_F is within 3 % of the solutions of `benchmarks/line_contact.py` for M = 0.1 to 60, L = 0 to 18, with
+    Barus' law. With Roelands' law and a compressible oil (0.54 Pa s, 21 GPa⁻¹, L = 13.4) solutions lie within 5 % of it for
+    M = 1 to 32.
+
+    Examples
+    --------
+    >>> [round(math.exp(log_elastic(name, math.log(10.0), math.log(13.4))), 3) for name in ("inlet", "whole-film")]
+    [1.149, 1.627]
+    """
+    if name == "inlet":
+        heavy = math.log(4.318 * 2.0**-0.658) - 0.342 * log_material + 0.0126 * log_load
+        return joined(heavy, math.log(1.42 / 0.966), -ORDERS[name])
+    load, material = np.exp(log_load), np.exp(log_material)
+    power = 0.0692 * material / (material + 4.71)
+    return math.log(2.026) - 0.00481 * material - power * np.log1p(1.97 * load)
+
+
+def line_rolling(name: str, load, material):
+    """N_F = F_R/(E' R l) (2U)^(−¾) [-] of a line contact, flooded and isothermal, rigid to elastic and piezoviscous.
+
+    Parameters
+    ----------
+    name : str
+        `inlet` or `whole-film`, see `log_elastic`.
+    load, material : array_like
+        M and L, > 0.
+
+    Examples
+    --------
+    >>> [float(round(line_rolling(name, 11.0, 13.4), 3)) for name in ("whole-film", "inlet")]
+    [1.611, 1.151]
+    >>> float(round(line_rolling("inlet", 1e-4, 13.4) * 100.0, 4))
+    1.4705
+    """
+    log_m = np.log(load)
+    return np.exp(joined(_LOG_RIGID + 0.5 * log_m, log_elastic(name, log_m, np.log(material)), -ORDERS[name]))
+
+
+class GapShape(NamedTuple):
+    """Geometry of a contact.
+
+    Attributes
+    ----------
+    rolling_radius : float
+        R_x, relative radius of curvature in the plane of rolling [m].
+    lateral_radius : float
+        R_y, that across it [m]; may be infinite.
+    length : float
+        l [m].
+    """
+
+    rolling_radius: float
+    lateral_radius: float
+    length: float
+
+
+class Gap(NamedTuple):
+    """Rigid, isoviscous film of a contact of finite length; groups are per η0 u φ (load, rolling) or per φ (shear).
+
+    Attributes
+    ----------
+    log_gaps : ndarray, shape (knots,)
+        ln h0 [ln m], even.
+    by_gap : ndarray, shape (4, knots − 1, 3)
+        Cubics of ln Q/(φ η0 u) [ln m], ln F_R/(φ η0 u) [ln m] and ln S/φ [ln m] over ln h0, highest power first.
+    log_loads : ndarray, shape (knots,)
+        ln Q/(φ η0 u) [ln m], even.
+    by_load : ndarray, shape (4, knots − 1, 3)
+        Cubics of ln h0, ln F_R/(φ η0 u) and ln S/φ over ln Q/(φ η0 u).
+    fullness : float
+        φ.
+    """
+
+    log_gaps: np.ndarray
+    by_gap: np.ndarray
+    log_loads: np.ndarray
+    by_load: np.ndarray
+    fullness: float
+
+
+@functools.cache
+def _ratio_splines() -> list[RectBivariateSpline]:
+    """Ln c_Q, ln c_F and ln c_S over ln(1 + κ) and √s; mirrored at √s = 0, where c − 1 goes with s."""
+    with files("macroslip.contact").joinpath("gap_table.csv").open(encoding="utf-8") as file:
+        columns = np.loadtxt(file, delimiter=",", skiprows=1)
+    curvatures, aspects = np.unique(columns[:, 0]), np.unique(columns[:, 1])
+    values = np.log(columns[:, 2:5]).reshape(curvatures.size, aspects.size, 3)
+    aspects = np.concatenate([-aspects[:0:-1], aspects])
+    values = np.concatenate([values[:, :0:-1], values], axis=1)
+    return [RectBivariateSpline(curvatures, aspects, values[:, :, k]) for k in range(3)]
+
+
+def ratios(kappa, aspect) -> np.ndarray:
+    """c_Q, c_F and c_S at κ and λ, the first axis of the result.
+
+    Examples
+    --------
+    >>> bool(np.allclose(ratios(1.0, 0.0), 1.0, atol=1e-12))
+    True
+    """
+    place = np.log1p(kappa), np.sqrt(aspect * np.sqrt(1.0 + kappa))
+    return np.exp([spline.ev(*place) for spline in _ratio_splines()])
+
+
+def prepare_gap(shape: GapShape, fullness: float = 1.0, inlet_film: float = math.inf) -> Gap:
+    """The rigid film of a contact, from the gap at which κ = 1e5 to that at which s = 4; power laws beyond.
+
+    Parameters
+    ----------
+    shape : GapShape
+    fullness : float
+        φ, above 0 and at most 1: an estimate, 0.03 to 1 for contacts without load.
+    inlet_film : float
+        Gap where the inlet begins to be full over the film, > 1; infinite where flooded.
+
+    Raises
+    ------
+    InputError
+        If fullness or inlet film is outside its range.
+    """
+    if not inlet_film > 1.0:
+        raise InputError(
+            f"the film at the inlet over that of the contact is {inlet_film!r}",
+            where="inlet_film",
+            allowed="a number above 1; .inf where flooded",
+            remedy="It is the gap where the inlet begins to be full over the gap of the contact",
+        )
+    if not 0.0 < fullness <= 1.0:
+        raise InputError(
+            f"the fullness of a light contact is {fullness!r}",
+            where="fullness",
+            allowed="a number above 0 and at most 1",
+            remedy="It is the share of the contact's length over which the gap holds oil; 1 means flooded",
+        )
+    radius, length = shape.rolling_radius, shape.length
+    curvature = length**2 / (8.0 * shape.lateral_radius)  # κ h0
+    # λ² (1 + κ) = s²: s² = 8 R_x h0/l² + R_x/R_y.
+    highest = (WIDEST**2 - radius / shape.lateral_radius) * length**2 / (8.0 * radius)
+    lowest = max(curvature / MOST_CURVED, 1e-9 * length)
+    log_gap = np.linspace(math.log(lowest), math.log(highest), _KNOTS)
+    gap = np.exp(log_gap)
+    root = np.sqrt(np.maximum(curvature / gap, 1e-12))
+    narrow, wide = np.arctan(root) / root, np.arcsinh(root) / root
+    slices = np.stack(
+        [
+            LOAD * radius * length / gap * narrow,
+            ROLLING_AT_GAP * length * np.sqrt(radius / gap) * wide,
+            SHEAR * length * np.sqrt(2.0 * radius / gap) * wide,
+        ]
+    )
+    correction = ratios(curvature / gap, np.sqrt(8.0 * radius * gap) / length)
+    values = np.log(slices * correction * np.array(starved_martin(inlet_film))[:, None]).T
+    # Load falls with the gap.
+    log_loads = np.linspace(values[-1, _LOAD], values[0, _LOAD], _KNOTS)
+    along = np.column_stack([log_gap, values[:, _ROLLING], values[:, _SHEAR]])[::-1]
+    over_load = CubicSpline(values[::-1, _LOAD], along)(log_loads)
+    return Gap(log_gap, CubicSpline(log_gap, values).c, log_loads, CubicSpline(log_loads, over_load).c, float(fullness))
+
+
+def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, place):
+    """Value of one of the splines over even knots; straight on beyond their ends."""
+    inside = np.clip(place, knots[0], knots[-1])
+    per_step = (knots.size - 1) / (knots[-1] - knots[0])
+    cell = np.minimum(((inside - knots[0]) * per_step).astype(int), knots.size - 2)
+    t = inside - knots[cell]
+    a, b, c, d = (np.ascontiguousarray(cubics[k, :, which])[cell] for k in range(4))
+    return ((a * t + b) * t + c) * t + d + (place - inside) * ((3.0 * a * t + 2.0 * b) * t + c)
+
+
+def film_at_load(gap: Gap, log_group):
+    """Ln h0, ln F_R/(φ η0 u) and ln S/φ of a contact that carries a load, from ln Q/(φ η0 u) [ln m]."""
+    place = np.asarray(log_group, dtype=float)
+    return tuple(_cubic(gap.log_loads, gap.by_load, k, place) for k in range(3))
+
+
+def film_at_gap(gap: Gap, log_gap):
+    """Ln Q/(φ η0 u), ln F_R/(φ η0 u) and ln S/φ of a contact whose gap is given, from ln h0 [ln m]."""
+    place = np.asarray(log_gap, dtype=float)
+    return tuple(_cubic(gap.log_gaps, gap.by_gap, k, place) for k in range(3))
+
+
+class RollingNumbers(NamedTuple):
+    """Rolling resistance of one contact.
+
+    Attributes
+    ----------
+    name : str
+        `inlet` or `whole-film`: what counts of an elastic film.
+    gap : Gap
+        The rigid gap, with its fullness.
+    viscosity : float
+        η0 [Pa s].
+    log_load : float
+        ln M of the middle slice at 1 N and 1 m/s; M goes with Q^(2/3) u^(−½).
+    log_material : float
+        ln L at 1 m/s; L goes with u^¼.
+    log_film : float
+        ln of R (2U)^½ at 1 m/s [ln m].
+    log_scale : float
+        ln of 2a E' R (2U)^¾ at 1 N and 1 m/s [ln N]; it goes with Q^(1/3) u^¾.
+    loading : float
+        Thermal loading parameter η0 β u²/k at 1 m/s [s²/m²]; 0 leaves heating out.
+    log_starvation : float
+        ln of the factor of a starved inlet.
+    beside : float
+        2 · 4.601 φ η0 √(2 R_x R_y) [N s/m], less where the inlet is starved.
+    double_lateral : float
+        2 R_y [m].
+    half_length : float
+        l/2 [m].
+    across : float
+        a per Q^(1/3) [m/N^(1/3)].
+    area : float
+        π a b per Q^(2/3) [m²/N^(2/3)].
+    share_1, share_2 : float
+        R/R_1 of the roller and R/R_2 of its counterpart; their sum is 1.
+    """
+
+    name: str
+    gap: Gap
+    viscosity: float
+    log_load: float
+    log_material: float
+    log_film: float
+    log_scale: float
+    loading: float
+    log_starvation: float
+    beside: float
+    double_lateral: float
+    half_length: float
+    across: float
+    area: float
+    share_1: float
+    share_2: float
+
+
+def prepare_rolling(
+    name: str,
+    interface: Interface,
+    shape: GapShape,
+    roller_radius: float,
+    *,
+    fullness: float = 1.0,
+    inlet_film: float = math.inf,
+    heating: bool = True,
+) -> RollingNumbers | None:
+    """Rolling resistance of a contact; None for `none`.
+
+    Parameters
+    ----------
+    name : str
+        `none`, `inlet` (as published: the inlet alone) or `whole-film` (inlet and exit).
+    interface : Interface
+    shape : GapShape
+        Geometry of the gap.
+    roller_radius : float
+        [m].
+    fullness : float
+        Share of the length over which the gap of a light contact holds oil.
+    inlet_film : float
+        S, the gap where the inlet begins to be full over the film, > 1; infinite where flooded. The elastic contact
+        takes Biboulet and Houpert's factor, the rigid one `starved_martin`.
+    heating : bool
+        Whether the elastic inlet is heated by its shear.
+
+    Raises
+    ------
+    InputError
+        If there is no such law, or a value is out of range.
+    """
+    if name not in REFERENCES:
+        raise InputError(
+            f"there is no rolling law '{name}'",
+            where="laws.rolling",
+            allowed=", ".join(REFERENCES),
+            remedy="Choose one of these",
+        )
+    if name == "none":
+        return None
+    radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
+    across = interface.hertz.semi_axis_across
+    doubled = 2.0 * oil.viscosity / (modulus * radius)
+    per_root = oil.viscosity * math.sqrt(2.0 * shape.rolling_radius * shape.lateral_radius)
+    return RollingNumbers(
+        name=name,
+        gap=prepare_gap(shape, fullness, inlet_film),
+        viscosity=oil.viscosity,
+        log_load=math.log(0.75 / across / (modulus * radius)) - 0.5 * math.log(doubled),
+        log_material=math.log(oil.pressure_viscosity * modulus) + 0.25 * math.log(doubled),
+        log_film=math.log(radius) + 0.5 * math.log(doubled),
+        log_scale=math.log(2.0 * across * modulus * radius) + 0.75 * math.log(doubled),
+        loading=thermal_loading(interface) if heating else 0.0,
+        log_starvation=math.log(starvation_factor(inlet_film)),
+        beside=2.0 * ROLLING_AT_GAP * fullness * starved_martin(inlet_film)[1] * per_root,
+        double_lateral=2.0 * shape.lateral_radius,
+        half_length=0.5 * shape.length,
+        across=across,
+        area=math.pi * across * interface.hertz.semi_axis_along,
+        share_1=radius / roller_radius,
+        share_2=1.0 - radius / roller_radius,
+    )
+
+
+def light_film(numbers: RollingNumbers, load, mean_speed):
+    """Film of the volume flow [m]: 1.2257 h0 where the contact is rigid, the film of the flat middle where it is elastic.
+
+    Moes' blend whose rigid and isoviscous limit is the gap of finite length with its fullness; at loads [N] and speeds
+    [m/s] above zero.
+    """
+    log_load, log_speed = np.log(load), np.log(mean_speed)
+    log_gap, _, _ = film_at_load(numbers.gap, _log_group(numbers, log_load, log_speed))
+    return np.exp(_log_film(numbers, log_gap, log_load, log_speed))
+
+
+def _log_group(numbers: RollingNumbers, log_load, log_speed):
+    return log_load - log_speed - math.log(numbers.viscosity * numbers.gap.fullness)
+
+
+def _log_film(numbers: RollingNumbers, log_gap, log_load, log_speed):
+    scale = numbers.log_film + 0.5 * log_speed
+    log_m = numbers.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed
+    return scale + log_moes(log_gap + _LOG_FLOW - scale, log_m, numbers.log_material + 0.25 * log_speed)
+
+
+def beside_ellipse(numbers: RollingNumbers, load, mean_speed):
+    """F_B [N] of a full share 1 − g, at loads [N] and speeds [m/s] above zero."""
+    log_speed = np.log(mean_speed)
+    log_h0 = np.log(light_film(numbers, load, mean_speed)) - _LOG_FLOW
+    return _beside(numbers, np.log(load), log_speed, log_h0)
+
+
+def _beside(numbers: RollingNumbers, log_load, log_speed, log_h0):
+    half = numbers.half_length
+    across = np.minimum(numbers.across * np.exp(log_load / 3.0), half)
+    rise = numbers.double_lateral * np.exp(log_h0)
+    far = np.sqrt(half * half + rise - across * across)
+    length = np.log((half + far) / (across + np.sqrt(rise)))
+    return np.where(across < half, numbers.beside * np.exp(log_speed) * length, 0.0)
+
+
+def light_contact(numbers: RollingNumbers, load, mean_speed):
+    """Film, rolling resistance and sliding of a contact under load, rigid or elastic.
+
+    Parameters
+    ----------
+    numbers : RollingNumbers
+    load : array_like
+        Q [N], > 0.
+    mean_speed : array_like
+        Size of the mean surface speed u [m/s], > 0.
+
+    Returns
+    -------
+    conductance : ndarray
+        Sliding force of the film outside Hertz' ellipse over slip [N s/m]: η0 φ S with S = ∫∫ dA/h less the ellipse's own
+        part, S²/(S + π a b/h). Inside the ellipse it is the traction law's.
+    resistance : ndarray
+        F_R [N]. The shear on the roller is −F_R sign(u), the push of the pressure −2 R/r times that, the power 2 F_R u.
+    flow_film : ndarray
+        Film of the volume flow [m].
+
+    Examples
+    --------
+    >>> from macroslip import Bearing, Lubricant
+    >>> from macroslip.bearing import geometry
+    >>> from macroslip.contact.interface import interfaces
+    >>> bearing = Bearing.read("skf-240-600-bc")
+    >>> inner, outer, cage = interfaces(bearing, Lubricant.read("vg460-pao"))
+    >>> curved = geometry.inner_curvatures(bearing)
+    >>> shape = GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length)
+    >>> numbers = prepare_rolling("whole-film", inner, shape, geometry.roller_radius(bearing))
+    >>> [float(f"{x:.4g}") for x in light_contact(numbers, 100.0, 0.4)]
+    [0, 0, 0]
+    """
+    log_load, log_speed = np.broadcast_arrays(np.log(load), np.log(mean_speed))
+    log_gap, log_rolling, _ = film_at_load(numbers.gap, _log_group(numbers, log_load, log_speed))
+    log_film = _log_film(numbers, log_gap, log_load, log_speed)
+    log_shear = _cubic(numbers.gap.log_gaps, numbers.gap.by_gap, _SHEAR, log_film - _LOG_FLOW)
+    shear, film = numbers.gap.fullness * np.exp(log_shear), np.exp(log_film)
+    inside = numbers.area * np.exp((2.0 / 3.0) * log_load) / film
+    conductance = numbers.viscosity * shear * shear / (shear + inside)
+    return conductance, _resistance(numbers, log_load, log_speed, log_rolling, log_film - _LOG_FLOW), film
+
+
+def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h0):
+    order = ORDERS[numbers.name]
+    log_m = numbers.log_load + _LOG_SLICE + (2.0 / 3.0) * log_load - 0.5 * log_speed
+    elastic = log_elastic(numbers.name, log_m, numbers.log_material + 0.25 * log_speed)
+    rigid = _LOG_RIGID + 0.5 * log_m
+    line = joined(rigid, elastic, -order)
+    # Shares of the rigid and of the elastic limit; neither is one less the other, which would cancel.
+    share, rest = expit(order * (elastic - rigid)), expit(order * (rigid - elastic))
+    scale = numbers.log_scale + log_load / 3.0 + 0.75 * log_speed
+    unit = math.log(numbers.viscosity * numbers.gap.fullness) + log_speed
+    light = log_rolling + unit - scale - rigid
+    heavy = numbers.log_starvation
+    if numbers.loading > 0.0:
+        heavy = heavy + np.log(inlet_heating_of_rolling(numbers.loading * np.exp(2.0 * log_speed)))
+    force = np.exp(scale + line + share * light + rest * heavy)
+    return force + rest * _beside(numbers, log_load, log_speed, log_h0)
+
+
+def contact_at_gap(numbers: RollingNumbers, gap):
+    """A contact whose smallest gap h0 [m] > 0 is given, as a roller with play has: rigid and isoviscous.
+
+    Returns
+    -------
+    load, conductance, resistance : ndarray
+        Each per speed [N s/m]: Q over the size of the mean surface speed, sliding force over slip, and F_R over the mean
+        speed.
+    """
+    unit = numbers.viscosity * numbers.gap.fullness
+    log_load, log_rolling, log_shear = film_at_gap(numbers.gap, np.log(gap))
+    return unit * np.exp(log_load), unit * np.exp(log_shear), unit * np.exp(log_rolling)
+
+
+def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):
+    """A roller in the pocket of its cage: a rigid, isoviscous contact under a load, whose gap the pocket bounds.
+
+    h0^−4 = h0(Q)^−4 + widest^−4: under no load the roller floats in the middle of its pocket.
+
+    Parameters
+    ----------
+    numbers : RollingNumbers
+    load : array_like
+        Q [N], ≥ 0, which the spar carries alone.
+    mean_speed : array_like
+        Size of the mean surface speed u [m/s], > 0.
+    widest : float
+        Largest gap [m].
+
+    Returns
+    -------
+    conductance, resistance : ndarray
+        Sliding force over slip, and F_R over the mean speed [N s/m].
+    """
+    with np.errstate(divide="ignore"):
+        log_group = _log_group(numbers, np.log(load), np.log(mean_speed))
+    carries = np.isfinite(log_group)
+    free, _, _ = film_at_load(numbers.gap, np.where(carries, log_group, 0.0))
+    log_gap = np.where(carries, joined(free, math.log(widest), -4.0), math.log(widest))
+    _, conductance, resistance = contact_at_gap(numbers, np.exp(log_gap))
+    return conductance, resistance
