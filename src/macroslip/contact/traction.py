@@ -522,7 +522,7 @@ def _chord_values(fluid: Fluid, pressure: float, slips: np.ndarray, films: np.nd
     solved = log_slip <= math.log(_CONTINUED)
     solved[:, :2] = True
     values = np.zeros(solved.shape)
-    where_film, where_slip = np.nonzero(solved)
+    where_film = np.nonzero(solved)[0]
     slip, log_film = log_slip[solved], films[where_film]
     if fluid.rheology == NEWTONIAN or fluid.heating == 0.0:
         stress = chord_stress(fluid, pressure, np.exp(log_film), np.exp(slip))
@@ -550,6 +550,8 @@ def interpolated_stress(table: ChordTable, pressure, film_thickness, slip):
         p1 [Pa], h [m] and |Δu| [m/s], > 0. Outside the table heating is that of its thinnest or thickest film.
     """
     fluid, shape = table.fluid, table.coefficients.shape
+    states = np.broadcast_arrays(pressure, film_thickness, slip)
+    pressure, film_thickness, slip = (one.ravel() for one in states)
     pressure = np.clip(pressure, _LOWEST_PRESSURE, HIGHEST_PRESSURE)
     # A spline has one coefficient before its first node.
     x = np.sqrt(np.sqrt(pressure)) / table.pressure_spacing + 1.0
@@ -557,15 +559,17 @@ def interpolated_stress(table: ChordTable, pressure, film_thickness, slip):
     log_eta = map_coordinates(table.log_viscosities, [np.minimum(x, shape[0] - 2.0)], order=3, prefilter=False)
     log_slip = np.log(slip / characteristic_slip(fluid, log_eta, pressure, film_thickness))
     y = (log_slip - _LOWEST_LOG_SLIP) / table.slip_spacing
-    places = np.broadcast_arrays(x, z, np.clip(y, 0.0, shape[2] - 3.0) + 1.0)
+    places = [x, z, np.clip(y, 0.0, shape[2] - 3.0) + 1.0]
     value = map_coordinates(table.coefficients, places, order=3, prefilter=False)
     value = value + np.minimum(y, 0.0) * table.slip_spacing
     if fluid.rheology == NEWTONIAN:
-        return np.exp(value + 0.5 * log_eta) * characteristic_slip(fluid, 0.0, pressure, 1.0) / film_thickness
-    limit = characteristic_stress(fluid, pressure)
-    stress = limit * np.exp(value)
-    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
-    return np.minimum(stress, 0.25 * math.pi * limit) if fluid.rheology == LIMITING_SHEAR else stress
+        stress = np.exp(value + 0.5 * log_eta) * characteristic_slip(fluid, 0.0, pressure, 1.0) / film_thickness
+    else:
+        stress = characteristic_stress(fluid, pressure) * np.exp(value)
+    if fluid.rheology == LIMITING_SHEAR:
+        # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
+        stress = np.minimum(stress, 0.25 * math.pi * fluid.characteristic * pressure)
+    return stress.reshape(states[0].shape)[()]
 
 
 #: sin φ and weights of ∫ cos²φ f(cos φ) dφ over −π/2 to π/2, by Gauss-Chebyshev quadrature of the second kind.
@@ -595,4 +599,4 @@ def film_traction(table: ChordTable, hertz: HertzContact, load, film_thickness, 
         2.0 * weight * interpolated_stress(table, pressure * height, film, speed)
         for height, weight in zip(_HEIGHTS[:5], _CHORD_WEIGHTS[:5], strict=True)
     )
-    return np.copysign(2.0 * hertz.semi_axis_across * hertz.semi_axis_along * root * root * total, slip)
+    return 2.0 * hertz.semi_axis_across * hertz.semi_axis_along * root * root * total * np.sign(slip)
