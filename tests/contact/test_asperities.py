@@ -53,7 +53,7 @@ def test_share_is_one_for_any_load_speed_and_film_and_falls_with_speed(base, nam
     for interface in base:
         film = masjedi_khonsari_moes(interface, load, speed)
         found = asperity_share(name, interface, load, speed, film)
-        assert found.shape == (41, 61) and 0.0 <= found.min() and found.max() <= 1.0
+        assert found.shape == (41, 61) and found.min() >= 0.0 and found.max() <= 1.0
         assert np.diff(found, axis=1).max() <= 0.0
         assert (found.max() > 0.5) == (name != "none")
         smooth = interface._replace(roughness=0.0)
@@ -113,13 +113,13 @@ def speeds(largest):
 
 
 states = given(
-    st.floats(0.0, 5.5).map(lambda x: 10.0**x), st.floats(1e-6, 1.0), speeds(0.05), speeds(30.0), speeds(0.6)
+    st.floats(0.0, 5.5).map(lambda x: 10.0**x), st.floats(1e-6, 1.0), st.tuples(speeds(0.05), speeds(30.0), speeds(0.6))
 )
 
 
 @states
 @settings(deadline=None, max_examples=40)
-def test_against_dense_integration(load, share, *slip):
+def test_against_dense_integration(load, share, slip):
     found, expected = patch(load, share, *slip), dense(load, share, *slip)
     largest, across = FRICTION * share * load, ACROSS * load ** (1 / 3)
     assert found[0] == pytest.approx(expected[0], abs=1e-6 * largest)
@@ -130,7 +130,7 @@ def test_against_dense_integration(load, share, *slip):
 
 @states
 @settings(deadline=None, max_examples=200)
-def test_bounds_and_power(load, share, *slip):
+def test_bounds_and_power(load, share, slip):
     force, second, skew, power = patch(load, share, *slip)
     half = min(ACROSS * load ** (1 / 3), HALF_LENGTH)
     largest = FRICTION * share * load * (1 + 1e-12)
@@ -149,7 +149,7 @@ def test_by_hand():
     assert second == pytest.approx(-250.0 * across**2 / 5, rel=1e-12) and skew == pytest.approx(0.0, abs=1e-9)
     # Half of the full slip, half of the force.
     assert patch(1e4, 0.25, 5e-5)[0] == pytest.approx(125.0, rel=1e-12)
-    assert patch(1e4, 0.25, 0.0) == (0.0, 0.0, 0.0, 0.0)
+    assert patch(1e4, 0.25, 0.0) == pytest.approx((0.0, 0.0, 0.0, 0.0), abs=1e-200)
     assert patch(1e4, 0.0, 0.2, -12.0, 0.2) == (0.0, 0.0, 0.0, 0.0)
 
 
