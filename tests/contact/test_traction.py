@@ -244,7 +244,7 @@ def test_without_heat_stress_is_that_of_the_rheology(rheology, viscous, limit):
     stress = limited_stress(rheology, viscous, limit)
     assert heated_shear(rheology, viscous, limit, 0.0) == stress
     # Approached in proportion to heat τ; and nothing jumps where heat begins to be solved for.
-    less = heated_shear(rheology, viscous, limit, np.array([0.9999e-7, 1.0001e-7, 1e-6]) / stress)
+    less = heated_shear(rheology, viscous, limit, np.array([0.999999e-7, 1.000001e-7, 1e-6]) / stress)
     assert less == pytest.approx(stress, rel=1e-6) and np.all(np.diff(less) <= 0.0)
     assert less[1] == pytest.approx(less[0], rel=1e-11)
     assert heated_shear(rheology, 0.0, limit, 1e-9) == 0.0
@@ -484,7 +484,7 @@ def test_viscosity_under_pressure(name):
 
 def test_viscosity_beyond_all_numbers_is_refused():
     with pytest.raises(InputError, match="lubricant, pressure_viscosity: viscosity rises to 1e"):
-        prepare_fluid(Laws.paper().but(rheology="limiting-shear"), OIL.replace(pressure_viscosity=1e-6 / 5))
+        prepare_fluid(FULL, OIL.replace(viscosity=0.01, pressure_viscosity=1e-7))
 
 
 def test_characteristic_slip_is_where_the_law_turns():
@@ -644,7 +644,7 @@ def test_newtonian_barus_film_with_heating_is_the_papers(base, load):
 def test_force_is_the_integral_of_the_stress_over_the_ellipse(base, name):
     oil, hertz = fluid(name), base[0].hertz
     cosine = np.cos(ANGLES)
-    for load in (3.0, 300.0, 5e3, 5e4, 2e5):
+    for load in (3.0, 300.0, 5e3, 5e4):
         for slip in (1e-9, 1e-5, 3e-3, 0.1):
             size = load ** (1 / 3)
             area = hertz.semi_axis_across * hertz.semi_axis_along * size**2 * np.outer(cosine**2, cosine)

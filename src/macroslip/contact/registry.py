@@ -83,7 +83,7 @@ class Law(NamedTuple):
         size = arrays[0].size
         if found.shape != (size,) or found.dtype.kind not in "fiu":
             raise _wrong(
-                f"for {size} states it gives {found!r:.80}",
+                f"for {size} states it gives {_described(found)}",
                 where,
                 f"an array of {size} real numbers, one for each state",
             )
@@ -105,7 +105,7 @@ class Law(NamedTuple):
         where = f"in_range of {self.kind} law '{self.name}', {interface.name}"
         found = self._called(where, self.in_range, interface, np.asarray(load), np.asarray(entrainment_speed))
         if found.shape != shape or found.dtype != bool:
-            raise _wrong(f"it gives {found!r:.80}", where, f"an array of truth values of shape {shape}")
+            raise _wrong(f"it gives {_described(found)}", where, f"an array of truth values of shape {shape}")
         return found[()]
 
     @staticmethod
@@ -114,7 +114,7 @@ class Law(NamedTuple):
         try:
             with np.errstate(all="ignore"):
                 return np.asarray(function(*arguments))
-        except (KeyboardInterrupt, MemoryError, MacroslipError):
+        except (KeyboardInterrupt, MacroslipError):
             raise
         except BaseException as error:
             reason = " ".join(str(error).split())[:200]
@@ -329,15 +329,16 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
     InputError
         Naming the law, the interface and the state; also if a law does not return.
     """
-    own = FILM_LAWS.named(laws.film).source
-    own += TRACTION_LAWS.named(laws.traction).source if laws.traction != MECHANISMS else ""
-    if speed > 0.0 and own:
+    chosen = [FILM_LAWS.named(laws.film)]
+    if laws.traction != MECHANISMS:
+        chosen.append(TRACTION_LAWS.named(laws.traction))
+    if speed > 0.0 and any(law.is_own for law in chosen):
         # The grid needs the order of the speed only, so that the cases of a study share what was found.
-        _check(laws, bearing, lubricant, 2.0 ** math.ceil(math.log2(speed)), own)
+        _check(laws, bearing, lubricant, 2.0 ** math.ceil(math.log2(speed)), tuple(chosen))
 
 
 @functools.lru_cache(maxsize=64)
-def _check(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float, _source: str) -> None:
+def _check(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float, chosen: tuple[Law, ...]) -> None:
     """Run the check in a thread that is abandoned if a law does not return."""
     problems: list[BaseException] = []
 
@@ -345,7 +346,7 @@ def _check(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float, _so
         try:
             for interface in interfaces(bearing, lubricant):
                 share = _CAGE_SHARE if interface.name == "cage" else 1.0
-                _check_at(laws, interface, share * highest_load(bearing, lubricant, laws), speed)
+                _check_at(chosen, interface, share * highest_load(bearing, lubricant, laws), speed)
         except BaseException as problem:
             problems.append(problem)
 
@@ -355,20 +356,19 @@ def _check(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: float, _so
     while thread.is_alive():
         thread.join(0.2)
         if thread.is_alive() and time.monotonic() - _begun[0] > _LONGEST:
-            what = f"it has given nothing for {_LONGEST:g} s"
-            raise _wrong(what, f"film law '{laws.film}' or traction law '{laws.traction}'", "a function that ends")
+            where = " or ".join(f"{law.kind} law '{law.name}'" for law in chosen)
+            raise _wrong(f"it has given nothing for {_LONGEST:g} s", where, "a function that ends")
     if problems:
         raise problems[0]
 
 
-def _check_at(laws: Laws, interface: Interface, heaviest: float, speed: float) -> None:
-    law = FILM_LAWS.named(laws.film)
+def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, speed: float) -> None:
     loads, speeds = np.geomspace(1e-6, 1.0, 13)[:, None] * heaviest, np.geomspace(1e-4, 1.0, 13) * speed
-    heights = law(interface, loads, speeds)
-    law.inside(interface, loads, speeds)
-    if laws.traction == MECHANISMS:
+    heights = chosen[0](interface, loads, speeds)
+    chosen[0].inside(interface, loads, speeds)
+    if len(chosen) == 1:
         return
-    law = TRACTION_LAWS.named(laws.traction)
+    law = chosen[1]
     thin, thick = np.clip([heights.min(), heights.max()], _THINNEST, _THICKEST)
     slips = np.concatenate([[LEAST_SLIP, 2.0 * LEAST_SLIP], np.geomspace(1e-6, 1.0, 19) * speed])
     loads, films, slips = np.meshgrid(loads[:, 0], np.geomspace(thin, thick, 5), slips, indexing="ij")
@@ -379,6 +379,12 @@ def _check_at(laws: Laws, interface: Interface, heaviest: float, speed: float) -
         where = f"traction law '{law.name}', {interface.name}, load {loads[i, k, 0]:.4g} N, film {films[i, k, 0]:.4g} m"
         ends = " and ".join(f"{force[i, k, j]:.4g} N at {slips[i, k, j]:.4g} m/s" for j in (0, 1))
         raise _wrong(f"it gives {ends}", where, "a force in proportion to slip where that is small")
+
+
+def _described(found: np.ndarray) -> str:
+    if found.ndim == 0:
+        return f"{found[()]!r:.80}"
+    return f"an array of shape {found.shape} of type {found.dtype}"
 
 
 def _wrong(what: str, where: str, allowed: str) -> InputError:
