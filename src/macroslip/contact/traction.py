@@ -207,8 +207,6 @@ def heating_number(viscosity, temperature_viscosity, thermal_conductivity, slip)
     slip : array_like
         Slip Δu [m/s], any sign.
 
-    Notes
-    -----
     The mid-film temperature rise is ln(1 + B)/β.
 
     References
@@ -486,7 +484,7 @@ class ChordTable(NamedTuple):
 
 @lru_cache(maxsize=16)
 def chord_table(fluid: Fluid) -> ChordTable:
-    """The table of a fluid, made in half a second of CPU time and kept, by this process and on disk.
+    """The table of a fluid, made in half a second of CPU time and kept, in memory and on disk.
 
     Notes
     -----

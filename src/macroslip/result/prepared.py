@@ -11,7 +11,7 @@ from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
 from macroslip.case.case import Case
 from macroslip.case.parts import Radau
 from macroslip.contact.interface import highest_load, interfaces, truncated_share, truncation_load
-from macroslip.contact.laws import check_own_laws, film_range_notes
+from macroslip.contact.registry import check_own_laws, film_range_notes
 from macroslip.contact.table import Box, table_box
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, main_bearing_load
