@@ -9,7 +9,8 @@ from scipy.signal import firwin, freqz
 
 import macroslip.loads
 from macroslip.errors import InputError
-from macroslip.loads import HubLoads, bundle, bundled_cases
+from macroslip.loads import HubLoads, bundled_cases
+from tools import bundled_loads as bundle
 
 
 @pytest.fixture(scope="module")

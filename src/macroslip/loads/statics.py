@@ -15,8 +15,7 @@ from macroslip.catalogue.quantity_forms import Quantity
 from macroslip.catalogue.units import ANGLE, LENGTH, MASS
 from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
-from macroslip.loads.bearing_loads import BearingLoads
-from macroslip.loads.hub_loads import HubLoads
+from macroslip.loads.history import BearingLoads, HubLoads
 
 MOUNTS = ("three-point", "four-point")
 BEARINGS = ("front", "rear")
@@ -134,9 +133,8 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
     Parameters
     ----------
     hub_loads : HubLoads
-        Loads of the rotor on the shaft, n samples.
+        n samples.
     drivetrain : Drivetrain
-        Support positions and shaft mass.
 
     Returns
     -------
@@ -182,9 +180,8 @@ def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoa
     Parameters
     ----------
     hub_loads : HubLoads
-        Loads of the rotor on the shaft, n samples.
+        n samples.
     drivetrain : Drivetrain
-        Mount and shaft mass; on a four-point mount also which bearing it is.
 
     Returns
     -------
