@@ -61,19 +61,9 @@ class _Group(NamedTuple):
 
 
 def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Parameters
-    ----------
-    path : Path
-        Any file of the run.
-    speed_needed : bool
-        Whether the run has to hold the rotor speed; otherwise `shaft_speed` is left out if it does not.
-
-    Returns
-    -------
-    dict
-        The arrays, and `reading`: what each was read from.
+    Any file of the run may be named. Without a channel for it, `shaft_speed` is left out unless it is needed.
 
     Raises
     ------

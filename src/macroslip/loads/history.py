@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.resources
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from numbers import Real
 from typing import Any, ClassVar, Self
@@ -50,9 +50,7 @@ _HUB_FILES = {
     ".hdf5": "HAWC2 output in the format gtsdf",
 } | _TABLES
 #: Readers by extension; all others are Bladed's.
-_READERS: dict[str, Callable[..., dict]] = dict.fromkeys((".out", ".outb"), read_openfast) | dict.fromkeys(
-    (".sel", ".hdf5"), read_hawc2
-)
+_READERS = {".out": read_openfast, ".outb": read_openfast, ".sel": read_hawc2, ".hdf5": read_hawc2}
 _READERS |= dict.fromkeys(_TABLES, read_hub_table)
 
 

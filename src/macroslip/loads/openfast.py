@@ -63,18 +63,9 @@ _AGAIN = "Copy the file again, or run OpenFAST again."
 
 
 def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Parameters
-    ----------
-    path : Path
-    speed_needed : bool
-        Whether the file has to hold the speed; otherwise `shaft_speed` is left out if it does not.
-
-    Returns
-    -------
-    dict
-        The arrays, and `reading`: the channels they come from.
+    Without a channel for it, `shaft_speed` is left out unless it is needed.
 
     Raises
     ------
