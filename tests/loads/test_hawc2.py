@@ -177,3 +177,48 @@ def test_an_hdf5_file_of_another_kind(tmp_path):
     with h5py.File(path, "w") as file:
         file["x"] = 1.0
     assert "General time series" in _message(path)
+
+
+def _of_times(folder, truth, change):
+    """A binary file whose 16-bit times were changed."""
+    path = _write_sel(folder, _channels(truth), binary=True)
+    values = np.fromfile(folder / "run.dat", "<i2").reshape(-1, truth.time.size)
+    values[0] = change(values[0])
+    values.tofile(folder / "run.dat")
+    return path
+
+
+def test_a_flipped_bit_in_the_last_time(tmp_path, truth):
+    message = _message(_of_times(tmp_path, truth, lambda time: np.append(time[:-1], time[-1] ^ 0x4000)))
+    assert "its time goes from 0 s to 29.28 s, the list of channels announces 60 s" in message
+
+
+@pytest.mark.parametrize(("duration", "words"), [("20.000", "announces 20 s"), ("nan", "channels in nan s")])
+def test_a_damaged_duration(tmp_path, truth, duration, words):
+    path = _write_sel(tmp_path, _channels(truth), binary=True)
+    path.write_text(path.read_text().replace("60.000", duration))
+    assert words in _message(path)
+
+
+def test_a_flipped_bit_in_a_time_between(tmp_path, truth):
+    message = _message(
+        _of_times(tmp_path, truth, lambda time: np.where(np.arange(time.size) == 7, time ^ 0x0800, time))
+    )
+    assert "the samples of its time are not equally spaced" in message
+
+
+def test_bytes_in_the_wrong_order(tmp_path, truth):
+    path = _write_sel(tmp_path, _channels(truth), binary=True)
+    np.fromfile(tmp_path / "run.dat", "<i2").byteswap().tofile(tmp_path / "run.dat")
+    assert "its time" in _message(path)
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize(("start", "announced"), [(0.05, "60.050"), (100.0, "60.000"), (100.0, "160.000")])
+def test_ways_to_count_the_duration(tmp_path, truth, binary, start, announced):
+    columns = _channels(truth)
+    unit, text, time = columns["Time"]
+    columns["Time"] = (unit, text, time + start)
+    path = _write_sel(tmp_path, columns, binary)
+    path.write_text(path.read_text().replace("60.000", announced))
+    assert HubLoads.read(path).duration == pytest.approx(60.0, abs=0.02)

@@ -65,19 +65,9 @@ class _Output(NamedTuple):
 
 
 def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Parameters
-    ----------
-    path : Path
-        ``.sel``, or ``.hdf5`` in the format gtsdf.
-    speed_needed : bool
-        Whether the output has to hold the speed; otherwise `shaft_speed` is left out if it does not.
-
-    Returns
-    -------
-    dict
-        The arrays, and `reading`: what each was read from.
+    Without a channel for it, `shaft_speed` is left out unless it is needed.
 
     Raises
     ------
@@ -178,8 +168,8 @@ def _read_sel(path: Path) -> _Output:
         start = next(i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"])
         scans, channels, duration, kind = lines[start + 1].split()
         scans, channels, duration = int(scans), int(channels), float(duration)
-        if not (0 < scans * channels <= MOST_VALUES) or kind not in ("ASCII", "BINARY"):
-            raise ValueError(f"{scans} scans of {channels} channels, format {kind}")
+        if not (0 < scans * channels <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in ("ASCII", "BINARY"):
+            raise ValueError(f"{scans} scans of {channels} channels in {duration} s, format {kind}")
         rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:channels]
         names, units, texts = zip(*(_channel_line(row) for row in rows), strict=True)
         if len(rows) != channels:
@@ -200,14 +190,31 @@ def _read_sel(path: Path) -> _Output:
         values = announced_text(data, count, header, _AGAIN).reshape(scans, channels)
     else:
         values = announced_binary(data, "<i2", count, header, _AGAIN).reshape(channels, scans).T * scale
-    if names[0].strip().lower() != "time":
-        time = np.arange(scans) * duration / scans
-    elif scale is None:
-        time = values[:, 0]
+    if names[0].strip().lower() == "time":
+        time = _announced_time(values[:, 0], duration, 0.0 if scale is None else abs(float(scale[0])), data)
     else:
-        # 16 bits resolve the time of a long run to more than a step; the samples are equally spaced.
-        time = values[0, 0] + (values[-1, 0] - values[0, 0]) * np.arange(scans) / max(scans - 1, 1)
+        time = np.arange(scans) * duration / scans
     return _Output(list(names), list(units), list(texts), values, time, str(path))
+
+
+def _announced_time(stamps: NDArray, duration: float, resolution: float, data: Path) -> NDArray[np.float64]:
+    """Times of the samples, which have to last as long as the list of channels announces.
+
+    16 bits resolve the time of a long run to more than a step, so that binary times are those of equal steps.
+    """
+    # Some programs announce the time of the last sample, others that of one step more than from first to last.
+    near = 2.5 * duration / stamps.size + resolution + 1e-3
+    if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
+        what = (
+            f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels announces {duration:g} s"
+        )
+        raise InputError(what, where=str(data), remedy=_AGAIN)
+    if not resolution:
+        return stamps
+    even = np.linspace(stamps[0], stamps[-1], stamps.size)
+    if np.abs(stamps - even).max() > 2.0 * resolution:
+        raise InputError("the samples of its time are not equally spaced", where=str(data), remedy=_AGAIN)
+    return even
 
 
 def _channel_line(line: str) -> tuple[str, str, str]:
