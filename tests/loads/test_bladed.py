@@ -138,6 +138,16 @@ def test_data_of_another_run(tmp_path, truth):
     assert "not of the same run" in message
 
 
+@pytest.mark.parametrize("text", ["1E308", "inf", "nan"])
+def test_numbers_that_are_none(tmp_path, truth, text):
+    header = _run(tmp_path, truth, "F")
+    data = tmp_path / "demo.$23"
+    lines = data.read_text().splitlines()
+    lines[5] = " ".join([text] * 8)
+    data.write_text("\n".join(lines))
+    _message(header)
+
+
 def test_data_without_headers(tmp_path, truth):
     _run(tmp_path, truth)
     (tmp_path / "demo.%23").unlink()
@@ -161,9 +171,21 @@ def test_units_that_are_not_si(tmp_path, truth):
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("DIMENS\t8", "DIMENS\tx"), ("DIMENS\t8", "DIMENS\t9"), ("FORMAT\tR*4", "FORMAT\tI*2"), ("VARIAB\t", "VARIAX\t")],
+    [
+        ("DIMENS\t8", "DIMENS\tx"),
+        ("DIMENS\t8", "DIMENS\t9"),
+        ("FORMAT\tR*4", "FORMAT\tI*2"),
+        ("VARIAB\t", "VARIAX\t"),
+        ("FORM\tU", "FORM\tX"),
+        ("STEP\t5.0000000E-02", "STEP\tinf"),
+        ("STEP\t5.0000000E-02", "STEP\t1E+308"),
+        ("STEP\t5.0000000E-02", "STEP\t-0.05"),
+        ("MIN \t0.0000000E+000", "MIN \tnan"),
+        ("MEAN   ", "MEAN   nan "),
+    ],
 )
 def test_a_damaged_header(tmp_path, truth, old, new):
+    # Warnings are errors in these tests: NumPy must not say anything before the paragraph.
     header = _run(tmp_path, truth)
     header.write_text(header.read_text().replace(old, new))
     message = _message(header)

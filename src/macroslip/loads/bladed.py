@@ -14,6 +14,7 @@ these loads. Values are in SI units as the header's unit codes state (F, FL, A/T
 
 from __future__ import annotations
 
+import math
 import re
 import shlex
 from pathlib import Path
@@ -150,10 +151,16 @@ def _header(path: Path) -> _Group | None:
             return None
         samples = others[0]
         units = tuple(given["VARUNIT"].split())
-        text = given["FORM"].strip().upper() == "F"
-        number = None if text else _NUMBERS[given["FORMAT"].strip().upper()]
+        form = given["FORM"].strip().upper()
+        if form not in ("F", "U"):
+            raise ValueError(f"FORM {form}, where F is text and U is binary")
+        number = None if form == "F" else _NUMBERS[given["FORMAT"].strip().upper()]
         first, step = float(given["MIN"]), float(given["STEP"])
+        if not (step > 0.0 and math.isfinite(first + step * samples)):
+            raise ValueError(f"MIN {first:g} and STEP {step:g}, where times are finite and the step is above 0")
         mean = tuple(float(word) for word in given.get("MEAN", "").split())
+        if not all(map(math.isfinite, mean)):
+            raise ValueError("MEAN is not finite")
     except (KeyError, ValueError, IndexError) as error:
         raise InputError(
             f"not readable as a header of Bladed ({error})",

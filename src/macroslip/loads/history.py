@@ -223,7 +223,8 @@ class HubLoads(_History):
             The file is absent, empty, damaged or cut off, lacks a channel, or holds values that `HubLoads` refuses.
         """
         path, extension = source_file(path, _HUB_FILES)
-        with reading(path, DAMAGED):
+        # Numbers that are not finite are reported with their channel and time, without NumPy's warnings before.
+        with reading(path, DAMAGED), np.errstate(all="ignore"):
             columns = _READERS.get(extension, read_bladed)(path, speed_needed=shaft_speed is None)
         taken = columns.pop("reading")
         if shaft_speed is not None:
@@ -328,7 +329,7 @@ class BearingLoads(_History):
             _TABLES,
             "Hub loads from OpenFAST become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain()).",
         )
-        with reading(path, DAMAGED):
+        with reading(path, DAMAGED), np.errstate(all="ignore"):
             columns = read_bearing_table(path)
         return cls(**cut(columns, start, end, str(path)), source=str(path))
 

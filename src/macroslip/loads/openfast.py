@@ -188,9 +188,7 @@ def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
         what = f"the file is cut off: its header announces {expected} bytes, it has {actual}"
         raise InputError(what, where=str(path), remedy=_AGAIN)
     try:
-        # A scale of zero makes values that are not finite; those are reported with their channel and time.
-        with np.errstate(all="ignore"):
-            data, info, _ = load_binary_output(str(path))
+        data, info, _ = load_binary_output(str(path))
     except Exception as error:  # the reader raises any error of its parsing
         what = f"not readable as OpenFAST binary output ({error})"
         raise InputError(what, where=str(path), remedy=_AGAIN) from error
