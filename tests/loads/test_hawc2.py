@@ -1,5 +1,7 @@
 """HAWC2 output in the original layouts: lists of channels with text or binary data, and gtsdf."""
 
+import os
+
 import h5py
 import numpy as np
 import pytest
@@ -222,3 +224,49 @@ def test_ways_to_count_the_duration(tmp_path, truth, binary, start, announced):
     path = _write_sel(tmp_path, columns, binary)
     path.write_text(path.read_text().replace("60.000", announced))
     assert HubLoads.read(path).duration == pytest.approx(60.0, abs=0.02)
+
+
+def _soft(file, folder):
+    file["block0000/gains"] = h5py.SoftLink("/block0000/data")
+
+
+def _external_link(file, folder):
+    file["block0000/gains"] = h5py.ExternalLink(str(folder / "pipe"), "/x")
+
+
+def _second_name(file, folder):
+    file["block0001"] = file["block0000"]
+    file.attrs["no_blocks"] = 2
+
+
+def _external_storage(file, folder):
+    del file["block0000/data"]
+    os.truncate(os.open(folder / "numbers", os.O_CREAT | os.O_WRONLY), 1000)
+    file["block0000"].create_dataset("data", (10, 10), "f8", external=[(str(folder / "numbers"), 0, 800)])
+
+
+def _virtual_layout(file, folder):
+    layout = h5py.VirtualLayout(shape=(10, 10), dtype="f8")
+    layout[:] = h5py.VirtualSource(str(folder / "pipe"), "x", shape=(10, 10))
+    del file["block0000/data"]
+    file["block0000"].create_virtual_dataset("data", layout)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are a thing of Unix")
+@pytest.mark.timeout(30)
+@pytest.mark.parametrize(
+    ("put", "words"),
+    [
+        (_soft, "block0000/gains is a link to another place"),
+        (_external_link, "block0000/gains is a link to another place"),
+        (_second_name, "has a second name"),
+        (_external_storage, "the numbers of block0000/data are in another place"),
+        (_virtual_layout, "the numbers of block0000/data are in another place"),
+    ],
+)
+def test_numbers_that_are_not_in_the_file(tmp_path, truth, put, words):
+    os.mkfifo(tmp_path / "pipe")
+    path = _write_gtsdf(tmp_path, _channels(truth), packed=False)
+    with h5py.File(path, "r+") as file:
+        put(file, tmp_path)
+    assert words in _message(path)
