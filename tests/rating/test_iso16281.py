@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 
 from macroslip.bearing.load_ratings import geometry_factor
-from macroslip.rating.iso16281 import (
+from macroslip.rating.iso import (
     LAMINAE,
     REDUCTION,
     damage_series,

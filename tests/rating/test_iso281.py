@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from macroslip.rating.iso281 import (
+from macroslip.rating.iso import (
     basic_life,
     dynamic_equivalent_load,
     life_modification,

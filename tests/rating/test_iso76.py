@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from macroslip.rating.iso76 import static_equivalent_load, static_safety
+from macroslip.rating.iso import static_equivalent_load, static_safety
 
 
 def test_equivalent_load():

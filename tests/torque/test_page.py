@@ -9,7 +9,7 @@ import pytest
 
 from macroslip import Bearing, Lubricant
 from macroslip.torque import skf_torque
-from macroslip.torque.skf import SERIES
+from macroslip.torque.handbooks import SKF_SERIES as SERIES
 
 PAGE = (Path(__file__).parents[2] / "docs" / "friction-torque.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
