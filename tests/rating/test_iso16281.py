@@ -8,13 +8,7 @@ import pytest
 from scipy.integrate import quad
 
 from macroslip.bearing.load_ratings import geometry_factor
-from macroslip.rating.iso import (
-    LAMINAE,
-    REDUCTION,
-    damage_series,
-    reference_life,
-    ring_ratings,
-)
+from macroslip.rating.iso import LAMINAE, REDUCTION, damage_series, reference_life, ring_ratings
 
 
 def lamina_loads(load, semi_axis, length):

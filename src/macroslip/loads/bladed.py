@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
-from macroslip.loads.source_file import MOST_VALUES, announced_binary, announced_text
+from macroslip.loads.source_file import MOST_VALUES, announced
 
 _KEYS = (
     "FILE", "ACCESS", "FORM", "RECL", "FORMAT", "CONTENT", "CONFIG", "NDIMENS", "DIMENS", "GENLAB", "VARIAB",
@@ -192,13 +192,8 @@ def _columns(group: _Group, names: tuple[str, ...]) -> NDArray[np.float64]:
     if not data.is_file():
         what = f"there is no {data.name} beside the header"
         raise InputError(what, where=str(group.header), remedy="Copy the data file too.")
-    shape = group.samples, len(group.names)
-    count = shape[0] * shape[1]
-    if group.number is None:
-        values = announced_text(data, count, "its header", _AGAIN)
-    else:
-        values = announced_binary(data, group.number, count, "its header", _AGAIN).astype(np.float64)
-    values = values.reshape(shape)
+    count = group.samples * len(group.names)
+    values = announced(data, group.number, count, "its header", _AGAIN).reshape(group.samples, -1).astype(np.float64)
     mean = values.mean(axis=0)
     if len(group.mean) == len(group.names):
         off = np.abs(mean - np.array(group.mean)) / np.maximum(np.abs(values).max(axis=0), 1e-30)

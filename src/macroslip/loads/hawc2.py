@@ -27,17 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
-from macroslip.loads.source_file import (
-    ANGLE,
-    FORCE,
-    MOMENT,
-    MOST_VALUES,
-    SPEED,
-    announced_binary,
-    announced_text,
-    in_si,
-    turn_to_fixed,
-)
+from macroslip.loads.source_file import ANGLE, FORCE, MOMENT, MOST_VALUES, SPEED, announced, in_si, turn_to_fixed
 
 _REMEDY = (
     "Add to the output section of the .htc file\n  mbdy forcevec shaft N 2 shaft ;\n  mbdy momentvec shaft N 2 shaft ;\n"
@@ -176,20 +166,15 @@ def _read_sel(path: Path) -> _Output:
             raise ValueError(f"{len(rows)} channels are listed, {channels} are announced")
         scale = _scale(lines, channels) if kind == "BINARY" else None
     except (StopIteration, ValueError, IndexError) as error:
-        raise InputError(
-            f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})",
-            where=str(path),
-            remedy=_AGAIN,
-        ) from error
+        what = f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})"
+        raise InputError(what, where=str(path), remedy=_AGAIN) from error
     beside = (one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == ".dat")
     data = next((one for one in beside if one.is_file()), None)
     if data is None:
         raise InputError(f"there is no {path.stem}.dat beside it", where=str(path), remedy="Copy the data file too.")
     count, header = scans * channels, "the list of channels"
-    if scale is None:
-        values = announced_text(data, count, header, _AGAIN).reshape(scans, channels)
-    else:
-        values = announced_binary(data, "<i2", count, header, _AGAIN).reshape(channels, scans).T * scale
+    values = announced(data, None if scale is None else "<i2", count, header, _AGAIN)
+    values = values.reshape(scans, channels) if scale is None else values.reshape(channels, scans).T * scale
     if names[0].strip().lower() == "time":
         time = _announced_time(values[:, 0], duration, 0.0 if scale is None else abs(float(scale[0])), data)
     else:

@@ -32,9 +32,8 @@ LATEST_TIME = 1e10
 MAGNITUDE_LIMITS = {"shaft_speed": (100.0, "rad/s"), "force": (1e8, "N"), "moment": (1e9, "N m")}
 """Magnitudes beyond which the unit must be a mistake.
 
-100 rad/s is 955 rpm: rotors on a main bearing stay below some 10 rad/s, generators behind a gearbox turn faster than
-the limit. 1e8 N is the weight of 10 000 t, about ten times the heaviest rotor, and 1e9 N m about ten times the
-extreme bending moment of a 20 MW rotor. Values below the limits can still carry a wrong unit.
+Rotors on a main bearing stay below 10 rad/s, generators behind a gearbox turn faster than 100. 1e8 N is about ten times
+the weight of the heaviest rotor, 1e9 N m about ten times the extreme bending moment of a 20 MW rotor.
 """
 
 #: Samples of a constant load beyond which the duration must be a mistake.
@@ -144,7 +143,8 @@ class HubLoads(_History):
 
     Axes, right-handed and turning with neither the rotor nor the shaft: x along the shaft, from the hub towards the
     gearbox (downwind); z up, perpendicular to the shaft; y = z × x, horizontal, to the left looking downwind. They
-    are OpenFAST's ``s`` axes. The weight of the rotor is part of these loads; that of the shaft is not.
+    are OpenFAST's ``s`` axes. The rotor's weight is part of these loads, the shaft's is not. The arrays are stored as
+    read-only, C-contiguous float64 copies.
 
     Parameters
     ----------
@@ -166,10 +166,6 @@ class HubLoads(_History):
     InputError
         Wrong shape, fewer than 2 samples, values that are not finite, time that does not increase, a gap, or a
         magnitude that only a wrong unit explains.
-
-    Notes
-    -----
-    The arrays are stored as read-only, C-contiguous float64 copies.
     """
 
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}
@@ -263,14 +259,12 @@ class BearingLoads(_History):
 
     Bearing frame, right-handed and not rotating: Z0 along the shaft, downwind; Y0 up, in the plane of the shaft tilt;
     X0 = Y0 × Z0, horizontal, to the left looking downwind. In OpenFAST's shaft axes (X0, Y0, Z0) = (y, z, x).
-    A spherical bearing carries no moment.
+    A spherical bearing carries no moment. The arrays are stored as read-only, C-contiguous float64 copies.
 
     Parameters
     ----------
-    time : (n,) array [s]
-        Strictly increasing, without gaps (no step above 1.5 times the median step). It need not begin at zero.
-    shaft_speed : (n,) array [rad/s]
-        Speed of the inner ring, positive about +Z0. Zero and negative speeds are legal. At most 100 rad/s.
+    time, shaft_speed : (n,) array [s], [rad/s]
+        As in `HubLoads`; the speed is that of the inner ring, positive about +Z0.
     force : (n, 3) array [N]
         F_X0, F_Y0, F_Z0, the load of the shaft **on** the inner ring: a hanging weight has F_Y0 < 0, thrust on an
         upwind rotor has F_Z0 > 0. At most 1e8 N each.
@@ -281,10 +275,6 @@ class BearingLoads(_History):
     ------
     InputError
         As `HubLoads`.
-
-    Notes
-    -----
-    The arrays are stored as read-only, C-contiguous float64 copies.
     """
 
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("F_X0", "F_Y0", "F_Z0")}
@@ -312,17 +302,7 @@ class BearingLoads(_History):
     ) -> BearingLoads:
         """Read a table of main-bearing loads (``.parquet``, ``.csv``) with units in its column names.
 
-        Parameters
-        ----------
-        path : path
-            See `macroslip.loads.table` for the columns that are needed.
-        start, end : float, optional
-            Keep only this part of the file [s], on the file's own time axis. What lies outside is not validated.
-
-        Raises
-        ------
-        InputError
-            The file is absent, empty or damaged, lacks a column, or holds values that `BearingLoads` refuses.
+        `macroslip.loads.table` says which columns are needed. `start` and `end` [s], and errors: as `HubLoads.read`.
         """
         path, _ = source_file(
             path,
@@ -361,12 +341,8 @@ def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, 
         )
     inside = np.flatnonzero((columns["time"] >= low - slack) & (columns["time"] <= high + slack))
     if inside.size < 2:
-        raise InputError(
-            f"{window} holds {inside.size} sample(s)",
-            where=source,
-            allowed="at least 2 samples",
-            remedy="Widen the window.",
-        )
+        what = f"{window} holds {inside.size} sample(s)"
+        raise InputError(what, where=source, allowed="at least 2 samples", remedy="Widen the window.")
     # A stamp that is not a number may lie inside: it is kept, so that validation refuses it.
     unknown = np.flatnonzero(~np.isfinite(columns["time"]))
     unknown = unknown[(unknown > inside[0]) & (unknown < inside[-1])]
@@ -416,12 +392,8 @@ def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
 def _check_time(time: NDArray, source: str) -> None:
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
-        raise InputError(
-            f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)",
-            where=source,
-            allowed="finite numbers [s]",
-            remedy="Remove or repair that sample.",
-        )
+        what = f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)"
+        raise InputError(what, where=source, allowed="finite numbers [s]", remedy="Remove or repair that sample.")
     steps = np.diff(time)
     bad = np.flatnonzero(steps <= 0)
     if bad.size:

@@ -97,8 +97,8 @@ class _Channels:
     def __init__(self, names: list[str], units: list[str], data: NDArray, where: str):
         self.names, self.units, self.data, self.where = names, units, data, where
         self.index = {name.lower(): i for i, name in reversed(list(enumerate(names)))}
-        self.missing: list[str] = []
-        self.looked_for: list[str] = []
+        #: Channels that were not found, and the names they were looked for by.
+        self.missing: dict[str, str] = {}
         self.taken: list[str] = []
 
     def has_all(self, quantities: tuple[tuple[str, ...], ...]) -> bool:
@@ -107,8 +107,7 @@ class _Channels:
     def column(self, aliases: tuple[str, ...], factors: Mapping[str, float]) -> NDArray[np.float64]:
         found = next((alias for alias in aliases if alias.lower() in self.index), None)
         if found is None:
-            self.missing.append(aliases[0])
-            self.looked_for.append(" or ".join(aliases))
+            self.missing[aliases[0]] = " or ".join(aliases)
             return np.zeros(len(self.data))
         i = self.index[found.lower()]
         name, unit = self.names[i], self.units[i]
@@ -137,9 +136,8 @@ class _Channels:
             return turn_to_fixed(y, z, azimuth)
         for aliases in fixed:
             if not self.has_all((aliases,)):
-                self.missing.append(aliases[0])
                 turned = f"{rotating[0][0]}, {rotating[1][0]} and {_AZIMUTH[0]}"
-                self.looked_for.append(f"{' or '.join(aliases)} (or {turned})")
+                self.missing[aliases[0]] = f"{' or '.join(aliases)} (or {turned})"
         return np.zeros(len(self.data)), np.zeros(len(self.data))
 
     def raise_if_missing(self) -> None:
@@ -160,7 +158,7 @@ class _Channels:
             f"of the channels needed, {', '.join(self.missing)} {'are' if len(self.missing) > 1 else 'is'} not in the "
             f"file ({len(self.names)} channels)",
             where=self.where,
-            allowed=f"{'; '.join(self.looked_for)}, in upper or lower case.{note}",
+            allowed=f"{'; '.join(self.missing.values())}, in upper or lower case.{note}",
             remedy=f"Add to the OutList of the ElastoDyn input file\n{lines}\nand run OpenFAST again.",
         )
 

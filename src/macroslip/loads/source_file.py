@@ -28,16 +28,9 @@ ANGLE = {"deg": math.pi / 180.0, "rad": 1.0}
 
 
 def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
-    """Return the path and its lower-case extension, or raise what is wrong with it.
+    """Return the path and its lower-case extension, which has to be among `kinds`; they say what a file holds.
 
-    Parameters
-    ----------
-    path : path
-        File to read.
-    kinds : mapping
-        Accepted extensions, with the dot, and what they hold.
-    remedy : str
-        What to do about an extension that is not among `kinds`.
+    `remedy` is what to do about another extension.
     """
     path = Path(path)
     check_regular(path, "Name a file with loads.")
@@ -88,19 +81,15 @@ def in_si(
     return np.asarray(values, dtype=np.float64) * factors[unit]
 
 
-def announced_binary(path: Path, number: DTypeLike, count: int, header: str, again: str) -> NDArray:
-    """`count` binary numbers, which must fill the file; `header` names where they are announced."""
-    size, full = path.stat().st_size, count * np.dtype(number).itemsize
-    if size != full:
+def announced(path: Path, number: DTypeLike | None, count: int, header: str, again: str) -> NDArray:
+    """`count` numbers, binary or (None) text, which must fill the file; `header` names where they are announced."""
+    if number is not None:
+        size, full = path.stat().st_size, count * np.dtype(number).itemsize
+        if size == full:
+            return np.fromfile(path, number)
         state = "cut off" if size < full else "damaged"
-        raise InputError(
-            f"the file is {state}: {header} announces {full} bytes, it has {size}", where=str(path), remedy=again
-        )
-    return np.fromfile(path, number)
-
-
-def announced_text(path: Path, count: int, header: str, again: str) -> NDArray[np.float64]:
-    """`count` numbers of a text file, which must hold no more and no less."""
+        what = f"the file is {state}: {header} announces {full} bytes, it has {size}"
+        raise InputError(what, where=str(path), remedy=again)
     try:
         values = np.array(path.read_text(encoding="ascii").split(), dtype=np.float64)
     except ValueError as error:

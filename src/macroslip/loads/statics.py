@@ -130,17 +130,11 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 
     and what the forces across the shaft leave goes to the second one. Thrust is F_Z0 = fx + W sin tilt.
 
-    Parameters
-    ----------
-    hub_loads : HubLoads
-        n samples.
-    drivetrain : Drivetrain
-
     Returns
     -------
     dict
-        (n, 3) [N] by the name of the support: `bearing` and `gearbox` on a three-point mount, `front` and `rear` on a
-        four-point mount.
+        (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing` and `gearbox` on a three-point
+        mount, `front` and `rear` on a four-point mount.
 
     Notes
     -----
@@ -175,18 +169,7 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 
 
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
-    """Load on the inner ring of the simulated main bearing, from the loads at the hub; see `support_loads`.
-
-    Parameters
-    ----------
-    hub_loads : HubLoads
-        n samples.
-    drivetrain : Drivetrain
-
-    Returns
-    -------
-    BearingLoads
-        force (n, 3) [N], with the time and shaft speed of `hub_loads`.
+    """Load on the inner ring of the simulated main bearing, by `support_loads`, with time and speed of the hub loads.
 
     Raises
     ------

@@ -154,11 +154,8 @@ def _open(path: Path):
             return file.read()
     except (pa.ArrowException, OSError, ValueError) as error:
         kind = "CSV" if path.suffix.lower() == ".csv" else "Parquet"
-        raise InputError(
-            f"not readable as a {kind} table ({error})",
-            where=str(path),
-            remedy="Write or copy the file again, if it was cut off.",
-        ) from error
+        what = f"not readable as a {kind} table ({error})"
+        raise InputError(what, where=str(path), remedy="Write or copy the file again, if it was cut off.") from error
 
 
 def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:

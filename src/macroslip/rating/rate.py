@@ -194,11 +194,7 @@ def _variable(values: object, units: str, long_name: str, *dims: str) -> tuple:
 
 
 def _history(
-    bearing: Bearing,
-    lubricant: Lubricant,
-    loads: BearingLoads,
-    roller_load: NDArray[np.float64],
-    contamination: float,
+    bearing: Bearing, lubricant: Lubricant, loads: BearingLoads, roller_load: NDArray[np.float64], contamination: float
 ) -> _History:
     """Check the input of `rate` and prepare what its parts share."""
     keys = ("dynamic_load_rating", "static_load_rating", "axial_factor_e", "axial_factor_y1", "axial_factor_y2",
