@@ -60,6 +60,9 @@ _MEANING = {
     "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating",
 }
 _AGAIN = "Copy the file again, or run OpenFAST again."
+_INVALID = (
+    "OpenFAST writes INVALID for a channel that it cannot compute with this model; check that ElastoDyn is in use."
+)
 
 
 def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
@@ -115,11 +118,7 @@ class _Channels:
         remedy = "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel."
         # OpenFAST writes INVALID without the brackets that its reader takes away.
         if unit.upper() in ("INVALID", "NVALI"):
-            unit = "INVALID"
-            remedy = (
-                "OpenFAST writes INVALID for a channel that it cannot compute with this model; check that ElastoDyn "
-                "is in use."
-            )
+            unit, remedy = "INVALID", _INVALID
         unit = f"({unit.replace('·', '-').replace('*', '-').replace(' ', '-')})"
         return in_si(self.data[:, i], unit, factors, channel=name, where=self.where, remedy=remedy)
 
@@ -144,9 +143,8 @@ class _Channels:
         if not self.missing:
             return
         if "time" not in self.index:
-            raise InputError(
-                "there is no channel Time", where=self.where, remedy="This is not an OpenFAST time series."
-            )
+            remedy = "This is not an OpenFAST time series."
+            raise InputError("there is no channel Time", where=self.where, remedy=remedy)
         lines = "\n".join(f'"{name}"{" " * (14 - len(name))}- {_MEANING[name]}' for name in self.missing)
         gauge = [name for name in self.names if name.lower() in ("lssgagmys", "lssgagmzs", "lssgagmya", "lssgagmza")]
         note = (
