@@ -47,13 +47,10 @@ class _Group(NamedTuple):
     names: tuple[str, ...]
     units: tuple[str, ...]
     samples: int
-    #: Time of the first sample and between samples [s].
-    first: float
-    step: float
-    #: Of binary data; None for text.
-    number: np.dtype | None
-    #: Means that the header states, or empty.
-    mean: tuple[float, ...]
+    first: float  # time of the first sample [s]
+    step: float  # time between samples [s]
+    number: np.dtype | None  # of binary data; None for text
+    mean: tuple[float, ...]  # means that the header states, or empty
 
     @property
     def time(self) -> NDArray[np.float64]:

@@ -180,9 +180,7 @@ class HubLoads(_History):
     def constant(
         cls, force: ArrayLike, moment: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05
     ) -> HubLoads:
-        """The same force (3,) [N], moment (3,) [N m] and shaft speed [rad/s] from t = 0 to `duration` [s].
-
-        The samples are equally spaced, by at most `step` [s].
+        """The same force (3,) [N], moment (3,) [N m] and shaft speed [rad/s] over `duration`, in equal steps up to `step` [s].
 
         Examples
         --------
@@ -285,9 +283,7 @@ class BearingLoads(_History):
 
     @classmethod
     def constant(cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05) -> BearingLoads:
-        """The same force (3,) [N] and shaft speed [rad/s] from t = 0 to `duration` [s].
-
-        The samples are equally spaced, by at most `step` [s].
+        """The same force (3,) [N] and shaft speed [rad/s] from t = 0 to `duration` [s], in steps of at most `step` [s].
 
         Examples
         --------
@@ -304,11 +300,8 @@ class BearingLoads(_History):
 
         `macroslip.loads.table` says which columns are needed. `start` and `end` [s], and errors: as `HubLoads.read`.
         """
-        path, _ = source_file(
-            path,
-            _TABLES,
-            "Hub loads from OpenFAST become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain()).",
-        )
+        remedy = "Hub loads from OpenFAST become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())."
+        path, _ = source_file(path, _TABLES, remedy)
         with reading(path, DAMAGED), np.errstate(all="ignore"):
             columns = read_bearing_table(path)
         return cls(**cut(columns, start, end, str(path)), source=str(path))
@@ -382,9 +375,8 @@ def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
             raise TypeError(f"it holds {given.dtype}")
         array = np.array(given, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
-        raise InputError(
-            f"{name} does not convert to an array of numbers ({error})", where=source, allowed="real numbers"
-        ) from error
+        what = f"{name} does not convert to an array of numbers ({error})"
+        raise InputError(what, where=source, allowed="real numbers") from error
     array.setflags(write=False)
     return array
 

@@ -101,10 +101,8 @@ class Drivetrain:
                 remedy="Add what is missing.",
             )
         if self.mount == "three-point" and given:
-            raise InputError(
-                f"the mount is three-point, which has no {' and no '.join(given)}",
-                remedy="Write mount: four-point, or remove what belongs to it.",
-            )
+            what = f"the mount is three-point, which has no {' and no '.join(given)}"
+            raise InputError(what, remedy="Write mount: four-point, or remove what belongs to it.")
 
 
 def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDArray[np.float64]]:
