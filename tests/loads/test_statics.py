@@ -43,7 +43,7 @@ def _load(force, moment, drivetrain):
 
 
 def _solve_free_body(force, moment, drivetrain):
-    """Forces of both supports and torque on the shaft from its 6 x 6 equilibrium about the hub, and its weight."""
+    """Forces of both supports on the shaft, from its 6 x 6 equilibrium about the hub with the gearbox's torque."""
     h = drivetrain.hub_to_bearing
     a = h + (drivetrain.front_to_rear or drivetrain.bearing_to_gearbox)
     w = drivetrain.shaft_mass * 9.81 * np.array([math.sin(drivetrain.tilt), 0, -math.cos(drivetrain.tilt)])
@@ -56,35 +56,17 @@ def _solve_free_body(force, moment, drivetrain):
     r = np.linalg.solve(matrix, -applied)
     first, second = np.array([0.0, r[1], r[2]]), np.array([0.0, r[3], r[4]])
     (second if thrust_at == a else first)[0] = r[0]
-    return first, second, r[5], w
+    return first, second
 
 
 @given(vector, vector, drivetrains | four_points)
 def test_loads_equal_the_free_body_solution(force, moment, drivetrain):
-    first, second, _, _ = _solve_free_body(force, moment, drivetrain)
+    first, second = _solve_free_body(force, moment, drivetrain)
     found = support_loads(HubLoads.constant(force, moment, 2.0, 1.0), drivetrain)
     for reaction, load in zip((first, second), found.values(), strict=True):
         expected = -reaction[[1, 2, 0]]  # (X0, Y0, Z0) = (y, z, x), and the load on the ring opposes its reaction
         assert load[0] == pytest.approx(expected, rel=1e-11, abs=1e-5)
     assert _load(force, moment, drivetrain) == pytest.approx(-first[[1, 2, 0]], rel=1e-11, abs=1e-5)
-
-
-@given(vector, vector, drivetrains, st.lists(vector, min_size=3, max_size=3))
-def test_shaft_is_in_equilibrium_about_any_point(force, moment, drivetrain, points):
-    on_ring = _load(force, moment, drivetrain)
-    bearing = -on_ring[[2, 0, 1]]
-    _, gearbox, torque, weight = _solve_free_body(force, moment, drivetrain)
-    h, a, s = (
-        drivetrain.hub_to_bearing,
-        drivetrain.hub_to_bearing + drivetrain.bearing_to_gearbox,
-        drivetrain.shaft_mass_station,
-    )
-    acting = [(0.0, np.array(force)), (h, bearing), (a, gearbox), (s, weight)]
-    assert np.abs(sum(f for _, f in acting)).max() < 1e-4
-    for point in ([0, 0, 0], [h, 0, 0], *(np.array(points) * 1e-5)):
-        turning = sum(np.cross(np.array([x, 0, 0]) - point, f) for x, f in acting)
-        residual = np.array(moment) + np.array([torque, 0, 0]) + turning
-        assert np.abs(residual).max() < 1e-2  # of terms up to 1e8 N m
 
 
 @given(st.floats(-1e5, 1e5), st.floats(-1e5, 1e5), st.floats(0.1, 5.0), st.floats(0.5, 5.0), st.floats(0.05, 1.0))
@@ -177,40 +159,12 @@ def test_the_bearing_that_is_simulated_is_the_one_asked_for(force, moment, drive
         assert single.source == f"{name} main bearing under constant load"
 
 
-def test_only_the_locating_bearing_carries_thrust():
-    loads = HubLoads.constant([1e5, 0, -1e5], [0, 0, 0], 2.0, 1.0)
-    for locating, other in (("front", "rear"), ("rear", "front")):
-        both = support_loads(
-            loads, Drivetrain(mount="four-point", front_to_rear=1.5, locating=locating, bearing="front")
-        )
-        assert both[locating][0, 2] == pytest.approx(1e5)
-        assert both[other][0, 2] == 0.0
-
-
 @given(vector, vector, st.floats(0.0, 3.0), st.floats(0.5, 5.0))
 def test_the_front_bearing_with_the_rear_one_in_the_place_of_the_gearbox(force, moment, h, b):
     """Whatever holds the shaft across at the second place, the first support feels the same."""
     three = _load(force, moment, Drivetrain(hub_to_bearing=h, bearing_to_gearbox=b))
     two = Drivetrain(mount="four-point", hub_to_bearing=h, front_to_rear=b, locating="front", bearing="front")
     assert np.array_equal(_load(force, moment, two), three)
-
-
-@pytest.mark.parametrize("mount", ["three-point", "four-point"])
-def test_limit_in_which_the_second_support_moves_away(mount):
-    """The first support then takes the hub force as it is, and what is left falls with one over the distance."""
-    loads = HubLoads.constant([1e5, 2e4, -3e5], [7e5, 2e5, -1e5], 2.0, 1.0)
-    excess, second = [], []
-    for distance in (5.0, 10.0, 20.0):
-        if mount == "three-point":
-            drivetrain = Drivetrain(bearing_to_gearbox=distance)
-        else:
-            drivetrain = Drivetrain(mount=mount, front_to_rear=distance, locating="rear", bearing="front")
-        near, far = support_loads(loads, drivetrain).values()
-        excess.append(near[0, :2] - [2e4, -3e5])
-        second.append(far[0, :2])
-    for values in (excess, second):
-        np.testing.assert_allclose(values[0], 2.0 * values[1], rtol=1e-9)
-        np.testing.assert_allclose(values[1], 2.0 * values[2], rtol=1e-9)
 
 
 def test_the_supports_of_a_three_point_mount():
