@@ -1,6 +1,6 @@
-"""Make the bundled load cases from 50 Hz simulation records: ``python -m macroslip.loads.bundle SOURCE_DIR``.
+"""Make the bundled load cases from 50 Hz simulation records: ``python tools/bundled_loads.py SOURCE_DIR``.
 
-Each record becomes ``cases/<name>.parquet``: 600 s at 20 Hz, float32, with its provenance in the schema metadata.
+Each record becomes ``src/macroslip/loads/cases/<name>.parquet``: 600 s at 20 Hz, float32, with its provenance in the schema metadata.
 
 The filter. 50 Hz becomes 20 Hz by inserting a zero after every sample (100 Hz), a symmetric Kaiser-window FIR, and
 keeping every fifth value. Symmetry means no delay: sample i of the result is at i/20 s, and every second one
@@ -21,8 +21,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+import macroslip.loads
 from macroslip.errors import InputError
-from macroslip.loads.hub_loads import bundled_cases
+from macroslip.loads import bundled_cases
 
 SOURCE_RATE, RATE = 50, 20
 PASS_BAND, STOP_BAND = 8.5, 10.0
@@ -80,7 +81,7 @@ def write_case(case: str, columns: Mapping[str, NDArray], provenance: Mapping[st
         "decimation": f"{SOURCE_RATE} Hz to {RATE} Hz, symmetric Kaiser FIR, gain 1 within 1e-4 up to {PASS_BAND} Hz "
         f"and below 1e-4 from {STOP_BAND:g} Hz, point-reflected ends",
         "units": json.dumps({"time_s": "s"} | COLUMNS),
-        "made_by": "macroslip.loads.bundle",
+        "made_by": "tools/bundled_loads.py",
     }
     table = pa.table({"time_s": time} | values).replace_schema_metadata(metadata)
     # Byte-stream split groups the exponents of neighbouring samples, which compress; their mantissas do not.
@@ -101,7 +102,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description="Make the bundled load cases from 50 Hz simulation records.")
     parser.add_argument("source", type=Path, help="folder of windpact1.5_<speed>mps_<class>.parquet files")
     source = parser.parse_args(arguments).source
-    target = Path(__file__).parent / "cases"
+    target = Path(macroslip.loads.__path__[0]) / "cases"
     for case in bundled_cases():
         path = source / f"windpact1.5_{case[:2]}mps_{case[2]}.parquet"
         if not path.is_file():
