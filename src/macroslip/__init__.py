@@ -21,7 +21,7 @@ _HOMES = {
     "Laws": "macroslip.mechanisms",
     "load_laws": "macroslip.plugins",
     "Case": "macroslip.case.case",
-    "Cage": "macroslip.whole_bearing.cage",
+    "Cage": "macroslip.whole.cage",
     "Radau": "macroslip.case.parts",
     "ExplicitEuler": "macroslip.case.parts",
     "BackwardEuler": "macroslip.case.parts",

@@ -17,7 +17,7 @@ from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.overview import html_overview
-from macroslip.whole_bearing.cage import Cage
+from macroslip.whole.cage import Cage
 
 #: Whether orbits are imposed, or rollers and cages move together.
 IMPOSED_ORBIT, WHOLE_BEARING = DYNAMICS = ("imposed-orbit", "whole-bearing")

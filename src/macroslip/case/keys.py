@@ -22,7 +22,7 @@ from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, bundled_cases
 from macroslip.mechanisms import NAMED_SETS, asperity_laws, rheologies, rolling_laws, viscosity_laws
-from macroslip.whole_bearing.cage import Cage
+from macroslip.whole.cage import Cage
 
 LOAD_SOURCES = ("bundled", "file", "bearing_file", "hub", "main_bearing")
 INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}

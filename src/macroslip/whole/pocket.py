@@ -16,13 +16,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from macroslip.bearing import geometry
-from macroslip.compiled import jit, jit_inline
-from macroslip.whole_bearing.cage import Cage
+from macroslip.compiled import jit_inline
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.lubricant import Lubricant
+    from macroslip.whole.cage import Cage
 
 #: Composite roughness times this is the film in a loaded contact; beyond Λ = 3 surfaces count as apart.
 _ROUGHNESS_FILMS = 3.0
@@ -50,6 +52,10 @@ class Pocket(NamedTuple):
     damping: float
     film: float
     least_film: float
+
+
+#: A pocket as compiled functions take it.
+POCKET = np.dtype([(name, "f8") for name in Pocket._fields])
 
 
 def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float:
@@ -114,13 +120,13 @@ def spar_push(pocket, gap, closing):
     return push, by_gap, by_closing
 
 
-@jit
+@jit_inline
 def pocket_force(pocket, offset, speed):
     """Push N of the pocket on its roller along the orbit [N], ∂N/∂x [N/m] and ∂N/∂x' [N s/m].
 
     Parameters
     ----------
-    pocket : Pocket
+    pocket : Pocket or record of `POCKET`
     offset : float
         x [m].
     speed : float
@@ -138,11 +144,9 @@ def pocket_force(pocket, offset, speed):
     return rear - front, rear_by_gap + front_by_gap, -(rear_by_closing + front_by_closing)
 
 
-@jit
-def elastic_energy(pocket, offset):
-    """Energy stored in the spars ⅖ K δ^2.5 [J]."""
-    depth = abs(offset) - pocket.half_gap
-    return 0.4 * pocket.stiffness * depth * depth * math.sqrt(depth) if depth > 0.0 else 0.0
+def elastic_energy(pocket: Pocket, offset: np.ndarray) -> np.ndarray:
+    """Energy stored in the spars ⅖ K δ^2.5 [J], of offsets [m] of any shape."""
+    return 0.4 * pocket.stiffness * np.maximum(np.abs(offset) - pocket.half_gap, 0.0) ** 2.5
 
 
 def restitution(damping: float, speed: float) -> float:

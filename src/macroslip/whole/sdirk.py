@@ -1,0 +1,686 @@
+"""The integration of the whole bearing by Alexander's method: two implicit stages, second order, L-stable.
+
+Nodes γ and 1, γ = 1 − 1/√2, the last stage being the step's end. The error is the difference to a third-order quadrature of
+the slopes at the step's start and both stages, divided by the stage's matrix, which takes out what a gripped contact damps.
+
+Tractions rest: at every evaluation the force predicted by the slopes of the evaluation before is compared with the one found,
+and the time to the next evaluation follows from the difference.
+
+It computes steps and nothing else. They go into buffers; when these are full the kernel returns, and goes on where it was when
+it is called again.
+
+References
+----------
+Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.look_up import REST_SPEED
+from macroslip.errors import InputError
+from macroslip.imposed.status import (
+    COMPLETED,
+    NOT_FINITE,
+    OUTSIDE_TABLES,
+    STEP_TOO_SMALL,
+    TOO_MANY_STEPS,
+    UNDER_WAY,
+)
+from macroslip.ring.orbit import Motion, instant, interval_of
+from macroslip.roller.step import STEP
+from macroslip.whole.books import FLOWS, add_flows
+from macroslip.whole.cage import Cage
+from macroslip.whole.model import Assembly, WholeBearing
+from macroslip.whole.stage import (
+    FIRST,
+    FIRST_RATE,
+    LAST,
+    LAST_RATE,
+    SLOPE,
+    STAR,
+    STATE,
+    Space,
+    Stage,
+    meet,
+    new_space,
+    predict_raceways,
+    solve,
+    solve_stage,
+)
+from macroslip.whole.tractions import cage_shear_from, evaluate_marked, locate, raceway_from, raceway_powers, shear_from
+from macroslip.whole.tuning import (
+    BEGUN,
+    CAGE_REACH,
+    FAR_OFF,
+    FIRST_STEP,
+    FORCE_SHARE,
+    GROWTH,
+    IMPACT_PART,
+    LEAST_PART,
+    LEAST_SPEED,
+    LOAD_CHANGE,
+    LONGEST_REST,
+    LONGEST_STEP,
+    PLACE_TIME,
+    POWER_SHARE,
+    REST_GROWTH,
+    REST_PART,
+    REST_SAFETY,
+    RINGING,
+    SAFETY,
+    SPEED_SHARE,
+    UNSOLVED_PART,
+)
+
+#: Node of the first stage.
+GAMMA = 1.0 - math.sqrt(0.5)
+#: Weights of the slopes at start, first and second stage in (third-order quadrature) − (the method's).
+_E1 = (0.5 - 1.0 / 3.0) / (GAMMA * (1.0 - GAMMA))
+_E2 = 0.5 - GAMMA * _E1
+_ERROR = (1.0 - _E1 - _E2, _E1 - (1.0 - GAMMA), _E2 - GAMMA)
+#: Size of the buffer of steps [bytes].
+_BUFFER = 6 * 2**20
+
+#: Tolerance and bounds.
+#:
+#: allowed_speed : error of speed that a step may make [m/s]
+#: power : allowed relative error of power where slopes predict it
+#: force : largest force an iteration may leave unbalanced [N]
+#: rounding : of speeds [m/s]; times mass over step it is the force below which no iteration can get
+#: longest_step, longest_rest : of a step, and between evaluations of tractions [s]
+#: cage_reach : relative change of load or slip within which the slopes of a cage's contact serve; what they leave out goes with
+#: its square
+#: slowest : least speed of a raceway contact in its tables [m/s]
+#: rests : whether tractions may follow from slopes between evaluations
+LIMITS = np.dtype(
+    [
+        *((name, "f8") for name in ("allowed_speed", "power", "force", "rounding", "longest_step", "longest_rest")),
+        ("cage_reach", "f8"), ("slowest", "f8"), ("max_steps", "i8"), ("rests", "i8"),
+    ]
+)  # fmt: skip
+#: What the kernel remembers between two calls: whether it has begun; time [s], sample interval and shaft speed [rad/s]; the next
+#: step [s], whether the last one was rejected, and the next stop; energy of the raceways so far [J] and the largest force that
+#: an accepted step left unbalanced [N]; and counts: evaluations are those of a raceway contact, `refreshed` rollers evaluated
+#: after a rest, and the last three rejections for an unsolved stage, for the error, and for forces not as predicted.
+MEMORY = np.dtype(
+    [
+        ("begun", "i8"), ("time", "f8"), ("interval", "i8"), ("shaft_speed", "f8"), ("step", "f8"), ("failed", "i8"),
+        ("next_stop", "i8"), ("spent", "f8"), ("unbalanced", "f8"),
+        ("steps", "i8"), ("rejections", "i8"), ("evaluations", "i8"), ("iterations", "i8"), ("refreshed", "i8"),
+        ("unsolved", "i8"), ("inaccurate", "i8"), ("unpredicted", "i8"),
+    ]
+)  # fmt: skip
+#: A step of the whole bearing; cages are two where there is one, the second being zero.
+#:
+#: start, end : times [s]
+#: shaft_speed : at the stages [rad/s]
+#: turn : angle by which the cages' pockets have turned at the stages [rad]
+#: cages : at the end, by lead w [m/s] at the pitch radius, lag ∫w dt [m], speeds p, q [m/s] and displacements a, b [m]
+#: torque : of the rollers on the cages at the end, positive along the orbit [N m]
+#: flows : angular impulses [N m s] and energies [J] of the step, by `macroslip.whole.books.FLOWS`
+BEARING_STEP = np.dtype(
+    [
+        ("start", "f8"), ("end", "f8"), ("shaft_speed", "f8", (2,)), ("turn", "f8", (2, 2)), ("cages", "f8", (2, 6)),
+        ("torque", "f8", (2,)), ("flows", "f8", (len(FLOWS),)),
+    ]
+)  # fmt: skip
+
+
+class Clock(NamedTuple):
+    """Time [s], the sample interval that holds it, and the shaft speed there [rad/s]."""
+
+    time: float
+    interval: int
+    shaft_speed: float
+
+
+class Start(NamedTuple):
+    """State at the first sample other than pure rolling on the bearing's axis.
+
+    Attributes
+    ----------
+    offset : ndarray, shape (n,)
+        Places in the pockets [m].
+    slip_inner, slip_outer : ndarray, shape (n,)
+        [m/s].
+    cage_lead : ndarray, shape (c,)
+        w, speed of a cage at the pitch radius beyond that of pure rolling [m/s].
+    """
+
+    offset: np.ndarray
+    slip_inner: np.ndarray
+    slip_outer: np.ndarray
+    cage_lead: np.ndarray
+
+
+class Part(NamedTuple):
+    """Steps that follow one another. The arrays are views of buffers that the next part overwrites.
+
+    Attributes
+    ----------
+    status : int
+        UNDER_WAY, but for the last part a `macroslip.imposed.status.Status`.
+    steps : ndarray of `macroslip.roller.step.STEP`, shape (m, n)
+        Two stages each. The first row of an integration is its start: it has no length, one stage and no weight.
+    bearing : ndarray of `BEARING_STEP`, shape (m,)
+    offset : ndarray, shape (m, n)
+        Rollers' ways ahead of the middle of their pockets at the end [m].
+    memory : record of `MEMORY`
+        Time, counts and unbalanced force so far.
+    """
+
+    status: int
+    steps: np.ndarray
+    bearing: np.ndarray
+    offset: np.ndarray
+    memory: np.void
+
+
+def pure_rolling(bearing: WholeBearing, cage: Cage) -> Start:
+    """All rollers in pure rolling at their initial offsets, cages with them."""
+    count = bearing.places.size
+    offset = cage.start_offsets(count // 2).ravel()
+    return Start(offset, np.zeros(count), np.zeros(count), np.zeros(bearing.cages))
+
+
+def steps_of(
+    assembly: Assembly,
+    motion: Motion,
+    start: Start,
+    stops: np.ndarray,
+    *,
+    tolerance: float = 2e-4,
+    max_steps: int = 100_000_000,
+    rests: bool = True,
+) -> Iterator[Part]:
+    """Integrate all rollers and cages over the motion of the inner ring.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion : Motion
+    start : Start
+        State at the first sample.
+    stops : ndarray
+        Times at which a step must end [s], rising, after the first sample; the last is the end.
+    tolerance : float
+        Of energies.
+    max_steps : int
+        Steps, with those rejected, after which it gives up.
+    rests : bool
+        Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
+
+    Yields
+    ------
+    Part
+        Some hundred steps each.
+
+    Raises
+    ------
+    InputError
+        If a start is not finite.
+    """
+    for name, values in zip(start._fields, start, strict=True):
+        if not np.isfinite(values).all():
+            raise InputError("it is not finite", where=f"start, {name}", allowed="finite numbers")
+    stops = np.ascontiguousarray(stops, dtype=float)
+    memory = np.zeros(1, MEMORY)
+    space = new_space(assembly, memory)
+    space.rollers[STATE] = np.column_stack([start.slip_inner, start.slip_outer, start.offset])
+    space.cages[STATE, :, 0] = start.cage_lead
+    limits = _limits(assembly, motion, float(stops[-1]), tolerance)
+    limits["max_steps"], limits["rests"] = max_steps, rests
+    count = assembly.places.size
+    rows = max(_BUFFER // (STEP.itemsize * count), 16)
+    steps, whole, offset = np.zeros((rows, count), STEP), np.zeros(rows, BEARING_STEP), np.zeros((rows, count))
+    status = UNDER_WAY
+    while status == UNDER_WAY:
+        status, done = integrate(assembly, motion, stops, limits, space, steps, whole, offset)
+        yield Part(status, steps[:done], whole[:done], offset[:done], memory[0])
+
+
+def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) -> np.ndarray:
+    """Bounds for a relative tolerance and the largest raceway speed of the history."""
+    bearing, body = assembly.bearing[0], assembly.bodies[0]
+    scale = float(np.abs(motion.shaft_speed).max()) * bearing["orbit_ratio"] * bearing["outer_radius"]
+    scale = max(float(scale), LEAST_SPEED)
+    dry = bearing["pocket"]["film"] == 0.0
+    limits = np.zeros(1, LIMITS)
+    limits["allowed_speed"] = SPEED_SHARE * (RINGING if dry else 1.0) * tolerance * scale
+    limits["power"], limits["force"] = POWER_SHARE * tolerance, FORCE_SHARE * tolerance
+    limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
+    limits["longest_step"] = min(LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
+    limits["longest_rest"] = LONGEST_REST
+    limits["cage_reach"] = min(CAGE_REACH, CAGE_REACH * math.sqrt(tolerance / 2e-4))
+    limits["slowest"] = max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 2
+    return limits
+
+
+@jit_inline
+def _clock_at(motion, time, start):
+    """The clock at `time` [s]; a sample's own time belongs to the interval that ends there, if `start` is before it."""
+    k = interval_of(motion, time, start)
+    if k > start and time <= motion.time[k]:
+        k -= 1
+    return Clock(time, k, instant(motion, k, time).shaft_speed)
+
+
+@jit_inline
+def _set_star(assembly, span, change, space):
+    """y* from the state and the first stage's slope during `span` [s]; the shaft's change [rad/s] enters exactly."""
+    rollers, cages = space.rollers, space.cages
+    for j in range(rollers.shape[1]):
+        for i in range(3):
+            rollers[STAR, j, i] = rollers[STATE, j, i] + span * rollers[FIRST_RATE, j, i]
+        rollers[STAR, j, 0] -= assembly.places[j].inner_radius * change
+    for c in range(cages.shape[1]):
+        for i in range(6):
+            cages[STAR, c, i] = cages[STATE, c, i] + span * cages[FIRST_RATE, c, i]
+        cages[STAR, c, 0] -= 0.5 * assembly.bearing[0].inner_radius * change
+
+
+@jit
+def _write_stage(assembly, k, clock, weight, space, row):
+    """Write the solved stage `k` of a step into the rollers' records, with its weight [s]."""
+    bearing = assembly.bearing[0]
+    inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
+    for j in range(row.size):
+        step, at, sheet, own = row[j], space.moments[k, j], space.sheets[0, j], space.rollers[FIRST + k, j]
+        at_inner, at_outer = (at.inner_load, at.inner_speed, own[0]), (at.outer_load, at.outer_speed, own[1])
+        shear_in, shear_out = shear_from(sheet.inner, *at_inner), shear_from(sheet.outer, *at_outer)
+        shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
+        inner = raceway_powers(sheet.inner, inner_ratio, at.spin_inner, at.pull_inner, shear_in, *at_inner)
+        outer = raceway_powers(sheet.outer, outer_ratio, at.spin_outer, at.pull_outer, shear_out, *at_outer)
+        step.time[k], step.weight[k] = clock.time, weight
+        step.inner_load[k], step.inner_speed[k], step.inner_slip[k] = at_inner
+        step.outer_load[k], step.outer_speed[k], step.outer_slip[k] = at_outer
+        step.elastic_load[k], step.cage_load[k], step.cage_speed[k] = at.elastic_load, at.push, -at.sliding
+        force, power, rolling, rough = step.force[k], step.power[k], step.rolling[k], step.rough[k]
+        # Without rolling resistance, as on an imposed orbit.
+        force[0], force[1] = at.spin_inner - shear_in, at.spin_outer - shear_out
+        force[2] = at.friction - shear_cage
+        power[0], power[1] = inner[0] + inner[1] + inner[2], outer[0] + outer[1] + outer[2]
+        power[2] = force[2] * at.sliding
+        rolling[0], rolling[1], rolling[2] = inner[3], outer[3], shear_cage * at.sliding
+        rough[0], rough[1] = inner[4], outer[4]
+        rough[2] = sheet.cage.rough * abs(at.push) / sheet.cage.load if sheet.cage.load > 0.0 else 0.0
+        step.lag_power[k, 0], step.lag_power[k, 1] = inner[1], outer[1]
+        step.skew_power[k, 0], step.skew_power[k, 1] = inner[2], outer[2]
+
+
+@jit_inline
+def _keep_rate(step, k, space):
+    """Slopes of a solved stage."""
+    rollers, cages = space.rollers, space.cages
+    for j in range(rollers.shape[1]):
+        for i in range(2):
+            rollers[FIRST_RATE + k, j, i] = (rollers[FIRST + k, j, i] - rollers[STAR, j, i]) / step
+        rollers[FIRST_RATE + k, j, 2] = space.moments[k, j].pocket_speed
+    for c in range(cages.shape[1]):
+        for i in range(6):
+            cages[FIRST_RATE + k, c, i] = (cages[FIRST + k, c, i] - cages[STAR, c, i]) / step
+
+
+@jit
+def _stage_at(assembly, motion, limits, k, h, clock, space, row, whole):
+    """Solve stage `k` of a step of `h` [s] from y*, and write it. Returns the largest residual [N] and whether it is solved."""
+    step = GAMMA * h
+    tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
+    rollers, cages = space.rollers, space.cages
+    rate = SLOPE if k == 0 else FIRST_RATE
+    for j in range(rollers.shape[1]):
+        for i in range(3):
+            rollers[FIRST + k, j, i] = rollers[STAR, j, i] + step * rollers[rate, j, i]
+    for c in range(cages.shape[1]):
+        for i in range(6):
+            cages[FIRST + k, c, i] = cages[STAR, c, i] + step * cages[rate, c, i]
+    now = instant(motion, clock.interval, clock.time)
+    locate(assembly, now, rollers[FIRST + k], cages[FIRST + k], space.moments[k], whole.turn[k])
+    stage = Stage(step, clock.time, clock.shaft_speed, tolerance, limits.cage_reach)
+    worst = solve_stage(assembly, stage, k, space)
+    if not worst <= tolerance:
+        return worst, False
+    _keep_rate(step, k, space)
+    whole.shaft_speed[k] = clock.shaft_speed
+    _write_stage(assembly, k, clock, h * (1.0 - GAMMA if k == 0 else GAMMA), space, row)
+    return worst, True
+
+
+@jit_inline
+def _take_step(assembly, motion, limits, start, end, space, row, whole):
+    """Solve both stages from the state. Returns the largest residual [N] and whether they are solved."""
+    h = end.time - start.time
+    space.numbers[0] = space.numbers[1]
+    for j in range(space.rests.size):
+        space.rests[j].fresh = limits.rests == 0 or space.rests[j].rest < h
+    middle = _clock_at(motion, start.time + GAMMA * h, start.interval)
+    worst, solved = 0.0, True
+    for k in range(2):
+        if solved:
+            clock = middle if k == 0 else end
+            _set_star(assembly, 0.0 if k == 0 else (1.0 - GAMMA) * h, clock.shaft_speed - start.shaft_speed, space)
+            rest, solved = _stage_at(assembly, motion, limits, k, h, clock, space, row, whole)
+            worst = max(worst, rest) if solved else rest
+    return worst, solved
+
+
+@jit_inline
+def _weighed(slope, first, last):
+    return _ERROR[0] * slope + _ERROR[1] * first + _ERROR[2] * last
+
+
+@jit
+def _step_error(assembly, limits, h, space):
+    """Error of a solved step of `h` [s] over what is allowed."""
+    bearing, rollers, cages, allowed = assembly.bearing[0], space.rollers, space.cages, limits.allowed_speed
+    worst = 0.0
+    for j in range(rollers.shape[1]):
+        slope, first, last = rollers[SLOPE, j], rollers[FIRST_RATE, j], rollers[LAST_RATE, j]
+        for i in range(2):
+            space.blocks[j].rest[i] = bearing.roller_mass / GAMMA * _weighed(slope[i], first[i], last[i])
+        worst = max(worst, abs(h * _weighed(slope[2], first[2], last[2])) / (allowed * PLACE_TIME))
+    for c in range(cages.shape[1]):
+        slope, first, last = cages[SLOPE, c], cages[FIRST_RATE, c], cages[LAST_RATE, c]
+        for i in range(3):
+            k = 0 if i == 0 else i + 1
+            space.borders[c].rest[i] = bearing.cage_mass / GAMMA * _weighed(slope[k], first[k], last[k])
+    size = 3 if bearing.translates else 1
+    solve(assembly.places, size, space.blocks, space.borders)
+    for j in range(rollers.shape[1]):
+        rest = space.blocks[j].rest
+        worst = max(worst, abs(rest[0]) / allowed, abs(rest[1]) / allowed)
+    for c in range(cages.shape[1]):
+        for i in range(size):
+            worst = max(worst, abs(space.borders[c].rest[i]) / allowed)
+    return worst
+
+
+@jit
+def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_scale):
+    """Error of the spin force, pull and powers of a raceway contact that the `known` sheet predicted, over what is allowed.
+
+    `sheet` is the new one, at `load` [N] and `speed` [m/s] and `span` [s] later; `ratio` is r~ over the raceway's radius, `mass` a
+    roller's [kg].
+    """
+    slip = sheet.slip
+    spin, pull = raceway_from(known, load, speed, slip)
+    off = max(abs(spin - sheet.spin), abs(pull - sheet.pull))
+    drift = off / (mass / max(span, 1e-9) + max(sheet.spin_by_slip, sheet.pull_by_slip, 0.0))
+    shear = shear_from(known, load, speed, slip)
+    predicted = raceway_powers(known, ratio, spin, pull, shear, load, speed, slip)
+    found = raceway_powers(sheet, ratio, sheet.spin, sheet.pull, sheet.shear, load, speed, slip)
+    wrong, power = 0.0, 0.0
+    for k in range(4):
+        wrong += predicted[k] - found[k]
+        power += abs(found[k])
+    change = abs(load - known.load) / (LOAD_CHANGE * max(load, known.load) + 1e-9)
+    worst = max(drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12))
+    return max(worst, change * change)
+
+
+@jit
+def _refresh(assembly, limits, time, space, power_scale):
+    """Evaluate the rollers that are due at the step's end `time` [s], and set the times to their next evaluations.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    limits : record of `LIMITS`
+    time : float
+    space : Space
+        With the solved step.
+    power_scale : float
+        Mean frictional power of a raceway contact so far [W].
+
+    Returns
+    -------
+    bool
+        Whether the forces of all resting rollers were near those predicted; otherwise the step has to be repeated.
+    """
+    bearing, rests, moments, memory = assembly.bearing[0], space.rests, space.moments[1], space.memory[0]
+    sheets, known = space.sheets[0], space.sheets[1]
+    for j in range(rests.size):
+        one = rests[j]
+        one.due = one.fresh or time - known[j].when >= one.rest
+        one.marked = one.due and (not one.fresh or sheets[j].when != time)
+    done = evaluate_marked(assembly, time, moments, space.rollers[LAST], rests, sheets)
+    memory.evaluations += done
+    memory.refreshed += done // 2
+    inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
+    good = True
+    for j in range(rests.size):
+        one, at, new, old = rests[j], moments[j], sheets[j], known[j]
+        if one.due:
+            span, mass = time - old.when, bearing.roller_mass
+            inner = _contact_off(
+                old.inner, new.inner, inner_ratio, mass, limits, at.inner_load, at.inner_speed, span, power_scale
+            )
+            outer = _contact_off(
+                old.outer, new.outer, outer_ratio, mass, limits, at.outer_load, at.outer_speed, span, power_scale
+            )
+            one.ratio = max(inner, outer)
+            if not one.fresh and one.ratio > FAR_OFF and span > 0.0:
+                one.rest = 0.0
+                good = False
+    # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
+    for j in range(rests.size):
+        one = rests[j]
+        if good and one.due:
+            factor = REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
+            one.rest = min(limits.longest_rest, (time - known[j].when) * max(REST_PART, min(factor, REST_GROWTH)))
+    return good
+
+
+@jit_inline
+def _touch_ahead(pocket, space, h):
+    """Part of `h` [s] after which the first roller meets a spar, if it is free now; 1 if none does."""
+    part = 1.0
+    for j in range(space.rollers.shape[1]):
+        offset, speed = space.rollers[STATE, j, 2], space.rollers[SLOPE, j, 2]
+        if abs(offset) < pocket.half_gap and speed != 0.0:
+            way = pocket.half_gap - offset if speed > 0.0 else pocket.half_gap + offset
+            part = min(part, way / (abs(speed) * h))
+    return part
+
+
+@jit_inline
+def _impact_step(bearing, space):
+    """First step [s] of the fastest dry impact that has just begun; infinite if none has.
+
+    A mass m that runs at v into K δ^1.5 goes in by (5 m v²/4K)^0.4; the step is the time in which it travels a part of
+    that.
+    """
+    pocket, shortest = bearing.pocket, math.inf
+    for j in range(space.rollers.shape[1]):
+        offset, speed = space.rollers[STATE, j, 2], space.rollers[SLOPE, j, 2]
+        depth = abs(offset) - pocket.half_gap
+        if depth > 0.0 and offset * speed > 0.0:
+            deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
+            if depth < BEGUN * deepest:
+                shortest = min(shortest, IMPACT_PART * deepest / abs(speed))
+    return shortest
+
+
+@jit
+def _cut(bearing, space, step, left):
+    """Step [s] to the next stop or half-way to it.
+
+    With dry impacts to just after a touch, so that the impact begins in the step after, which is as short as it needs.
+    """
+    dry = bearing.pocket.film == 0.0
+    if dry:
+        step = min(step, _impact_step(bearing, space))
+    h = left if step >= 0.95 * left else (0.5 * left if step > 0.6 * left else step)
+    if dry:
+        part = _touch_ahead(bearing.pocket, space, h)
+        if part * h > 2e-5 and part < 0.98:
+            h = 1.0005 * part * h
+    return h
+
+
+@jit
+def _leaves_tables(assembly, limits, space):
+    """Whether a roller ends the step in a state that its tables do not hold."""
+    for j in range(space.rests.size):
+        at, body, own = space.moments[1, j], assembly.bodies[assembly.places[j].row], space.rollers[LAST, j]
+        if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
+            return True
+        inner = math.sqrt(at.inner_speed * at.inner_speed + 0.25 * own[0] * own[0])
+        outer = math.sqrt(at.outer_speed * at.outer_speed + 0.25 * own[1] * own[1])
+        if max(inner, outer) > body.highest_speed + 2.0 * REST_SPEED or min(inner, outer) < limits.slowest:
+            return True
+    return False
+
+
+@jit_inline
+def _write_end(assembly, start, end, stages, space, row, whole, offset):
+    """Write what records say of a whole step, and of its end."""
+    bearing, memory, last = assembly.bearing[0], space.memory[0], stages - 1
+    pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
+    whole.start, whole.end = start, end.time
+    for c in range(bearing.cages):
+        whole.torque[c] = 0.0
+        for i in range(6):
+            whole.cages[c, i] = space.cages[FIRST + last, c, i]
+    for j in range(row.size):
+        step, at = row[j], space.moments[last, j]
+        step.start, step.end, step.stages, step.pure_speed = start, end.time, stages, pure_speed
+        # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
+        step.stretch, step.sampled = memory.steps, 0
+        for i in range(3):
+            step.power_before[i] = space.powers[j, i]
+            space.powers[j, i] = step.power[last, i]
+        offset[j] = space.rollers[FIRST + last, j, 2]
+        whole.torque[assembly.places[j].cage] -= bearing.pitch_radius * (at.push + bearing.lever * at.friction)
+
+
+@jit
+def _begin(assembly, motion, limits, space, row, whole, offset):
+    """Evaluate the start and write it as a step without length, in the place of the first stage."""
+    memory, moments, rollers, cages = space.memory[0], space.moments[0], space.rollers, space.cages
+    rollers[FIRST], cages[FIRST], rollers[STAR] = rollers[STATE], cages[STATE], rollers[STATE]
+    now = instant(motion, 0, motion.time[0])
+    clock = Clock(motion.time[0], 0, now.shaft_speed)
+    locate(assembly, now, rollers[FIRST], cages[FIRST], moments, whole.turn[0])
+    for j in range(space.rests.size):
+        space.rests[j].marked = True
+    memory.evaluations += evaluate_marked(assembly, clock.time, moments, rollers[FIRST], space.rests, space.sheets[1])
+    space.numbers[0] = space.numbers[1]
+    predict_raceways(moments, rollers[FIRST], space.sheets[0])
+    stage = Stage(0.0, clock.time, clock.shaft_speed, 0.0, limits.cage_reach)
+    for j in range(moments.size):
+        place = assembly.places[j]
+        meet(assembly, stage, place, moments[j], rollers[FIRST, j], cages[FIRST, place.cage], rollers[STAR, j], space.sheets[0, j])
+    _write_stage(assembly, 0, clock, 0.0, space, row)
+    whole.shaft_speed[0] = clock.shaft_speed
+    for k in range(whole.flows.size):
+        whole.flows[k] = 0.0
+    _write_end(assembly, clock.time, clock, 1, space, row, whole, offset)
+    for j in range(row.size):
+        row[j].sampled = 1
+        for i in range(3):
+            row[j].power_before[i] = space.powers[j, i]
+    memory.begun, memory.time, memory.shaft_speed, memory.step = 1, clock.time, clock.shaft_speed, FIRST_STEP
+
+
+@jit
+def _accept(assembly, start, end, space, row, whole, offset):
+    """Write an accepted step, and take over its state, slopes and evaluations."""
+    memory, rollers, cages = space.memory[0], space.rollers, space.cages
+    memory.steps += 1
+    for j in range(row.size):
+        for k in range(2):
+            memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
+    for i in range(whole.flows.size):
+        whole.flows[i] = 0.0
+    for k in range(2):
+        add_flows(assembly, whole.shaft_speed[k], k, row[0].weight[k], space, whole.flows)
+    _write_end(assembly, start.time, end, 2, space, row, whole, offset)
+    for j in range(row.size):
+        if space.rests[j].due:
+            space.numbers[1, j] = space.numbers[0, j]
+    rollers[STATE], rollers[SLOPE] = rollers[LAST], rollers[LAST_RATE]
+    cages[STATE], cages[SLOPE] = cages[LAST], cages[LAST_RATE]
+    memory.time, memory.interval, memory.shaft_speed = end.time, end.interval, end.shaft_speed
+
+
+@jit
+def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
+    """Integrate all rollers and cages, until the history ends or the buffers are full.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion : Motion
+    stops : ndarray
+        Times at which a step must end [s], rising, the last being the end of the integration.
+    bounds : ndarray of `LIMITS`, shape (1,)
+    space : Space
+        With the state at the first sample; then as the last call left it.
+    steps, wholes, offsets : ndarray of `STEP`, shape (m, n), of `BEARING_STEP`, shape (m,), and of float, shape (m, n)
+        Filled from the start.
+
+    Returns
+    -------
+    status : int
+        A `Status`; UNDER_WAY where the buffers are full.
+    count : int
+        Rows that were written.
+    """
+    limits, memory = bounds[0], space.memory[0]
+    rows, status = 0, UNDER_WAY
+    if memory.begun == 0:
+        _begin(assembly, motion, limits, space, steps[0], wholes[0], offsets[0])
+        rows = 1
+    while rows < wholes.size:
+        while memory.next_stop < stops.size and stops[memory.next_stop] <= memory.time:
+            memory.next_stop += 1
+        if memory.next_stop == stops.size:
+            status = COMPLETED
+            break
+        if memory.steps + memory.rejections >= limits.max_steps:
+            status = TOO_MANY_STEPS
+            break
+        stop = stops[memory.next_stop]
+        left = stop - memory.time
+        h = _cut(assembly.bearing[0], space, min(memory.step, limits.longest_step), left)
+        if h <= 4e-16 * abs(memory.time) + 1e-300:
+            status = STEP_TOO_SMALL
+            break
+        start = Clock(memory.time, memory.interval, memory.shaft_speed)
+        end = _clock_at(motion, stop if h == left else start.time + h, start.interval)
+        row, whole = steps[rows], wholes[rows]
+        worst, solved = _take_step(assembly, motion, limits, start, end, space, row, whole)
+        error = _step_error(assembly, limits, h, space) if solved else math.inf
+        if np.isnan(error) or (not worst < math.inf and h < 1e-12):
+            status = NOT_FINITE
+            break
+        factor = SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
+        if error > 1.0:
+            memory.rejections += 1
+            memory.inaccurate += 1 if solved else 0
+            memory.unsolved += 0 if solved else 1
+            memory.step = h * (max(LEAST_PART, factor) if solved else UNSOLVED_PART)
+            memory.failed = 1
+            continue
+        power_scale = max(memory.spent, 0.0) / (end.time - motion.time[0]) / (2 * row.size)
+        if not _refresh(assembly, limits, end.time, space, power_scale):
+            memory.rejections += 1
+            memory.unpredicted += 1
+            memory.step = h
+            continue
+        if _leaves_tables(assembly, limits, space):
+            status = OUTSIDE_TABLES
+            break
+        memory.unbalanced = max(memory.unbalanced, worst)
+        _accept(assembly, start, end, space, row, whole, offsets[rows])
+        memory.step, memory.failed = h * min(1.0 if memory.failed else GROWTH, factor), 0
+        rows += 1
+    return status, rows

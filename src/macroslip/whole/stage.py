@@ -1,0 +1,463 @@
+"""One implicit stage of all rollers and cages, solved by Newton's method.
+
+A stage is solved for y in y = y* + γh f(t, y). Newton's equations are divided by γh, so that residuals are forces [N]. Unknowns
+are each roller's slips v_in and v_out and each cage's lead w and, where it translates, its speeds p along X0 and q along Y0;
+offsets and displacements follow from them.
+
+The matrix has the shape of an arrow: two equations a roller, and a border of one or three a cage. A roller meets only its cage,
+so its two unknowns are eliminated on their own, and a solution costs in proportion to the number of rollers.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.whole.cage import guide_force
+from macroslip.whole.model import Assembly
+from macroslip.whole.pocket import pocket_force
+from macroslip.whole.tractions import (
+    cage_from,
+    evaluate_marked,
+    is_out_of_reach,
+    new_moments,
+    new_sheets,
+    raceway_from,
+)
+from macroslip.whole.tuning import ITERATIONS, PREDICTED, PREDICTED_REST
+
+#: Speed over which the guide's friction turns its sign [m/s].
+GUIDE_SPEED = 1e-3
+#: Sets of unknowns or their rates: at the step's start, y*, at both stages.
+STATE, SLOPE, STAR, FIRST, LAST, FIRST_RATE, LAST_RATE = range(7)
+#: When a roller's tractions are evaluated: time [s] for which those kept serve; error of the last predicted values over what is
+#: allowed; whether it is evaluated in every iteration, needs no further evaluation in this stage, is evaluated now, has new
+#: values to keep after the step.
+REST = np.dtype(
+    [("rest", "f8"), ("ratio", "f8"), ("fresh", "?"), ("settled", "?"), ("marked", "?"), ("due", "?"), ("unused", "i4")]
+)
+#: A roller's part of the matrix.
+#:
+#: inverse : of its 2 × 2 block
+#: column, row : its border: derivatives of its residuals by w, p, q and of the cage's residuals by v_in, v_out
+#: give, by_sliding, by_push : derivatives of N by x' [N s/m], and of F_c by slip [N s/m] and by N [-]
+#: rest : its residuals [N], or the right-hand side of a solution
+BLOCK = np.dtype(
+    [
+        ("inverse", "f8", (4,)), ("column", "f8", (2, 3)), ("row", "f8", (2, 3)),
+        ("give", "f8"), ("by_sliding", "f8"), ("by_push", "f8"), ("rest", "f8", (2,)),
+    ]
+)  # fmt: skip
+#: A cage's part of the matrix, and its residuals [N].
+BORDER = np.dtype([("matrix", "f8", (3, 3)), ("rest", "f8", (3,))])
+
+
+class Space(NamedTuple):
+    """State of an integration and its work space.
+
+    Attributes
+    ----------
+    rollers : ndarray, shape (7, n, 3)
+        Slips v_in, v_out [m/s] and pocket offset x [m], or their rates; for the first axis see `STATE` and so on.
+    cages : ndarray, shape (7, c, 6)
+        Lead w [m/s], lag ∫w dt [m], translation speeds p, q [m/s] and translations a, b [m], or their rates.
+    moments : ndarray of `MOMENT`, shape (2, n)
+        At both stages.
+    sheets : ndarray of `SHEETS`, shape (2, n)
+        Those of the step under way, and those kept from before it.
+    numbers : ndarray, shape (2, n, columns)
+        The same memory.
+    rests : ndarray of `REST`, shape (n,)
+    blocks : ndarray of `BLOCK`, shape (n,)
+    borders : ndarray of `BORDER`, shape (c,)
+    powers : ndarray, shape (n, 3)
+        Frictional power at the step's start [W].
+    memory : ndarray of `macroslip.whole.sdirk.MEMORY`, shape (1,)
+    """
+
+    rollers: np.ndarray
+    cages: np.ndarray
+    moments: np.ndarray
+    sheets: np.ndarray
+    numbers: np.ndarray
+    rests: np.ndarray
+    blocks: np.ndarray
+    borders: np.ndarray
+    powers: np.ndarray
+    memory: np.ndarray
+
+
+def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
+    """State and work space for a bearing; `memory` is the integrator's."""
+    count, cages = assembly.places.size, int(assembly.bearing[0]["cages"])
+    return Space(
+        np.zeros((7, count, 3)), np.zeros((7, cages, 6)), new_moments(count), *new_sheets(count), np.zeros(count, REST),
+        np.zeros(count, BLOCK), np.zeros(cages, BORDER), np.zeros((count, 3)), memory,
+    )  # fmt: skip
+
+
+class Stage(NamedTuple):
+    """A stage to solve.
+
+    Attributes
+    ----------
+    step : float
+        γh [s].
+    time : float
+        [s].
+    shaft_speed : float
+        [rad/s].
+    tolerance : float
+        Largest force that may be left unbalanced [N].
+    cage_reach : float
+        Relative change of load or slip within which the slopes of a cage's contact serve.
+    """
+
+    step: float
+    time: float
+    shaft_speed: float
+    tolerance: float
+    cage_reach: float
+
+
+class Meeting(NamedTuple):
+    """Contact of a roller with its pocket.
+
+    Attributes
+    ----------
+    push, friction : float
+        N and F_c [N].
+    give : float
+        Derivative of N by x', with the offset that follows from it in this stage [N s/m].
+    by_sliding, by_push : float
+        Derivatives of F_c by the slip against the cage [N s/m] and by N [-].
+    arm : float
+        Lever of N about the cage's own axis over the pitch radius [-].
+    cage_turn : float
+        Speed of the cage [rad/s].
+    """
+
+    push: float
+    friction: float
+    give: float
+    by_sliding: float
+    by_push: float
+    arm: float
+    cage_turn: float
+
+
+@jit_inline
+def meet(assembly, stage, place, at, own, cage, star, sheet):
+    """Push and friction of a roller's pocket; its offset follows from its speed.
+
+    `own` and `cage` are the unknowns of the roller and its cage, `star` the roller's y*.
+    """
+    bearing, shaft_speed = assembly.bearing[0], stage.shaft_speed
+    v_in, v_out = own[0], own[1]
+    cage_turn = (cage[0] + 0.5 * shaft_speed * bearing.inner_radius) / bearing.pitch_radius
+    off_axis = cage[4] * at.cosine + cage[5] * at.sine
+    speed = 0.5 * (v_in - v_out) - cage[0] + cage[2] * at.sine - cage[3] * at.cosine + cage_turn * off_axis
+    speed += 0.5 * shaft_speed * (place.inner_radius - bearing.inner_radius)
+    own[2] = star[2] + stage.step * speed
+    push, by_offset, by_speed = pocket_force(bearing.pocket, own[2], speed)
+    # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
+    sliding = 0.5 * (v_in + v_out + shaft_speed * place.inner_radius) + bearing.lever * bearing.pitch_radius * cage_turn
+    body = assembly.bodies[0]
+    friction, by_sliding, by_push = cage_from(body, assembly.tables, sheet.cage, push, sliding, stage.cage_reach)
+    at.friction, at.push, at.sliding, at.pocket_speed = friction, push, sliding, speed
+    give = by_speed + stage.step * by_offset
+    return Meeting(push, friction, give, by_sliding, by_push, 1.0 - off_axis / bearing.pitch_radius, cage_turn)
+
+
+@jit_inline
+def _write_block(inertia, at, sheet, met, block):
+    """Inverse of a roller's block, and the derivatives by which its pocket's forces follow."""
+    block.give, block.by_sliding, block.by_push = met.give, met.by_sliding, met.by_push
+    spin_in, pull_in, spin_out, pull_out = 0.0, 0.0, 0.0, 0.0
+    if at.inner_load > 0.0:
+        spin_in, pull_in = sheet.inner.spin_by_slip, sheet.inner.pull_by_slip
+    if at.outer_load > 0.0:
+        spin_out, pull_out = sheet.outer.spin_by_slip, sheet.outer.pull_by_slip
+    # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
+    shared, tilted = met.by_sliding, met.by_push * met.give
+    j11 = inertia + pull_in + 2.0 * spin_in + shared + tilted - 0.5 * met.give
+    j12 = -pull_out + 2.0 * spin_out + shared - tilted + 0.5 * met.give
+    j21 = -pull_in + 2.0 * spin_in + shared + tilted + 0.5 * met.give
+    j22 = inertia + pull_out + 2.0 * spin_out + shared - tilted - 0.5 * met.give
+    part = 1.0 / (j11 * j22 - j12 * j21)
+    inverse = block.inverse
+    inverse[0], inverse[1], inverse[2], inverse[3] = j22 * part, -j12 * part, -j21 * part, j11 * part
+
+
+@jit_inline
+def _add_to_border(bearing, stage, at, met, block, border):
+    """What a roller adds to its cage's equations, and how the cage enters its own."""
+    matrix, rest, row, column = border.matrix, border.rest, block.row, block.column
+    lever, by_w = bearing.lever, -met.give
+    rest[0] += met.push * met.arm + met.friction * lever
+    half_push, half_friction = 0.5 * met.give, 0.5 * met.by_push * met.give
+    row[0, 0] = half_push * met.arm + lever * (0.5 * met.by_sliding + half_friction)
+    row[1, 0] = -half_push * met.arm + lever * (0.5 * met.by_sliding - half_friction)
+    friction_by_w = met.by_sliding * lever + met.by_push * by_w
+    column[0, 0], column[1, 0] = 2.0 * friction_by_w - by_w, 2.0 * friction_by_w + by_w
+    matrix[0, 0] += met.arm * by_w + lever * friction_by_w
+    if bearing.translates:
+        cosine, sine = at.cosine, at.sine
+        rest[1] -= met.push * sine
+        rest[2] += met.push * cosine
+        by_p = met.give * (sine + stage.step * met.cage_turn * cosine)
+        by_q = met.give * (-cosine + stage.step * met.cage_turn * sine)
+        row[0, 1], row[1, 1] = -sine * half_push, sine * half_push
+        row[0, 2], row[1, 2] = cosine * half_push, -cosine * half_push
+        column[0, 1], column[1, 1] = (2.0 * met.by_push - 1.0) * by_p, (2.0 * met.by_push + 1.0) * by_p
+        column[0, 2], column[1, 2] = (2.0 * met.by_push - 1.0) * by_q, (2.0 * met.by_push + 1.0) * by_q
+        by_turn = met.arm + lever * met.by_push
+        matrix[0, 1] += by_turn * by_p
+        matrix[0, 2] += by_turn * by_q
+        for k, by in enumerate((by_w, by_p, by_q)):
+            matrix[1, k] -= sine * by
+            matrix[2, k] += cosine * by
+
+
+@jit
+def eliminate(places, size, blocks, borders):
+    """Take the rollers out of the cages' borders, once for all right-hand sides of this matrix.
+
+    Parameters
+    ----------
+    places : ndarray of `macroslip.whole.model.PLACE`, shape (n,)
+    size : int
+        Unknowns of a cage, one or three.
+    blocks, borders : ndarray of `BLOCK` and `BORDER`, shape (n,) and (c,)
+        Changed.
+    """
+    for j in range(places.size):
+        matrix, inverse = borders[places[j].cage].matrix, blocks[j].inverse
+        column, row = blocks[j].column, blocks[j].row
+        i0, i1, i2, i3 = inverse[0], inverse[1], inverse[2], inverse[3]
+        for k in range(size):
+            ahead, behind = column[0, k], column[1, k]
+            first, second = i0 * ahead + i1 * behind, i2 * ahead + i3 * behind
+            for i in range(size):
+                matrix[i, k] -= row[0, i] * first + row[1, i] * second
+
+
+@jit_inline
+def _solve_border(matrix, rest, size):
+    """Solve the small border in place by Cramer's rule; its diagonal is dominated by mass over step."""
+    if size == 1:
+        rest[0] /= matrix[0, 0]
+        return
+    m00, m01, m02 = matrix[0, 0], matrix[0, 1], matrix[0, 2]
+    m10, m11, m12 = matrix[1, 0], matrix[1, 1], matrix[1, 2]
+    m20, m21, m22 = matrix[2, 0], matrix[2, 1], matrix[2, 2]
+    c00, c01, c02 = m11 * m22 - m12 * m21, m12 * m20 - m10 * m22, m10 * m21 - m11 * m20
+    determinant = m00 * c00 + m01 * c01 + m02 * c02
+    r0, r1, r2 = rest[0], rest[1], rest[2]
+    rest[0] = (r0 * c00 + r1 * (m02 * m21 - m01 * m22) + r2 * (m01 * m12 - m02 * m11)) / determinant
+    rest[1] = (r0 * c01 + r1 * (m00 * m22 - m02 * m20) + r2 * (m02 * m10 - m00 * m12)) / determinant
+    rest[2] = (r0 * c02 + r1 * (m01 * m20 - m00 * m21) + r2 * (m00 * m11 - m01 * m10)) / determinant
+
+
+@jit
+def solve(places, size, blocks, borders):
+    """Turn `rest` of blocks and borders into the solution of the system that `eliminate` has prepared; parameters as there."""
+    for j in range(places.size):
+        inverse, rest, row = blocks[j].inverse, blocks[j].rest, blocks[j].row
+        first = inverse[0] * rest[0] + inverse[1] * rest[1]
+        second = inverse[2] * rest[0] + inverse[3] * rest[1]
+        rest[0], rest[1] = first, second
+        border_rest = borders[places[j].cage].rest
+        for i in range(size):
+            border_rest[i] -= row[0, i] * first + row[1, i] * second
+    for c in range(borders.size):
+        _solve_border(borders[c].matrix, borders[c].rest, size)
+    for j in range(places.size):
+        inverse, rest, column = blocks[j].inverse, blocks[j].rest, blocks[j].column
+        change = borders[places[j].cage].rest
+        first, second = 0.0, 0.0
+        for k in range(size):
+            first += column[0, k] * change[k]
+            second += column[1, k] * change[k]
+        rest[0] -= inverse[0] * first + inverse[1] * second
+        rest[1] -= inverse[2] * first + inverse[3] * second
+
+
+@jit_inline
+def _begin_cage(bearing, stage, cage, star, border):
+    """Parts of a cage's equations that no roller enters."""
+    inertia = bearing.cage_mass / stage.step
+    matrix, rest = border.matrix, border.rest
+    for i in range(3):
+        for k in range(3):
+            matrix[i, k] = inertia if i == k else 0.0
+    turning = cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius
+    drive = math.tanh(turning / GUIDE_SPEED)
+    rest[0] = inertia * (cage[0] - star[0]) + bearing.guide_friction * drive
+    matrix[0, 0] += bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED
+    rest[1] = inertia * (cage[2] - star[2])
+    rest[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
+    if bearing.translates:
+        push, n_x, n_y, by_place, by_speed = guide_force(bearing.radial_play, cage[4], cage[5], cage[2], cage[3])
+        rest[1] += push * n_x
+        rest[2] += push * n_y
+        radial = by_speed + stage.step * by_place
+        turning_push = stage.step * push / math.sqrt(cage[4] ** 2 + cage[5] ** 2) if push > 0.0 else 0.0
+        matrix[1, 1] += radial * n_x * n_x + turning_push * n_y * n_y
+        matrix[1, 2] += (radial - turning_push) * n_x * n_y
+        matrix[2, 1] += (radial - turning_push) * n_x * n_y
+        matrix[2, 2] += radial * n_y * n_y + turning_push * n_x * n_x
+
+
+@jit
+def predict_raceways(moments, rollers, sheets):
+    """Write the raceways' forces that follow from the sheets' slopes."""
+    for j in range(moments.size):
+        at, sheet = moments[j], sheets[j]
+        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, rollers[j, 0])
+        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, rollers[j, 1])
+
+
+@jit
+def _raceway_forces(assembly, stage, moments, rollers, rests, sheets):
+    """Raceway forces at the present state, evaluated where slopes do not serve. Returns the evaluations."""
+    predict_raceways(moments, rollers, sheets)
+    for j in range(moments.size):
+        rest = rests[j]
+        if not rest.fresh and is_out_of_reach(sheets[j], moments[j]):
+            rest.fresh = True
+        rest.marked = rest.fresh and not rest.settled
+    evaluations = evaluate_marked(assembly, stage.time, moments, rollers, rests, sheets)
+    for j in range(moments.size):
+        if rests[j].marked:
+            at, inner, outer = moments[j], sheets[j].inner, sheets[j].outer
+            off = abs(at.spin_inner - inner.spin) + abs(at.pull_inner - inner.pull)
+            off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
+            # Slopes that predicted the force well enough serve until the stage is solved.
+            rests[j].settled = off <= PREDICTED * stage.tolerance
+            at.spin_inner, at.pull_inner, at.spin_outer, at.pull_outer = inner.spin, inner.pull, outer.spin, outer.pull
+    return evaluations
+
+
+@jit_inline
+def _place_cages(stage, cages, star):
+    """Lag and translations of the cages, which follow from their speeds."""
+    for c in range(cages.shape[0]):
+        cages[c, 1] = star[c, 1] + stage.step * cages[c, 0]
+        cages[c, 4] = star[c, 4] + stage.step * cages[c, 2]
+        cages[c, 5] = star[c, 5] + stage.step * cages[c, 3]
+
+
+@jit
+def _assemble(assembly, stage, k, size, space):
+    """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
+    rollers, cages, moments, sheets = space.rollers[FIRST + k], space.cages[FIRST + k], space.moments[k], space.sheets[0]
+    star, bearing = space.rollers[STAR], assembly.bearing[0]
+    _place_cages(stage, cages, space.cages[STAR])
+    for c in range(cages.shape[0]):
+        _begin_cage(bearing, stage, cages[c], space.cages[STAR, c], space.borders[c])
+    memory = space.memory[0]
+    memory.evaluations += _raceway_forces(assembly, stage, moments, rollers, space.rests, sheets)
+    memory.iterations += 1
+    inertia, worst, finite = bearing.roller_mass / stage.step, 0.0, True
+    for j in range(moments.size):
+        place, at, sheet, block = assembly.places[j], moments[j], sheets[j], space.blocks[j]
+        met = meet(assembly, stage, place, at, rollers[j], cages[place.cage], star[j], sheet)
+        turning = 2.0 * (at.spin_inner + at.spin_outer + met.friction)
+        driving = met.push - at.tangential - at.pull_inner + at.pull_outer
+        rest_in = inertia * (rollers[j, 0] - star[j, 0]) + turning - driving
+        rest_out = inertia * (rollers[j, 1] - star[j, 1]) + turning + driving
+        block.rest[0], block.rest[1] = rest_in, rest_out
+        worst = max(worst, abs(rest_in), abs(rest_out))
+        # `max` may ignore a NaN.
+        finite = finite and abs(rest_in) + abs(rest_out) < math.inf
+        _write_block(inertia, at, sheet, met, block)
+        _add_to_border(bearing, stage, at, met, block, space.borders[place.cage])
+    for c in range(cages.shape[0]):
+        for i in range(size):
+            rest = abs(space.borders[c].rest[i])
+            worst = max(worst, rest)
+            finite = finite and rest < math.inf
+    return worst if finite else math.inf
+
+
+@jit_inline
+def _update(rollers, cages, size, blocks, borders):
+    """Subtract a solution from the unknowns."""
+    for j in range(rollers.shape[0]):
+        rollers[j, 0] -= blocks[j].rest[0]
+        rollers[j, 1] -= blocks[j].rest[1]
+    for c in range(cages.shape[0]):
+        cages[c, 0] -= borders[c].rest[0]
+        if size == 3:
+            cages[c, 2] -= borders[c].rest[1]
+            cages[c, 3] -= borders[c].rest[2]
+
+
+@jit
+def _follow(assembly, stage, k, space):
+    """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
+    bearing = assembly.bearing[0]
+    for j in range(space.blocks.size):
+        c, at, sheet, block = assembly.places[j].cage, space.moments[k, j], space.sheets[0, j], space.blocks[j]
+        cage, border = space.cages[FIRST + k, c], space.borders[c].rest
+        v_in, v_out = -block.rest[0], -block.rest[1]
+        if at.inner_load > 0.0:
+            at.spin_inner += sheet.inner.spin_by_slip * v_in
+            at.pull_inner += sheet.inner.pull_by_slip * v_in
+        if at.outer_load > 0.0:
+            at.spin_outer += sheet.outer.spin_by_slip * v_out
+            at.pull_outer += sheet.outer.pull_by_slip * v_out
+        speed = 0.5 * (v_in - v_out) + border[0]
+        if bearing.translates:
+            turn = stage.step * (cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius) / bearing.pitch_radius
+            speed -= (at.sine + turn * at.cosine) * border[1] + (turn * at.sine - at.cosine) * border[2]
+        sliding = 0.5 * (v_in + v_out) - bearing.lever * border[0]
+        push = block.give * speed
+        at.push += push
+        at.friction += block.by_sliding * sliding + block.by_push * push
+        at.sliding += sliding
+        at.pocket_speed += speed
+        space.rollers[FIRST + k, j, 2] += stage.step * speed
+
+
+@jit
+def solve_stage(assembly, stage, k, space):
+    """Solve stage `k` (0 or 1) from the guess in its unknowns, which it replaces.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    stage : Stage
+    k : int
+    space : Space
+        With y*, and the rollers located; the matrix is left prepared for further right-hand sides.
+
+    Returns
+    -------
+    float
+        Largest residual [N], or the part that the last update is predicted to leave of it; above the tolerance or not finite
+        where the stage is not solved.
+    """
+    places, blocks, borders = assembly.places, space.blocks, space.borders
+    size = 3 if assembly.bearing[0].translates else 1
+    worst, before = math.inf, math.inf
+    for j in range(blocks.size):
+        space.rests[j].settled = False
+    for _ in range(ITERATIONS):
+        worst = _assemble(assembly, stage, k, size, space)
+        eliminate(places, size, blocks, borders)
+        if worst <= stage.tolerance or not worst < math.inf:
+            break
+        solve(places, size, blocks, borders)
+        _update(space.rollers[FIRST + k], space.cages[FIRST + k], size, blocks, borders)
+        predicted = worst * max((worst / before) ** 2, PREDICTED_REST)
+        if predicted <= stage.tolerance:
+            _place_cages(stage, space.cages[FIRST + k], space.cages[STAR])
+            _follow(assembly, stage, k, space)
+            return predicted
+        before = worst
+    return worst

@@ -1,1 +1,0 @@
-"""The whole bearing: orbit and spin of all rollers together, pockets with play, and the cage or cages."""
