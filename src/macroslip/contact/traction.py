@@ -238,6 +238,19 @@ def thermal_reduction(heating):
     return np.where(heating < 1e-8, 1.0 - heating * 2.0 / 3.0, found)[()]
 
 
+def crook_patch_integral(pressure_exponent, root_heating):
+    """Patch integral of Crook's traction over the Hertz ellipse and its derivatives; arrays of `closed_form.patch_integral`.
+
+    Examples
+    --------
+    >>> [float(round(one, 6)) for one in crook_patch_integral(5.0, 1.0)]
+    [1.160552, -1.056405, 0.035331]
+    """
+    from macroslip.contact.closed_form import patch_integral
+
+    return tuple(one[()] for one in np.vectorize(patch_integral)(pressure_exponent, root_heating))
+
+
 def shear_stress(viscosity, temperature_viscosity, thermal_conductivity, film_thickness, slip):
     """Shear stress on the slower wall of a self-heated Newtonian film, τ = η_eff Δu/h (27) [Pa].
 

@@ -73,6 +73,7 @@ class RollerMeasures:
             if wanted.details
             else None
         )
+        self.end_slip = 0.0
         self._traced: list[np.ndarray] = []
         self._next_trace = 0
 
@@ -81,14 +82,21 @@ class RollerMeasures:
         """Details of the contacts, where they were wanted."""
         return self.looker.details if self.looker else None
 
-    def add(self, steps: np.ndarray, j: int, *, last: bool = False) -> None:
+    def add(self, steps: np.ndarray, j: int) -> None:
         """Take up the steps of roller `j` in a buffer of shape (n, rollers)."""
         book(steps, j, self.totals)
         mine = steps[:, j]
         self.film_times += film_times(mine, self.row.model.laws, self.row.wanted.edges[0])
         if self.looker:
-            self.looker.add(steps, j, last=last)
+            self.looker.add(steps, j)
         self._trace(mine)
+        last = mine[-1]
+        self.end_slip = 0.5 * float(last["inner_slip"][last["stages"] - 1] + last["outer_slip"][last["stages"] - 1])
+
+    def finish(self) -> None:
+        """Spread what has been kept since the last look."""
+        if self.looker:
+            self.looker.finish()
 
     def _trace(self, steps: np.ndarray) -> None:
         """Keep the states at the times of the traces: the first ones that are not before them."""

@@ -10,17 +10,16 @@ import numpy as np
 from macroslip.bearing import geometry
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
 from macroslip.bearing.load_ratings import fatigue_load_limit
-from macroslip.compiled import jit
 from macroslip.errors import InputError
-from macroslip.film.correction import prepare_film
-from macroslip.film.film_law import film_thickness
+from macroslip.contact.interface import highest_load, interfaces
+from macroslip.contact.registry import FILM_LAWS
 from macroslip.loads import BearingLoads
 from macroslip.mechanisms import Laws
 from macroslip.rating import iso
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.ring.balance import roller_loads
 from macroslip.ring.motion import ring_motion
-from macroslip.roller.model import highest_load, interfaces, ring_geometry, roller_model
+from macroslip.roller.model import ring_geometry, roller_model
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -317,12 +316,12 @@ def _contacts(history: _History) -> dict[str, tuple]:
     low, middle = np.full((2, len(ROWS), len(RACEWAYS)), np.nan)
     weights = np.broadcast_to(history.duration, load.shape[1:])
     for k, raceway in enumerate(raceways):
-        law = prepare_film(FILM_LAW, raceway)
+        film = FILM_LAWS.named(FILM_LAW)
         for row in range(len(ROWS)):
             carried = (load[row] > 0.0) & (entrainment > 0.0)
             if carried.any():
                 speed = np.broadcast_to(entrainment, carried.shape)[carried]
-                ratio = _films(law, load[row][carried], speed) / bearing.composite_roughness
+                ratio = film(raceway, load[row][carried], speed) / bearing.composite_roughness
                 quantiles = _quantiles(ratio, weights[carried], (0.05, 0.5))
                 low[row, k], middle[row, k] = quantiles
     return {
@@ -331,15 +330,6 @@ def _contacts(history: _History) -> dict[str, tuple]:
         "film_ratio": _variable(middle, "1", "film ratio Lambda, median over loaded rollers", "row", "raceway"),
         "film_ratio_low": _variable(low, "1", "film ratio Lambda, 5 % of loaded rollers below", "row", "raceway"),
     }
-
-
-@jit
-def _films(law, load, speed):
-    """Film thickness [m] at every pair of load [N] and entrainment speed [m/s]."""
-    found = np.empty(load.size)
-    for k in range(load.size):
-        found[k] = film_thickness(law, load[k], speed[k])[0]
-    return found
 
 
 def _quantiles(values: NDArray, weights: NDArray, shares: tuple[float, ...]) -> NDArray[np.float64]:

@@ -220,8 +220,8 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
             one.add(part.steps, place)
         memory = part.memory
         outcome = Outcome(
-            int(part.status), int(memory["count"][0]), int(memory["count"][1]), int(memory["count"][2]),
-            float(memory["worst"]), float(memory["time"]), 0.0,
+            int(part.status), int(memory["steps"]), int(memory["rejections"]), int(memory["evaluations"]),
+            float(memory["unbalanced"]), float(memory["time"]), 0.0,
         )  # fmt: skip
     for one in measures:
         one.finish()
