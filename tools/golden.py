@@ -2,11 +2,11 @@
 
 python -m tools.golden --check [--only imposed-paper]     compares, and prints the worst ratio of error to bound
 python -m tools.golden --verdicts results/summary.json    compares what `make reproduce` says of the paper
-python -m tools.golden --write [--only imposed-paper]     computes them anew; only in a commit that names the fault it mends
+python -m tools.golden --write [--only imposed-paper]     computes them anew, in a commit that names the fault it mends
 
-Numbers are those of tight tolerances (`TIGHT`), by the laws and not by tables. A check computes with those of `LOOSE`. Its bounds
-are the promised ones (`NOMINAL`); where the program kept less than that when the numbers were written, three times what it was
-off by then: a state that is as converged passes, and no other.
+Numbers are those of tight tolerances (`TIGHT`), at which no tables were used. A check computes with those of `LOOSE`. Its
+bounds are the promised ones (`NOMINAL`). Where the program kept less when the numbers were written, a bound is three
+times what it was off by then, so that a state that is as converged passes.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ ROLLERS = [0, 9]
 #: Tolerances of numbers and of checks, by kind of case.
 TIGHT = {"imposed": 1e-7, "short": 1e-7, "film": 1e-7, "dry": 1e-6}
 LOOSE = {"imposed": 1e-5, "short": 1e-5, "film": 2e-6, "dry": 2e-6}
-#: Nominal bounds, relative to a variable's scale: `_scale`.
+#: Nominal bounds, relative to a variable's scale, which `errors` has.
 ENERGIES = ("energy", "rolling_energy", "asperity_energy", "mechanism_energy", "orbit_energy", "energy of rows")
 PEAKS = ("peak_power", "flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
 NOMINAL = {
@@ -87,7 +87,7 @@ def cases() -> dict[str, tuple[str, dict]]:
 
 def compute(kind: str, given: dict, tolerance: float) -> dict[str, np.ndarray]:
     """Variables of a result as arrays; of maps sums and largest values, of dry impacts quantiles over the rollers."""
-    settings = {**given, "loads": given["loads"](), "integrator": Radau(tolerance=tolerance, tables=False)}
+    settings = {**given, "loads": given["loads"](), "integrator": Radau(tolerance=tolerance)}
     result, found = simulate(Case(**settings)), {}
     speed = settings["loads"].shaft_speed
     if speed.min() < 0.0 < speed.max():
