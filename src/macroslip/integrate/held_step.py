@@ -31,7 +31,8 @@ def follows_loads(path, state, zone, length):
         return False
     forces = state.forces
     held = path.model.mobility * forces.slope * length > QUASI_STATIC
-    return held and abs(net_force(forces)) <= SETTLED_FORCE * magnitude(forces)
+    # Not at rest, where all forces are zero, and so is the energy that the error is compared to.
+    return held and abs(net_force(forces)) < SETTLED_FORCE * magnitude(forces)
 
 
 @jit_part

@@ -92,7 +92,7 @@ def uniform_traction(law, load, film_thickness, slip):
         by_slip += part * chord.by_slip
         by_film += part * chord.by_film
         by_pressure += part * chord.by_pressure
-    signed = math.copysign(area, slip)
+    signed = area * (slip / speed)
     force = signed * total
     return (
         force,
@@ -160,11 +160,11 @@ def microslip_traction(law, load, film_thickness, field, shape, fine):
             slip = field.sliding + field.curvature_rate * drop_scale * station * station - field.spin_rate * station
             cosine = math.sqrt(1.0 - x * x)
             xs[count], slips[count], cosines[count] = x, slip, cosine
-            weighted[count] = math.copysign(area * weights[k] * length * cosine, slip)
+            speed = max(abs(slip), _NO_SLIP)
+            weighted[count] = area * weights[k] * length * cosine * (slip / speed)
             moved[count] = moves_of_edges[segment] + widens * nodes[k]
             growths[count] = widens / (across * length)
             if not fine:
-                speed = max(abs(slip), _NO_SLIP)
                 place_of_chord = chord_place(law.table, film_thickness, pressure * cosine, speed)
                 looked_up[0, count], looked_up[1, count] = place_of_chord
             count += 1
