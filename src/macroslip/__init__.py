@@ -20,6 +20,8 @@ _HOMES = {
     "bundled_cases": "macroslip.loads",
     "Laws": "macroslip.mechanisms",
     "load_laws": "macroslip.plugins",
+    "register_film": "macroslip.contact.registry",
+    "register_traction": "macroslip.contact.registry",
     "Case": "macroslip.case.case",
     "Cage": "macroslip.whole.cage",
     "Radau": "macroslip.case.parts",
@@ -54,7 +56,7 @@ def __getattr__(name: str) -> Any:
     if name in _HOMES:
         value = getattr(import_module(_HOMES[name]), name)
     elif name in _FOLDERS:
-        value = import_module("macroslip.contact.hertz" if name == "hertz" else f"macroslip.{name}")
+        value = import_module(f"macroslip.contact.{name}")
     else:
         raise AttributeError(f"module 'macroslip' has no attribute {name!r}")
     globals()[name] = value

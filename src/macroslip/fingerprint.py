@@ -12,7 +12,7 @@ from pathlib import Path
 
 #: Parts of the package from which kernels are compiled.
 KERNEL_PARTS = (
-    "compiled", "constants", "contact", "film", "integrate", "lubricant", "reference", "ring", "roller", "rolling", "traction", "whole_bearing",
+    "compiled", "constants", "contact", "imposed", "lubricant", "measures", "ring", "roller", "whole",
 )  # fmt: skip
 #: Parts on which the result of a case depends beside those.
 RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "mechanisms", "rating", "result")

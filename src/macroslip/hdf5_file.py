@@ -1,7 +1,8 @@
 """HDF5 files of unknown origin: from a damaged one the library may never return, or it may end the whole process.
 
 A flipped byte can make a list within the file point at itself, which HDF5 follows for ever, without reacting to an interrupt.
-So a process of its own reads the file first, with bounds on its time and memory.
+So a process of its own reads the file first, with bounds on its time and memory. A link leads to another file, a pipe, or many times
+to the same numbers, past these bounds: a file whose content is not all in itself, once, is refused.
 """
 
 from __future__ import annotations
@@ -35,10 +36,17 @@ for path in paths:
     most = max(small, expansion * os.path.getsize(path))
     with h5py.File(path, "r") as file:
         announced = 0
+        link = file.visititems_links(lambda name, link: None if isinstance(link, h5py.HardLink) else name)
+        if link is not None:
+            raise ValueError(f"{{link}} is a link to another place")
         def visit(name, found):
             global announced
+            if name != "/" and h5py.h5o.get_info(found.id).rc > 1:
+                raise ValueError(f"{{name}} has a second name")
             dict(found.attrs)
             if isinstance(found, h5py.Dataset):
+                if found.external or found.is_virtual:
+                    raise ValueError(f"the numbers of {{name}} are in another place")
                 announced += found.size * found.dtype.itemsize
                 if announced > most:
                     raise ValueError(f"it announces more than {{most}} bytes")
@@ -49,7 +57,7 @@ for path in paths:
 
 
 def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
-    """Refuse files that the HDF5 library cannot read to their ends in bounded time and memory.
+    """Refuse files that the HDF5 library cannot read to their ends in bounded time and memory, or that hold links.
 
     Parameters
     ----------

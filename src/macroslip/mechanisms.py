@@ -173,21 +173,21 @@ def viscosity_laws() -> list[str]:
 
 def rheologies() -> list[str]:
     """Names of the film's rheologies."""
-    from macroslip.traction.rheology import RHEOLOGIES
+    from macroslip.contact.traction import RHEOLOGIES
 
     return list(RHEOLOGIES)
 
 
 def asperity_laws() -> list[str]:
     """Names of the laws for the share of the load that asperities carry."""
-    from macroslip.film import asperity_load
+    from macroslip.contact import asperities
 
-    return asperity_load.names()
+    return sorted(asperities.REFERENCES)
 
 
 def rolling_laws() -> list[str]:
     """Names of the laws for rolling resistance."""
-    from macroslip.rolling.rolling_law import REFERENCES
+    from macroslip.contact.rolling import REFERENCES
 
     return list(REFERENCES)
 

@@ -59,8 +59,7 @@ def load_laws(path: str | PathLike[str]) -> OwnLaws:
     macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). Allowed: a Python \
 file that registers film or traction laws, as macroslip init --example laws writes. Check its path, which starts at the current folder.
     """
-    from macroslip.film import film_law as film_law
-    from macroslip.traction import traction_law as traction_law
+    from macroslip.contact.registry import FILM_LAWS, TRACTION_LAWS
 
     path = Path(path)
     check_regular(path, "Name a Python file.")
@@ -73,7 +72,7 @@ file that registers film or traction laws, as macroslip init --example laws writ
     name = f"macroslip_laws_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
     if name in _loaded:
         return _loaded[name]
-    kinds = film_law, traction_law
+    kinds = FILM_LAWS, TRACTION_LAWS
     before = [set(kind.names()) for kind in kinds]
 
     def added() -> OwnLaws:
@@ -82,7 +81,7 @@ file that registers film or traction laws, as macroslip init --example laws writ
     try:
         _import(path, name)
         if not any(added()):
-            remedy = "Call macroslip.film.film_law.register or macroslip.traction.traction_law.register in it."
+            remedy = "Call macroslip.register_film or macroslip.register_traction in it."
             raise InputError("the file registers no law", where=str(path), allowed=_ALLOWED, remedy=remedy)
     except BaseException:
         sys.modules.pop(name, None)

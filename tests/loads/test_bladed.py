@@ -62,9 +62,10 @@ def _run(folder, truth, form="U", with_speed=True, **options):
     return header
 
 
-def _message(path, **options):
+def _message(path, *words):
     with pytest.raises(InputError) as caught:
-        HubLoads.read(path, **options)
+        HubLoads.read(path)
+    assert [word for word in words if word not in str(caught.value)] == []
     return str(caught.value)
 
 
@@ -83,9 +84,7 @@ def test_the_loads_come_back(tmp_path, truth, form, extension, wrap):
 
 def test_the_speed_may_be_given(tmp_path, truth):
     header = _run(tmp_path, truth, with_speed=False)
-    message = _message(header)
-    assert "no Rotor speed" in message
-    assert "loads.shaft_speed" in message
+    _message(header, "no Rotor speed", "loads.shaft_speed")
     read = HubLoads.read(header, shaft_speed=2.1)
     assert (read.shaft_speed == 2.1).all()
 
@@ -113,66 +112,72 @@ def test_only_hub_loads_from_a_file_take_a_speed(tmp_path, source):
         read_case(case)
 
 
-def test_a_binary_that_is_cut_off(tmp_path, truth):
-    header = _run(tmp_path, truth)
+@pytest.mark.parametrize(
+    ("form", "change", "words"),
+    [
+        ("U", lambda content: content[:-4], ["cut off", "demo.$23"]),
+        ("F", lambda content: content[:-200], ["numbers, its header announces"]),
+        (
+            "U",
+            lambda content: (np.frombuffer(content, "<f4") * 1.1).astype("<f4").tobytes(),
+            ["the header states", "not of the same run"],
+        ),
+        ("F", lambda content: b" 1E308" * 8 + content[128:], ["beyond any wind turbine"]),
+        ("F", lambda content: b" inf" * 8 + content[128:], ["fx is inf (1 of 1201 samples"]),
+    ],
+)
+def test_damaged_data(tmp_path, truth, form, change, words):
+    # Warnings are errors in these tests: NumPy must not say anything before the paragraph.
+    header = _run(tmp_path, truth, form)
     data = tmp_path / "demo.$23"
-    data.write_bytes(data.read_bytes()[:-4])
-    message = _message(header)
-    assert "cut off" in message
-    assert "demo.$23" in message
+    data.write_bytes(change(data.read_bytes()))
+    _message(header, *words)
 
 
-def test_a_text_that_is_cut_off(tmp_path, truth):
-    header = _run(tmp_path, truth, "F")
-    data = tmp_path / "demo.$23"
-    data.write_text(data.read_text()[:-200])
-    assert "numbers, its header announces" in _message(header)
-
-
-def test_data_of_another_run(tmp_path, truth):
-    header = _run(tmp_path, truth)
-    data = tmp_path / "demo.$23"
-    data.write_bytes((np.fromfile(data, "<f4") * 1.1).astype("<f4").tobytes())
-    message = _message(header)
-    assert "the header states" in message
-    assert "not of the same run" in message
-
-
-def test_data_without_headers(tmp_path, truth):
+@pytest.mark.parametrize(
+    ("absent", "named", "words"),
+    [
+        ([".%23", ".%05"], ".$23", ["no header demo.%nn"]),
+        ([".%23"], ".%05", ["Stationary hub Fx", "hub loads in the fixed frame"]),
+        ([".$23"], ".%23", ["no demo.$23 beside the header"]),
+    ],
+)
+def test_files_that_are_absent(tmp_path, truth, absent, named, words):
     _run(tmp_path, truth)
-    (tmp_path / "demo.%23").unlink()
-    (tmp_path / "demo.%05").unlink()
-    assert "no header demo.%nn" in _message(tmp_path / "demo.$23")
-
-
-def test_a_run_without_hub_loads(tmp_path, truth):
-    header = _run(tmp_path, truth)
-    header.unlink()
-    message = _message(tmp_path / "demo.%05")
-    assert "Stationary hub Fx" in message
-    assert "hub loads in the fixed frame" in message
+    for extension in absent:
+        (tmp_path / f"demo{extension}").unlink()
+    _message(tmp_path / f"demo{named}", *words)
 
 
 def test_units_that_are_not_si(tmp_path, truth):
     header = _run(tmp_path, truth)
     header.write_text(header.read_text().replace("FL FL FL FL F F F F", "FL FL FL FL kF F F F"))
-    assert "unit code kF" in _message(header)
+    _message(header, "unit code kF")
 
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("DIMENS\t8", "DIMENS\tx"), ("DIMENS\t8", "DIMENS\t9"), ("FORMAT\tR*4", "FORMAT\tI*2"), ("VARIAB\t", "VARIAX\t")],
+    [
+        ("DIMENS\t8", "DIMENS\tx"),
+        ("DIMENS\t8", "DIMENS\t9"),
+        ("FORMAT\tR*4", "FORMAT\tI*2"),
+        ("VARIAB\t", "VARIAX\t"),
+        ("FORM\tU", "FORM\tX"),
+        ("STEP\t5.0000000E-02", "STEP\tinf"),
+        ("STEP\t5.0000000E-02", "STEP\t1E+308"),
+        ("STEP\t5.0000000E-02", "STEP\t-0.05"),
+        ("MIN \t0.0000000E+000", "MIN \tnan"),
+        ("MEAN   ", "MEAN   nan "),
+    ],
 )
 def test_a_damaged_header(tmp_path, truth, old, new):
     header = _run(tmp_path, truth)
     header.write_text(header.read_text().replace(old, new))
-    message = _message(header)
-    assert str(header) in message
-    assert "run Bladed again" in message
+    _message(header, str(header), "run Bladed again")
 
 
 def test_groups_with_different_steps(tmp_path, truth):
     header = _run(tmp_path, truth)
     drive = tmp_path / "demo.%05"
     drive.write_text(drive.read_text().replace("STEP\t5.0000000E-02", "STEP\t4.0000000E-02"))
-    assert "different time steps" in _message(header)
+    _message(header, "different time steps")

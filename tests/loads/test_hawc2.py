@@ -1,5 +1,7 @@
 """HAWC2 output in the original layouts: lists of channels with text or binary data, and gtsdf."""
 
+import os
+
 import h5py
 import numpy as np
 import pytest
@@ -35,11 +37,12 @@ def _channels(truth, sign=1.0, direction=1.0, start=0.7):
 
 def _write_sel(folder, columns, binary):
     values = np.column_stack([column for _, _, column in columns.values()])
+    duration = np.ptp(columns["Time"][2])
     kind = "BINARY" if binary else "ASCII"
     lines = [LINE, "  Version ID : HAWC2MB 12.8", "   Time : 10:02:19", "   Date : 24:01.2023", LINE]
     lines += ["  Result file : ./run.dat", LINE, "   Scans    Channels    Time [sec]      Format"]
     lines += [
-        f"{values.shape[0]:11d}{values.shape[1]:7d}{60.0:15.3f}       {kind}",
+        f"{values.shape[0]:11d}{values.shape[1]:7d}{duration:15.3f}       {kind}",
         "",
         "  Channel   Variable Description",
         "",
@@ -86,9 +89,10 @@ def _write_gtsdf(folder, columns, packed):
     return path
 
 
-def _message(path, **options):
+def _message(path, *words):
     with pytest.raises(InputError) as caught:
-        HubLoads.read(path, **options)
+        HubLoads.read(path)
+    assert [word for word in words if word not in str(caught.value)] == []
     return str(caught.value)
 
 
@@ -114,66 +118,138 @@ def test_gtsdf(tmp_path, truth, packed):
     _check(HubLoads.read(_write_gtsdf(tmp_path, _channels(truth), packed)), truth, 3e-3 if packed else 1e-9)
 
 
-def test_no_loads_of_the_shaft(tmp_path, truth):
-    columns = {name: entry for name, entry in _channels(truth).items() if not name.startswith("F")}
-    message = _message(_write_sel(tmp_path, columns, binary=False))
-    assert "no force of the main body shaft" in message
-    assert "mbdy forcevec shaft" in message
-
-
-def test_the_speed_may_be_given(tmp_path, truth):
-    columns = {name: entry for name, entry in _channels(truth).items() if name != "bea1 angle_speed"}
+@pytest.mark.parametrize(
+    ("absent", "words"),
+    [
+        (["Fx coo: shaft"], ["no force of the main body shaft", "mbdy forcevec shaft"]),
+        (["My coo: shaft"], ["no moment of the main body shaft in its own axes"]),
+        (["bea1 angle"], ["no angle of the shaft's bearing"]),
+        (["bea1 angle_speed"], ["no speed of the shaft", "loads.shaft_speed"]),
+    ],
+)
+def test_channels_that_are_missing(tmp_path, truth, absent, words):
+    columns = {name: entry for name, entry in _channels(truth).items() if name not in absent}
     path = _write_sel(tmp_path, columns, binary=False)
-    assert "loads.shaft_speed" in _message(path)
-    assert (HubLoads.read(path, shaft_speed=2.0).shaft_speed == 2.0).all()
-
-
-def test_without_the_angle(tmp_path, truth):
-    columns = {name: entry for name, entry in _channels(truth).items() if name != "bea1 angle"}
-    assert "no angle of the shaft's bearing" in _message(_write_sel(tmp_path, columns, binary=False))
+    message = _message(path)
+    assert [word for word in words if word not in message] == []
+    if absent == ["bea1 angle_speed"]:
+        assert (HubLoads.read(path, shaft_speed=2.0).shaft_speed == 2.0).all()
 
 
 def test_axes_in_which_the_weight_does_not_point_down(tmp_path, truth):
-    path = _write_sel(tmp_path, _channels(truth, start=0.7), binary=False)
     columns = _channels(truth, start=0.7)
     unit, text, angle = columns["bea1 angle"]
     columns["bea1 angle"] = (unit, text, angle + 90.0)
     path = _write_sel(tmp_path, columns, binary=False)
-    message = _message(path)
-    assert "weight of the rotor cannot be seen" in message
-    assert "table" in message
+    _message(path, "weight of the rotor cannot be seen", "table")
 
 
-def test_binary_data_that_are_cut_off(tmp_path, truth):
-    path = _write_sel(tmp_path, _channels(truth), binary=True)
+@pytest.mark.parametrize(
+    ("binary", "length", "words"),
+    [(True, -10, "cut off"), (False, -30, "the list of channels announces"), (True, None, "no run.dat beside it")],
+)
+def test_data_that_are_cut_off_or_absent(tmp_path, truth, binary, length, words):
+    path = _write_sel(tmp_path, _channels(truth), binary)
     data = tmp_path / "run.dat"
-    data.write_bytes(data.read_bytes()[:-10])
+    content = data.read_bytes()
+    data.unlink()
+    if length:
+        data.write_bytes(content[:length])
     message = _message(path)
-    assert "cut off" in message
-    assert str(data) in message
-
-
-def test_text_data_that_are_cut_off(tmp_path, truth):
-    path = _write_sel(tmp_path, _channels(truth), binary=False)
-    data = tmp_path / "run.dat"
-    data.write_text(data.read_text()[:-30])
-    assert "the list of channels announces" in _message(path)
-
-
-def test_no_data_beside_the_list(tmp_path, truth):
-    path = _write_sel(tmp_path, _channels(truth), binary=True)
-    (tmp_path / "run.dat").unlink()
-    assert "no run.dat beside it" in _message(path)
+    assert words in message and (str(data) in message or not length)
 
 
 def test_a_list_that_is_none(tmp_path):
     path = tmp_path / "run.sel"
     path.write_text("nothing\n")
-    assert "not readable as a list of channels of HAWC2" in _message(path)
+    _message(path, "not readable as a list of channels of HAWC2")
 
 
 def test_an_hdf5_file_of_another_kind(tmp_path):
     path = tmp_path / "other.hdf5"
     with h5py.File(path, "w") as file:
         file["x"] = 1.0
-    assert "General time series" in _message(path)
+    _message(path, "General time series")
+
+
+@pytest.mark.parametrize(("duration", "words"), [("20.000", "announces 20 s"), ("nan", "channels in nan s")])
+def test_a_damaged_duration(tmp_path, truth, duration, words):
+    path = _write_sel(tmp_path, _channels(truth), binary=True)
+    path.write_text(path.read_text().replace("60.000", duration))
+    _message(path, words)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            lambda time: np.append(time[:-1], time[-1] ^ 0x4000),
+            "from 0 s to 29.28 s, the list of channels announces 60 s",
+        ),
+        (lambda time: np.append(time[0], np.append(time[1] ^ 0x0800, time[2:])), "are not equally spaced"),
+        (lambda time: time.byteswap(), "its time"),
+    ],
+)
+def test_flipped_bits_and_swapped_bytes_in_the_time(tmp_path, truth, change, words):
+    path = _write_sel(tmp_path, _channels(truth), binary=True)
+    values = np.fromfile(tmp_path / "run.dat", "<i2").reshape(-1, truth.time.size)
+    values[0] = change(values[0])
+    values.tofile(tmp_path / "run.dat")
+    _message(path, words)
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize(("start", "announced"), [(0.05, "60.050"), (100.0, "60.000"), (100.0, "160.000")])
+def test_ways_to_count_the_duration(tmp_path, truth, binary, start, announced):
+    columns = _channels(truth)
+    unit, text, time = columns["Time"]
+    columns["Time"] = (unit, text, time + start)
+    path = _write_sel(tmp_path, columns, binary)
+    path.write_text(path.read_text().replace("60.000", announced))
+    assert HubLoads.read(path).duration == pytest.approx(60.0, abs=0.02)
+
+
+def _soft(file, folder):
+    file["block0000/gains"] = h5py.SoftLink("/block0000/data")
+
+
+def _external_link(file, folder):
+    file["block0000/gains"] = h5py.ExternalLink(str(folder / "pipe"), "/x")
+
+
+def _second_name(file, folder):
+    file["block0001"] = file["block0000"]
+    file.attrs["no_blocks"] = 2
+
+
+def _external_storage(file, folder):
+    del file["block0000/data"]
+    os.truncate(os.open(folder / "numbers", os.O_CREAT | os.O_WRONLY), 1000)
+    file["block0000"].create_dataset("data", (10, 10), "f8", external=[(str(folder / "numbers"), 0, 800)])
+
+
+def _virtual_layout(file, folder):
+    layout = h5py.VirtualLayout(shape=(10, 10), dtype="f8")
+    layout[:] = h5py.VirtualSource(str(folder / "pipe"), "x", shape=(10, 10))
+    del file["block0000/data"]
+    file["block0000"].create_virtual_dataset("data", layout)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are a thing of Unix")
+@pytest.mark.timeout(30)
+@pytest.mark.parametrize(
+    ("put", "words"),
+    [
+        (_soft, "block0000/gains is a link to another place"),
+        (_external_link, "block0000/gains is a link to another place"),
+        (_second_name, "has a second name"),
+        (_external_storage, "the numbers of block0000/data are in another place"),
+        (_virtual_layout, "the numbers of block0000/data are in another place"),
+    ],
+)
+def test_numbers_that_are_not_in_the_file(tmp_path, truth, put, words):
+    os.mkfifo(tmp_path / "pipe")
+    path = _write_gtsdf(tmp_path, _channels(truth), packed=False)
+    with h5py.File(path, "r+") as file:
+        put(file, tmp_path)
+    _message(path, words)

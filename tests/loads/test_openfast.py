@@ -33,10 +33,10 @@ def _selection(sample_out, keep, rename=None, units_of=None, rows=None):
     )
 
 
-def _message(path):
+def _message(path, *words):
     with pytest.raises(InputError) as caught:
         HubLoads.read(path)
-    assert str(path) in str(caught.value)
+    assert [word for word in (str(path), *words) if word not in str(caught.value)] == []
     return str(caught.value)
 
 
@@ -93,21 +93,15 @@ def test_rotating_forces_that_do_not_point_down_are_refused(tmp_path, sample_out
     i = names.index("Azimuth")
     for row in rows:  # what AzimB1Up = 90 does
         row[i] = f"{(float(row[i]) + 90) % 360:.4f}"
-    message = _message(_write_text(tmp_path / "a.out", head, names, units, rows))
-    assert "do not point down" in message and "AzimB1Up = 0" in message and "LSShftFys" in message
+    path = _write_text(tmp_path / "a.out", head, names, units, rows)
+    _message(path, "do not point down", "AzimB1Up = 0", "LSShftFys")
 
 
 def test_aliases_and_letter_case(tmp_path, sample_out):
     needed = {
-        "Time": "TIME",
-        "RotSpeed": "LSSTipVxa",
-        "LSShftFxa": "rotthrust",
-        "LSShftFys": "LSSGAGFYS",
-        "LSShftFzs": "lsshftfzs",
-        "LSShftMxa": "RotTorq",
-        "LSSTipMys": "lsstipmys",
-        "LSSTipMzs": "LSSTIPMZS",
-    }
+        "Time": "TIME", "RotSpeed": "LSSTipVxa", "LSShftFxa": "rotthrust", "LSShftFys": "LSSGAGFYS",
+        "LSShftFzs": "lsshftfzs", "LSShftMxa": "RotTorq", "LSSTipMys": "lsstipmys", "LSSTipMzs": "LSSTIPMZS",
+    }  # fmt: skip
     path = _write_text(tmp_path / "a.out", *_selection(sample_out, needed.__contains__, needed, rows=50))
     renamed, plain = HubLoads.read(path), HubLoads.read(sample_out).window(60, 62.45)
     for name in ("time", "shaft_speed", "force", "moment"):
@@ -130,13 +124,12 @@ def test_declared_units_are_used(tmp_path, sample_out):
         ("LSSTipMzs", "(kN)", ["channel LSSTipMzs has the unit (kN)", "(N-m), (kN-m)"]),
         ("RotSpeed", "(m/s)", ["channel RotSpeed has the unit (m/s)", "(rpm)"]),
         ("LSShftMxa", "(INVALID)", ["channel LSShftMxa has the unit (INVALID)", "cannot compute"]),
+        ("LSSTipMys", "INVALID", ["channel LSSTipMys has the unit (INVALID)", "check that ElastoDyn is in use"]),
     ],
 )
 def test_unknown_units(tmp_path, sample_out, channel, unit, words):
     path = _write_text(tmp_path / "a.out", *_selection(sample_out, lambda name: True, units_of={channel: unit}, rows=5))
-    message = _message(path)
-    for word in words:
-        assert word in message
+    _message(path, *words)
 
 
 @pytest.mark.parametrize(
@@ -165,11 +158,7 @@ def test_unknown_units(tmp_path, sample_out, channel, unit, words):
 )
 def test_missing_channels_name_the_outlist_line(tmp_path, sample_out, absent, words):
     path = _write_text(tmp_path / "a.out", *_selection(sample_out, lambda name: name not in absent, rows=5))
-    message = _message(path)
-    for word in words:
-        assert word in message
-    if absent != ["Time"]:
-        assert "Add to the OutList of the ElastoDyn input file" in message
+    _message(path, *words, "" if absent == ["Time"] else "Add to the OutList of the ElastoDyn input file")
 
 
 def test_window_on_reading_also_skips_a_bad_stretch(tmp_path, sample_out):
@@ -189,32 +178,14 @@ RECORD = 34 * 2  # bytes of one packed sample
 HEADER = 82890 - 1201 * RECORD
 
 
-@pytest.mark.parametrize(
-    "size",
-    [
-        1,
-        3,
-        9,
-        25,
-        60,
-        200,
-        296,
-        700,
-        HEADER - 1,
-        HEADER,
-        HEADER + 1,
-        HEADER + 600 * RECORD,
-        HEADER + 600 * RECORD + 33,
-        82890 - RECORD,
-        82890 - 2,
-        82890 - 1,
-    ],
-)
+@pytest.mark.parametrize("size", [
+    1, 3, 9, 25, 60, 200, 296, 700, HEADER - 1, HEADER, HEADER + 1, HEADER + 600 * RECORD, HEADER + 600 * RECORD + 33,
+    82890 - RECORD, 82890 - 2, 82890 - 1,
+])  # fmt: skip
 def test_truncated_binary(tmp_path, sample_outb, size):
     path = tmp_path / "cut.outb"
     path.write_bytes(sample_outb.read_bytes()[:size])
-    message = _message(path)
-    assert "cut off" in message and "run OpenFAST again" in message
+    _message(path, "cut off", "run OpenFAST again")
 
 
 def test_binary_with_bytes_to_spare(tmp_path, sample_outb):
@@ -234,19 +205,6 @@ def test_text_with_units_in_latin_1(tmp_path, sample_out):
         np.testing.assert_array_equal(HubLoads.read(path).moment, HubLoads.read(sample_out).moment)
 
 
-def test_invalid_channels_as_openfast_writes_them(tmp_path, sample_out):
-    path = tmp_path / "invalid.out"
-    lines = sample_out.read_text().splitlines()
-    column = lines[6].split("\t").index(next(name for name in lines[6].split("\t") if name.strip() == "LSSTipMys"))
-    units = lines[7].split("\t")
-    units[column] = "INVALID"
-    lines[7] = "\t".join(units)
-    path.write_text("\n".join(lines) + "\n")
-    message = _message(path)
-    assert "channel LSSTipMys has the unit (INVALID)" in message
-    assert "check that ElastoDyn is in use" in message
-
-
 def test_what_was_read_is_said(sample_outb):
     reading = HubLoads.read(sample_outb).reading
     assert "RotSpeed (rpm)" in reading
@@ -257,18 +215,10 @@ def _poke(content, offset, layout, value):
     return content[:offset] + struct.pack(layout, value) + content[offset + struct.calcsize(layout) :]
 
 
-@pytest.mark.parametrize(
-    ("offset", "layout", "value"),
-    [
-        (0, "<h", 7),
-        (2, "<h", 0),
-        (4, "<i", -1),
-        (4, "<i", 35),
-        (8, "<i", 0),
-        (8, "<i", 2_000_000_000),
-        (28 + 34 * 8, "<i", -5),
-    ],
-)
+@pytest.mark.parametrize(("offset", "layout", "value"), [
+    (0, "<h", 7), (2, "<h", 0), (4, "<i", -1), (4, "<i", 35), (8, "<i", 0), (8, "<i", 2_000_000_000),
+    (28 + 34 * 8, "<i", -5),
+])  # fmt: skip
 def test_damaged_binary_header(tmp_path, sample_outb, offset, layout, value):
     path = tmp_path / "bad.outb"
     path.write_bytes(_poke(sample_outb.read_bytes(), offset, layout, value))
@@ -333,9 +283,7 @@ def test_all_four_binary_formats(tmp_path, sample_out, file_format, name_length)
 def test_text_cut_within_its_last_line(tmp_path, sample_out, cut, words):
     path = tmp_path / "cut.out"
     path.write_bytes(sample_out.read_bytes()[:cut])
-    message = _message(path)
-    for word in words:
-        assert word in message
+    _message(path, *words)
 
 
 def test_text_without_the_final_line_end_is_complete(tmp_path, sample_out):

@@ -10,7 +10,7 @@ from scipy.special import ellipe, ellipk
 from macroslip import Bearing, BearingLoads, Lubricant
 from macroslip.errors import InputError
 from macroslip.rating import rate, roller_load_history
-from macroslip.rating.iso281 import reference_viscosity
+from macroslip.rating.iso import reference_viscosity
 
 SPEED = 2.0
 OIL = Lubricant.read("vg460-pao")

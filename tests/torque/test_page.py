@@ -9,9 +9,11 @@ import pytest
 
 from macroslip import Bearing, Lubricant
 from macroslip.torque import skf_torque
-from macroslip.torque.skf import SERIES
+from macroslip.torque.handbooks import SKF_SERIES as SERIES
 
-PAGE = (Path(__file__).parents[2] / "docs" / "friction-torque.md").read_text(encoding="utf-8")
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = (DOCS / "friction-torque.md").read_text(encoding="utf-8")
+NOTES = (DOCS / "notes" / "friction-torque.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
 
 
@@ -50,5 +52,5 @@ def test_numbers_at_the_edge_of_the_range(viscosity):
 
 def test_constants_of_the_table():
     for row, constants in zip(("R1, R2, R3, R4", "S1, S2, S3, S4"), SERIES["240"], strict=True):
-        (values,) = re.findall(rf"^\| {row} \| (.*?) \|", PAGE, re.MULTILINE)
+        (values,) = re.findall(rf"^\| {row} \| (.*?) \|", NOTES, re.MULTILINE)
         assert tuple(map(float, values.split(", "))) == constants

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from macroslip import Bearing, InputError, Lubricant
 from macroslip.torque import palmgren_torque
-from macroslip.torque.palmgren import SERIES
+from macroslip.torque.handbooks import PALMGREN_SERIES as SERIES
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 MEAN_DIAMETER = 0.735

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from macroslip import Bearing, InputError, Lubricant
 from macroslip.torque import OilBath, skf_torque
-from macroslip.torque.skf import SERIES
+from macroslip.torque.handbooks import SKF_SERIES as SERIES
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 loads = st.floats(min_value=1e3, max_value=1e7)

@@ -376,3 +376,14 @@ def test_chord_traction_adds_up_to_the_contact():
         t, w = np.polynomial.legendre.leggauss(60)
         chords = [chord_traction(law, load, 6e-7, math.sqrt(1 - x * x), slip) for x in t]
         assert across * (w @ chords) == pytest.approx(uniform_traction(law, load, 6e-7, slip)[0], rel=1e-3)
+
+
+@choices
+def test_without_slip_there_is_no_traction(name):
+    """Not even the least: a floor of slip would push a roller at rest to and fro."""
+    law = contact(CHOICES[name]).traction
+    for slip in (0.0, -0.0):
+        assert uniform_traction(law, 40.0, 1e-7, slip)[0] == 0.0
+    for slip in (1e-32, -1e-60):
+        force, slope, _, _ = uniform_traction(law, 40.0, 1e-7, slip)
+        assert force == pytest.approx(slope * slip, rel=1e-9, abs=0.0) and slope > 0.0

@@ -113,7 +113,7 @@ class CaseBuilder:
         """Check before the loads are computed that the lubricant has what the mechanisms need."""
         if case.laws == Laws.paper():  # it needs nothing that a lubricant may lack
             return
-        from macroslip.roller.contacts import check_lubricant
+        from macroslip.contact.laws import check_lubricant
 
         check_lubricant(case.laws, case.lubricant)
 

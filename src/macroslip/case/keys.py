@@ -35,15 +35,15 @@ _Duration = Annotated[float, Quantity("time for which the loads act", TIME)]
 
 
 def _film_laws() -> list[str]:
-    from macroslip.film import film_law as law
+    from macroslip.contact.registry import FILM_LAWS
 
-    return law.names()
+    return FILM_LAWS.names()
 
 
 def _traction_laws() -> list[str]:
-    from macroslip.traction import traction_law as law
+    from macroslip.contact.registry import TRACTION_LAWS
 
-    return [MECHANISMS, *law.names()]
+    return [MECHANISMS, *TRACTION_LAWS.names()]
 
 
 @input_section("loads.hub", "constant hub loads")

@@ -96,7 +96,8 @@ def _lubricant_class() -> type[Lubricant]:
 
 
 def _of_bearing(bearing: Bearing) -> list[list[str]]:
-    from macroslip.roller.model import roller_model, truncation_load
+    from macroslip.contact.interface import truncation_load
+    from macroslip.roller.model import roller_model
 
     lubricant = _lubricant_class().read("vg460-pao")  # none of these depends on it
     model = roller_model(bearing, lubricant, 1, tilt=0.0)

@@ -39,9 +39,7 @@ def run(
 
         load_laws(path)
     checked = read_case(case)
-    from macroslip.integrate.ahead import compile_ahead
 
-    compile_ahead(physical=checked.laws.microslip)
     from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
     from macroslip.result.stored import to_netcdf
@@ -141,7 +139,7 @@ def _beside(dataset: xr.Dataset) -> None:
 
 def _tell_failures(dataset: xr.Dataset) -> bool:
     """Print of every roller that failed when and how; returns whether there is one."""
-    from macroslip.integrate.status import Status
+    from macroslip.imposed.status import Status
 
     failed = [roller for roller in dataset.status.stack(one=("row", "roller")) if roller != Status.COMPLETED]
     for roller in failed:

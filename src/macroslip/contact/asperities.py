@@ -149,7 +149,7 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
     >>> from macroslip.contact.interface import interfaces
     >>> inner, outer, cage = interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
     >>> float(round(asperity_share("masjedi-khonsari", inner, 5e4, 0.396, 1e-6), 5))
-    0.00117
+    0.00123
     """
     return _SHARES[name](interface, load, entrainment_speed, film_thickness)
 

@@ -170,7 +170,7 @@ def patch_values(pressure_exponent, root_heating):
     Examples
     --------
     >>> [float(round(value, 12)) for value in patch_values(np.array([0.5, 5.0]), np.array([1e-8, 1.0]))]
-    [0.702557458599, 1.160551948246]
+    [0.7025574586, 1.160551948246]
     """
     p, q0 = np.broadcast_arrays(np.asarray(pressure_exponent, dtype=float), np.asarray(root_heating, dtype=float))
     exp_p, found = np.exp(p), np.empty(p.shape)

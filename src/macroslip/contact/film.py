@@ -249,7 +249,7 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
     >>> from macroslip.contact.interface import interfaces
     >>> inner, outer, cage = interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
     >>> [float(round(1e6 * h, 2)) for h in masjedi_khonsari_moes(inner, np.array([30.0, 2e4]), 0.4)]
-    [5.23, 1.29]
+    [5.2, 1.32]
     """
     groups, radius = _groups(interface), interface.rolling_radius
     log_load, log_speed = np.log(load), np.log(entrainment_speed)

@@ -407,7 +407,7 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
     >>> shape = GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length)
     >>> numbers = prepare_rolling("whole-film", inner, shape, geometry.roller_radius(bearing))
     >>> [float(f"{x:.4g}") for x in light_contact(numbers, 100.0, 0.4)]
-    [0, 0, 0]
+    [4.755, 2.846, 2.502e-05]
     """
     log_load, log_speed = np.broadcast_arrays(np.log(load), np.log(mean_speed))
     log_gap, log_rolling, _ = film_at_load(numbers.gap, _log_group(numbers, log_load, log_speed))

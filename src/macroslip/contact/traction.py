@@ -207,8 +207,6 @@ def heating_number(viscosity, temperature_viscosity, thermal_conductivity, slip)
     slip : array_like
         Slip Δu [m/s], any sign.
 
-    Notes
-    -----
     The mid-film temperature rise is ln(1 + B)/β.
 
     References
@@ -238,6 +236,19 @@ def thermal_reduction(heating):
     hot = np.maximum(heating, 1e-8)
     found = np.arcsinh(np.sqrt(hot)) / np.sqrt(hot * (1.0 + hot))
     return np.where(heating < 1e-8, 1.0 - heating * 2.0 / 3.0, found)[()]
+
+
+def crook_patch_integral(pressure_exponent, root_heating):
+    """Patch integral of Crook's traction over the Hertz ellipse and its derivatives; arrays of `closed_form.patch_integral`.
+
+    Examples
+    --------
+    >>> [float(round(one, 6)) for one in crook_patch_integral(5.0, 1.0)]
+    [1.160552, -1.056405, 0.035331]
+    """
+    from macroslip.contact.closed_form import patch_integral
+
+    return tuple(one[()] for one in np.vectorize(patch_integral)(pressure_exponent, root_heating))
 
 
 def shear_stress(viscosity, temperature_viscosity, thermal_conductivity, film_thickness, slip):
@@ -486,7 +497,7 @@ class ChordTable(NamedTuple):
 
 @lru_cache(maxsize=16)
 def chord_table(fluid: Fluid) -> ChordTable:
-    """The table of a fluid, made in half a second of CPU time and kept, by this process and on disk.
+    """The table of a fluid, made in half a second of CPU time and kept, in memory and on disk.
 
     Notes
     -----

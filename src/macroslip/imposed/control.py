@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.imposed.radau import EIGENVALUE, NODES, WEIGHTS, between_stages, forces_of
+from macroslip.imposed.radau import EIGENVALUE, NODES, WEIGHTS, evaluate, look_between
 from macroslip.imposed.tuning import (
     AT_END,
     CUSP_LOOK,
@@ -28,8 +28,8 @@ from macroslip.imposed.tuning import (
     SHORT_PART,
     SLIP_SHARE,
 )
-from macroslip.imposed.zones import EDGE, FIRM
-from macroslip.ring.orbit import instant, interval_of
+from macroslip.imposed.zones import EDGE, FIRM, FREE
+from macroslip.ring.orbit import instant
 from macroslip.roller.forces import net_force, powers
 
 _ROOT_6 = math.sqrt(6.0)
@@ -103,19 +103,19 @@ def _lean(at):
 
 
 @jit
-def first_cusp(state, free, step):
+def first_cusp(work):
     """Part of a step at which traction first has a cusp because a light contact's load passes through zero; else 1.
 
     At the cage it is predicted with the traction at the start, whose change is small against the roller's weight. A
-    `free` roller has another where it leans over from one raceway to the other. Where the shaft turns back all friction
-    has one.
+    roller without elastic load has another where it leans over from one raceway to the other. Where the shaft turns back
+    all friction has one.
     """
-    at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
-    held = state.forces.cage_load - at.tangential
-    part = crossing(at.tangential + held, at1.tangential + held, at2.tangential + held, at3.tangential + held)
-    part = min(part, crossing(at.ring_speed, at1.ring_speed, at2.ring_speed, at3.ring_speed))
-    if free:
-        part = min(part, crossing(_lean(at), _lean(at1), _lean(at2), _lean(at3)))
+    at, one, two, three = work.at, work.stage_at[0], work.stage_at[1], work.stage_at[2]
+    held = work.forces.cage_load - at.tangential
+    part = crossing(at.tangential + held, one.tangential + held, two.tangential + held, three.tangential + held)
+    part = min(part, crossing(at.ring_speed, one.ring_speed, two.ring_speed, three.ring_speed))
+    if work.zone == FREE:
+        part = min(part, crossing(_lean(at), _lean(one), _lean(two), _lean(three)))
     return part
 
 
@@ -129,101 +129,85 @@ def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
 
 
 @jit
-def _defect_error(path, state, step, stages, looks):
-    """Error of slip [m/s] by the equation's defect between the stages, at `looks` places.
+def slip_error(path, work):
+    """Estimated error of slip of a step [m/s].
 
-    The embedded estimate is one number and may vanish by accident, especially where grip does so between two stages.
+    The embedded estimate is one number and may vanish by accident, especially where grip ceases between two stages; so the
+    equation's defect is looked at between them.
     """
-    worst = 0.0
-    turn = step.length * path.body.mobility
-    for check in range(looks):
-        part = DEFECT_NODES[check]
-        here = interval_of(path.motion, state.time + part * step.length, state.interval)
-        there, between, rate = between_stages(path, state, step, stages, here, part)
-        push = forces_of(path, there, between)
-        defect = rate + turn * net_force(push)
-        worst = max(worst, DEFECT_WEIGHT * abs(defect) / (1.0 + turn * abs(push.slope)))
-    return worst
-
-
-@jit_inline
-def slip_error(path, state, step, stages, zone):
-    """Estimated error of slip of a step [m/s], and the force evaluations that took."""
-    microslip = path.body.microslip
-    slip_off, looks = 0.0, 0
-    if not (zone == FIRM and microslip):
+    microslip, firm, forces = path.body.microslip, work.zone == FIRM, work.stage_forces
+    error, last = 0.0, forces[2].slope
+    if not (firm and microslip):
         # A held roller's slip is the balance of the instant, solved for at the end of the step.
-        least = max(min(state.forces.slope, stages.f1.slope, stages.f2.slope, stages.f3.slope), 0.0)
-        slip_off = abs(embedded_slip_error(step.scale, least, net_force(state.forces), stages.s1, stages.s2, stages.s3))
-    if zone != FIRM:
-        # Grip may cease between two stages; with microslip it does so gradually.
-        looks = 2 if zone == EDGE and not microslip else 1
-        slip_off = max(slip_off, _defect_error(path, state, step, stages, looks))
-    if microslip:
-        # Slip that the next step forgets need not be known so well.
-        slip_off /= 1.0 + FORGOTTEN * step.length * path.body.mobility * max(stages.f3.slope, 0.0)
-    return slip_off, looks
+        least = max(min(work.forces.slope, forces[0].slope, forces[1].slope, last), 0.0)
+        error = abs(embedded_slip_error(work.scale, least, net_force(work.forces), work.s[0], work.s[1], work.s[2]))
+    turn = work.length * path.body.mobility
+    # With microslip grip ceases gradually.
+    for check in range(0 if firm else (2 if work.zone == EDGE and not microslip else 1)):
+        look_between(path, work, DEFECT_NODES[check])
+        evaluate(path, work.there, work.there_slip, work.push)
+        work.count[2] += 1
+        defect = work.there_rate + turn * net_force(work.push)
+        error = max(error, DEFECT_WEIGHT * abs(defect) / (1.0 + turn * abs(work.push.slope)))
+    # Slip that the next step forgets need not be known so well.
+    return error / (1.0 + FORGOTTEN * turn * max(last, 0.0)) if microslip else error
 
 
-@jit_inline
-def missed_way(path, state, step):
+@jit
+def missed_way(path, work):
     """Error of the method's quadrature for the way of the rings past the roller in a step [m]; it is known exactly.
 
     Speed is linear between the samples of the loads, and friction follows it: kinks of both lie at the same instants.
     """
-    before = instant(path.motion, state.interval, state.time)
-    after = instant(path.motion, step.interval, step.times[2])
+    before = instant(path.motion, work.interval, work.time)
+    after = instant(path.motion, work.end_interval, work.times[2])
     way = -path.body.orbit_ratio * path.body.outer_radius * (after.shaft_angle - before.shaft_angle)
-    found = WEIGHTS[0] * step.at1.ring_speed + WEIGHTS[1] * step.at2.ring_speed + WEIGHTS[2] * step.at3.ring_speed
-    return step.length * found - way
+    found = 0.0
+    for k in range(3):
+        found += WEIGHTS[k] * work.stage_at[k].ring_speed
+    return work.length * found - way
 
 
 @jit_inline
-def _kink_error(path, state, step, totals):
-    """Error of the energy [J] by kinks of the speed inside a step that spans samples; `totals` are powers at four nodes."""
-    if step.interval == state.interval:
+def _kink_error(path, work):
+    """Error of the energy [J] by kinks of the speed inside a step that spans samples."""
+    if work.end_interval == work.interval:
         return 0.0
-    fastest = max(
-        abs(state.at.ring_speed), abs(step.at1.ring_speed), abs(step.at2.ring_speed), abs(step.at3.ring_speed)
-    )
-    missed = abs(missed_way(path, state, step))
+    fastest = abs(work.at.ring_speed)
+    for k in range(3):
+        fastest = max(fastest, abs(work.stage_at[k].ring_speed))
+    missed = abs(missed_way(path, work))
     if fastest == 0.0:
         # At rest where it is looked at; the shaft may have turned in between.
         return math.inf if missed > 0.0 else 0.0
-    return KINK_WEIGHT * missed / fastest * max(totals)
+    totals = work.totals
+    return KINK_WEIGHT * missed / fastest * max(totals[0], totals[1], totals[2], totals[3])
 
 
 @jit
-def _cusp_error(path, state, step, stages, totals, zone):
-    """Error of the energy [J] where the cage's load is all but gone at one end of a step, by a look between the stages.
-
-    Returns
-    -------
-    float, int
-        With the force evaluations it took.
-    """
-    first, last = abs(state.forces.cage_load), abs(stages.f3.cage_load)
-    if zone == EDGE or min(first, last) >= FALLEN * max(first, last):
-        return 0.0, 0
-    if zone == FIRM and path.body.microslip:
-        return 0.0, 0  # the raceways' power, beside which the cage's is little, has no cusp there
-    here = interval_of(path.motion, state.time + CUSP_LOOK * step.length, state.interval)
-    there, slip, _ = between_stages(path, state, step, stages, here, CUSP_LOOK)
-    if zone == FIRM:
-        # Between stages the polynomial of slip is far from balance, which for the cage is that of pure rolling.
-        slip = 0.0
-    inner, outer, cage = powers(path.body, there, forces_of(path, there, slip), slip)
-    missed = inner + outer + cage - cubic(CUSP_LOOK, totals[0], totals[1], totals[2], totals[3])
-    return CUSP_WEIGHT * step.length * abs(missed), 1
+def _cusp_error(path, work):
+    """Error of the energy [J] where the cage's load is all but gone at one end of a step, by a look between the stages."""
+    first, last = abs(work.forces.cage_load), abs(work.stage_forces[2].cage_load)
+    if work.zone == EDGE or min(first, last) >= FALLEN * max(first, last):
+        return 0.0
+    if work.zone == FIRM and path.body.microslip:
+        return 0.0  # the raceways' power, beside which the cage's is little, has no cusp there
+    look_between(path, work, CUSP_LOOK)
+    # Between stages the polynomial of slip is far from balance, which for the cage is that of pure rolling.
+    slip = 0.0 if work.zone == FIRM else work.there_slip
+    evaluate(path, work.there, slip, work.push)
+    work.count[2] += 1
+    power, totals = powers(path.body, work.there, work.push, slip, work.push_powers), work.totals
+    return CUSP_WEIGHT * work.length * abs(power - cubic(CUSP_LOOK, totals[0], totals[1], totals[2], totals[3]))
 
 
-@jit_inline
-def energy_error(path, state, step, stages, totals, zone):
-    """Estimated error of the energy of a step [J], from the roller's powers at four nodes [W], and evaluations it took."""
-    one, two, three, four = totals
-    embedded = abs(step.length * (EMBEDDED[0] * one + EMBEDDED[1] * two + EMBEDDED[2] * three + EMBEDDED[3] * four))
-    cusp, looks = _cusp_error(path, state, step, stages, totals, zone)
-    return max(embedded, _kink_error(path, state, step, totals), cusp), looks
+@jit
+def energy_error(path, work):
+    """Estimated error of the energy of a step [J]."""
+    embedded = 0.0
+    for k in range(4):
+        embedded += EMBEDDED[k] * work.totals[k]
+    return max(abs(work.length * embedded), _kink_error(path, work), _cusp_error(path, work))
 
 
 @jit

@@ -11,12 +11,12 @@ import math
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_inline
-from macroslip.imposed.radau import forces_of, station_of
+from macroslip.compiled import jit
+from macroslip.imposed.radau import evaluate, locate, start_at
 from macroslip.imposed.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE, UNDER_WAY
 from macroslip.imposed.tuning import SECANT_ITERATIONS
 from macroslip.ring.orbit import interval_of
-from macroslip.roller.forces import net_force, powers
+from macroslip.roller.forces import net_force
 from macroslip.roller.step import write_stage
 
 #: Rule and bounds.
@@ -30,25 +30,24 @@ from macroslip.roller.step import write_stage
 RULE = np.dtype([("step", "f8"), ("implicit", "i8"), ("tolerance", "f8"), ("largest_slip", "f8"), ("end", "f8")])
 
 
-@jit_inline
-def _defect(path, at, before, spin, step):
-    """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s]."""
-    body = path.body
-    forces = forces_of(path, at, at.ring_speed - body.radius * spin)
-    return spin - before - step * body.mobility / body.radius * net_force(forces)
+@jit
+def _defect(path, work, spin, step):
+    """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s] at the end of a step [s], for a spin there [rad/s]."""
+    body, at = path.body, work.stage_at[0]
+    evaluate(path, at, at.ring_speed - body.radius * spin, work.push)
+    work.count[2] += 1
+    return spin - work.spin - step * body.mobility / body.radius * net_force(work.push)
 
 
 @jit
-def backward_euler_step(path, at, spin, step, tolerance):
+def backward_euler_step(path, work, step, tolerance):
     """Spin after one implicit step of I_z' dω/dt = r (F_i + F_o + F_c) (16).
 
     Parameters
     ----------
     path : Path
-    at : Station
-        At the end of the step.
-    spin : float
-        ω at the start, relative to the orbiting frame [rad/s].
+    work : record of `WORK`
+        With the spin at the start in `spin` and the station at the end in its first stage.
     step : float
         [s].
     tolerance : float
@@ -57,9 +56,7 @@ def backward_euler_step(path, at, spin, step, tolerance):
     Returns
     -------
     spin : float
-        ω after the step [rad/s]; NaN if the iteration did not stop.
-    evaluations : int
-        Force evaluations used.
+        ω after the step, relative to the orbiting frame [rad/s]; NaN if the iteration did not stop.
     defect : float
         Force the stopped iteration leaves unbalanced [N].
 
@@ -69,11 +66,10 @@ def backward_euler_step(path, at, spin, step, tolerance):
     held inside a bracket once there is one.
     """
     to_force = path.body.radius / (step * path.body.mobility)
-    older = spin
-    older_defect = _defect(path, at, spin, older, step)
+    older = work.spin
+    older_defect = _defect(path, work, older, step)
     newer = older + 1.5e-8 * max(abs(older), 1e-3)
-    newer_defect = _defect(path, at, spin, newer, step)
-    evaluations = 2
+    newer_defect = _defect(path, work, newer, step)
     low, high = -math.inf, math.inf
     for _ in range(SECANT_ITERATIONS):
         for candidate, defect in ((older, older_defect), (newer, newer_defect)):
@@ -89,22 +85,21 @@ def backward_euler_step(path, at, spin, step, tolerance):
             break
         change = abs(trial - newer)
         older, older_defect = newer, newer_defect
-        newer, newer_defect = trial, _defect(path, at, spin, trial, step)
-        evaluations += 1
+        newer, newer_defect = trial, _defect(path, work, trial, step)
         if change <= tolerance * abs(newer) or newer_defect == 0.0 or newer == older:
-            return newer, evaluations, abs(newer_defect) * to_force
-    return math.nan, evaluations, math.inf
+            return newer, abs(newer_defect) * to_force
+    return math.nan, math.inf
 
 
 @jit
-def integrate_fixed_step(path, memory, steps):
+def integrate_fixed_step(path, work, steps):
     """Integrate the spin of one roller with explicit or backward Euler, until its history ends or the buffer is full.
 
     Parameters
     ----------
     path : Path
         With a `RULE` for limits.
-    memory : record of `macroslip.imposed.solve.MEMORY`
+    work : record of `WORK`
         Zeros but for the slip at the first sample; then as the last call left it.
     steps : ndarray of `STEP`, shape (m,)
         Filled from the start, with one stage a step: the state at which its forces are evaluated, its start or its end.
@@ -118,44 +113,42 @@ def integrate_fixed_step(path, memory, steps):
     """
     body, motion, rule = path.body, path.motion, path.limits
     start = motion.time[0]
-    if memory.begun == 0:
-        memory.time, memory.begun = start, 1
-        memory.spin = (station_of(path, start, 0).ring_speed - memory.slip) / body.radius
-    at, spin = station_of(path, memory.time, memory.interval), memory.spin
-    slip = at.ring_speed - body.radius * spin
-    forces = forces_of(path, at, slip)
-    time, interval, row, status = memory.time, memory.interval, 0, UNDER_WAY
-    while row < steps.size:
-        if time >= rule.end:
-            status = COMPLETED
-            break
-        after = min(start + (memory.count[0] + 1) * rule.step, rule.end)
-        span = after - time
-        interval = interval_of(motion, after, interval)
-        reached, before = station_of(path, after, interval), powers(body, at, forces, slip)
+    if work.begun == 0:
+        work.begun, work.time, work.interval = 1, start, 0
+        start_at(path, work)
+        work.spin = (work.at.ring_speed - work.slip) / body.radius
+    for count in range(steps.size):
+        if work.time >= rule.end:
+            # A row without weight for the end, which explicit Euler evaluates for no step.
+            row = steps[count]
+            row.start, row.end, row.stages, row.stretch, row.sampled = work.time, work.time, 1, count, 1
+            row.time[0], row.weight[0] = work.time, 0.0
+            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
+            return COMPLETED, count + 1
+        after = min(start + (work.count[0] + 1) * rule.step, rule.end)
+        span, interval, row = after - work.time, interval_of(motion, after, work.interval), steps[count]
+        locate(path, after, interval, work.stage_at[0])
+        row.start, row.end, row.stages, row.stretch, row.sampled, row.weight[0] = work.time, after, 1, count, 0, span
+        for i in range(3):
+            row.power_before[i] = work.powers[i]
         if rule.implicit:
-            spin, used, unbalanced = backward_euler_step(path, reached, spin, span, rule.tolerance)
-            memory.count[2] += used
-            memory.unbalanced = max(memory.unbalanced, unbalanced)
+            work.spin, unbalanced = backward_euler_step(path, work, span, rule.tolerance)
+            work.unbalanced = max(work.unbalanced, unbalanced)
         else:
-            spin += span * body.mobility / body.radius * net_force(forces)
-        slip_before, slip = slip, reached.ring_speed - body.radius * spin
+            row.time[0] = work.time
+            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
+            work.spin += span * body.mobility / body.radius * net_force(work.forces)
+        slip = work.stage_at[0].ring_speed - body.radius * work.spin
         if not math.isfinite(slip):
-            status = NO_ROOT if rule.implicit else NOT_FINITE
-            break
+            return NO_ROOT if rule.implicit else NOT_FINITE, count
+        work.slip = slip
         if abs(slip) > rule.largest_slip:
-            time, status = after, IMPOSSIBLE_SLIP
-            break
-        forces_before, forces = forces, forces_of(path, reached, slip)
-        memory.count[0] += 1
-        memory.count[2] += 1
-        one = steps[row]
+            work.time = after
+            return IMPOSSIBLE_SLIP, count
+        work.time, work.interval = after, interval
+        start_at(path, work)
+        work.count[0] += 1
         if rule.implicit:
-            write_stage(one, 0, after, span, body, reached, forces, slip, powers(body, reached, forces, slip))
-        else:
-            write_stage(one, 0, time, span, body, at, forces_before, slip_before, before)
-        one.start, one.end, one.stages, one.stretch, one.sampled = time, after, 1, memory.count[0], 0
-        one.power_before[0], one.power_before[1], one.power_before[2] = before
-        row, time, at = row + 1, after, reached
-    memory.time, memory.interval, memory.slip, memory.spin = time, interval, slip, spin
-    return status, row
+            row.time[0] = after
+            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
+    return UNDER_WAY, steps.size

@@ -38,7 +38,6 @@ from macroslip.imposed.tuning import (
     ITERATIONS,
     LAST_REST,
     LEAST_CHANGE,
-    LIMIT_EXPONENT,
     MICROSLIP_FORCE_SHARE,
     MICROSLIP_FORCE_TOLERANCE,
     MOST_AHEAD,
@@ -48,9 +47,9 @@ from macroslip.imposed.tuning import (
     SMALL_CHANGE,
     STEEPEST,
 )
-from macroslip.imposed.zones import EDGE, FIRM
+from macroslip.imposed.zones import EDGE, FIRM, FREE
 from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import SlipForces, magnitude, net_force, powers, slip_forces, station
+from macroslip.roller.forces import FORCES, STATION, magnitude, net_force, powers, slip_forces, station
 
 _ROOT_6 = math.sqrt(6.0)
 #: Stage times c and matrix A of Radau IIA, order 5 (table IV.5.6).
@@ -82,7 +81,7 @@ class Path(NamedTuple):
     motion : Motion
     start_angle : float
         Position φ at the first sample [rad].
-    limits : record of `macroslip.imposed.solve.LIMITS`
+    limits : record of `LIMITS`, or of `macroslip.imposed.euler.RULE`
     """
 
     body: Any
@@ -92,167 +91,105 @@ class Path(NamedTuple):
     limits: Any
 
 
-class State(NamedTuple):
-    """A roller at one time [s]: sample interval that holds it, slip [m/s], station, forces, and powers of its contacts [W]."""
+#: Tolerance and bounds, the same for all rollers of a case.
+#:
+#: tolerance : relative, of slip against the raceway speed and of energy per step [-]
+#: max_steps : steps after which the integration gives up
+#: speed_scale : largest raceway speed |u2| of the history [m/s]
+#: energy_scale : twice the kinetic energy of a roller's spin at that speed, I_z' u2²/r² [J]
+#: longest_step : [s]
+#: cold_slip : slip below which traction rises with slip at every load of the history [m/s]
+#: firm : interference from which on the roller is firmly held [m]
+#: window : start of the window [s]
+LIMITS = np.dtype(
+    [
+        ("tolerance", "f8"), ("max_steps", "i8"), ("speed_scale", "f8"), ("energy_scale", "f8"), ("longest_step", "f8"),
+        ("cold_slip", "f8"), ("firm", "f8"), ("window", "f8"),
+    ]
+)  # fmt: skip
 
-    time: float
-    interval: int
-    slip: float
-    at: Any
-    forces: Any
-    powers: tuple
-
-
-class Step(NamedTuple):
-    """A step from a state on: its length [s], 1/(h r²/I_z') [N s/m], and times [s] and stations of its three stages.
-
-    `interval` is the sample interval it ends in, `weights` are those of its stages in the energy, and `held` whether its
-    stages are the start, the middle and the end.
-    """
-
-    length: float
-    scale: float
-    interval: int
-    times: tuple
-    at1: Any
-    at2: Any
-    at3: Any
-    weights: tuple
-    held: bool
-
-
-class Stages(NamedTuple):
-    """Solution of the stage equations.
-
-    Attributes
-    ----------
-    converged : bool
-    v1, v2, v3 : float
-        Slip at the stages [m/s].
-    s1, s2, s3 : float
-        Its increments by forces, v_i − v0 − (u2_i − u2_0) [m/s].
-    f1, f2, f3 : SlipForces
-    unbalanced : float
-        Largest force left at a stage [N].
-    evaluations : int
-        Force evaluations it took.
-    bend : float
-        Residual left by Newton's correction over the square of the correction [N s²/m²]; infinite while it is not known.
-    """
-
-    converged: bool
-    v1: float
-    v2: float
-    v3: float
-    s1: float
-    s2: float
-    s3: float
-    f1: Any
-    f2: Any
-    f3: Any
-    unbalanced: float
-    evaluations: int
-    bend: float
-
-
-class Memory(NamedTuple):
-    """Results of a step that the next one needs for its first guess.
-
-    Attributes
-    ----------
-    exponent : float
-        Power of the load that the slip of a held roller follows.
-    bend : float
-        As in `Stages`.
-    length : float
-        Of the last step of three stages [s]; 0 where another has come since.
-    s1, s2, s3 : float
-        The increments of slip by forces at its stages [m/s].
-    """
-
-    exponent: float
-    bend: float
-    length: float
-    s1: float
-    s2: float
-    s3: float
+#: All that an integration has in hand, one record that its functions read and write; it goes on from there in the next call.
+#:
+#: The roller now: time [s], sample interval that holds it, slip [m/s], station, forces and powers of its interfaces [W].
+#: The step that is tried: length [s], scale 1/(h r²/I_z') [N s/m], sample interval in which it ends, whether it is held, that is of
+#: two stages at its middle and end beside its start; times [s], weights and stations of its stages.
+#: Its solution: whether it converged, slip v at the stages [m/s] and its increments by forces s = v − v0 − (u2 − u2_0) [m/s],
+#: forces, the largest force left at a stage [N], powers [W], their sums at the start and the stages [W], and the energy [J].
+#: A look at another place: station, forces, powers [W], slip [m/s] and the rate of its increment [m/s].
+#: Known from steps before: the power of the load that the slip of a held roller follows; residual left by Newton's correction over
+#: the square of the correction (`bend`, [N s²/m²], infinite while it is not known); length of the last step of three stages
+#: [s], 0 where another has come since, and its increments.
+#: The stretch: step to try next [s], time at which a step must end [s], class of the sample interval (−1 before the first), last of
+#: the sample intervals of this class that follow one another, index of the first stop ahead, length of the sample interval [s],
+#: whether the last attempt was rejected, and a number that changes where loads have a kink.
+#: So far: whether it has begun; steps, rejections and force evaluations; largest force left unbalanced [N]; energy spent [J], in the
+#: window from there on; largest raceway power since the roller had no load [W]; spin of the Euler methods [rad/s].
+WORK = np.dtype(
+    [
+        ("time", "f8"), ("interval", "i8"), ("slip", "f8"), ("at", STATION), ("forces", FORCES), ("powers", "f8", (3,)),
+        ("length", "f8"), ("scale", "f8"), ("end_interval", "i8"), ("held", "i8"), ("times", "f8", (3,)),
+        ("weights", "f8", (3,)), ("stage_at", STATION, (3,)),
+        ("converged", "i8"), ("v", "f8", (3,)), ("s", "f8", (3,)), ("stage_forces", FORCES, (3,)), ("left", "f8"),
+        ("stage_powers", "f8", (3, 3)), ("totals", "f8", (4,)), ("energy", "f8"),
+        ("there", STATION), ("push", FORCES), ("push_powers", "f8", (3,)), ("there_slip", "f8"), ("there_rate", "f8"),
+        ("exponent", "f8"), ("bend", "f8"), ("last_length", "f8"), ("last_s", "f8", (3,)),
+        ("step", "f8"), ("barrier", "f8"), ("zone", "i8"), ("run_end", "i8"), ("next_stop", "i8"), ("sample_step", "f8"),
+        ("failed", "i8"), ("stretch", "i8"),
+        ("begun", "i8"), ("count", "i8", (3,)), ("unbalanced", "f8"), ("spent", "f8"), ("top_power", "f8"), ("spin", "f8"),
+    ]
+)  # fmt: skip
 
 
 @jit
-def evaluate(path, time, interval, slip):
-    """Station and forces of the roller at a time [s] in a sample interval, slipping at `slip` [m/s]."""
-    at = station(path.body, path.tables, path.start_angle, instant(path.motion, interval, time))
-    return at, slip_forces(path.body, path.tables, at, slip)
-
-
-@jit_inline
-def forces_of(path, at, slip):
-    """Forces at a station and a slip [m/s]."""
-    return slip_forces(path.body, path.tables, at, slip)
+def locate(path, time, interval, found):
+    """Write the station at a time [s] in a sample interval."""
+    station(path.body, path.tables, path.start_angle, instant(path.motion, interval, time), found)
 
 
 @jit
-def station_of(path, time, interval):
-    """Station at a time [s] in a sample interval."""
-    return station(path.body, path.tables, path.start_angle, instant(path.motion, interval, time))
+def evaluate(path, at, slip, found):
+    """Write the forces at a station and a slip [m/s]."""
+    slip_forces(path.body, path.tables, at, slip, found)
+
+
+@jit
+def start_at(path, work):
+    """Find station, forces and powers of the roller now."""
+    locate(path, work.time, work.interval, work.at)
+    evaluate(path, work.at, work.slip, work.forces)
+    powers(path.body, work.at, work.forces, work.slip, work.powers)
+    work.count[2] += 1
+
+
+@jit
+def set_step(path, work, length, held):
+    """Set up a step of `length` [s] from now on, of three stages or held."""
+    work.length, work.scale, work.held = length, 1.0 / (length * path.body.mobility), 1 if held else 0
+    interval = work.interval
+    for k in range(3):
+        work.weights[k] = SIMPSON[k] if held else WEIGHTS[k]
+        if held and k == 0:
+            work.times[0], work.stage_at[0] = work.time, work.at
+            continue
+        part = 0.5 * k if held else NODES[k]
+        # The last stage is the end, without rounding.
+        work.times[k] = work.time + (length if k == 2 else part * length)
+        interval = interval_of(path.motion, work.times[k], interval)
+        locate(path, work.times[k], interval, work.stage_at[k])
+    work.end_interval = interval
 
 
 @jit_inline
-def state_at(path, time, interval, slip):
-    """The roller at a time [s] in a sample interval, slipping at `slip` [m/s]; one force evaluation."""
-    at, forces = evaluate(path, time, interval, slip)
-    return State(time, interval, slip, at, forces, powers(path.body, at, forces, slip))
-
-
-@jit_inline
-def step_from(path, state, length):
-    """A step of `length` [s] from a state on."""
-    t1, t2, t3 = state.time + NODES[0] * length, state.time + NODES[1] * length, state.time + length
-    k1 = interval_of(path.motion, t1, state.interval)
-    k2 = interval_of(path.motion, t2, k1)
-    k3 = interval_of(path.motion, t3, k2)
-    return Step(
-        length,
-        1.0 / (length * path.body.mobility),
-        k3,
-        (t1, t2, t3),
-        station_of(path, t1, k1),
-        station_of(path, t2, k2),
-        station_of(path, t3, k3),
-        WEIGHTS,
-        False,
-    )
-
-
-@jit_inline
-def shifted(forces, change):
-    """The forces after a small change of slip [m/s], to first order.
+def shift(forces, change):
+    """Change the forces by a small change of slip [m/s], to first order.
 
     What the cage and rolling resistance change by is all given to the cage; the rest is left as it is.
     """
-    inner = forces.inner_slope * change
-    outer = forces.outer_slope * change
-    return SlipForces(
-        forces.inner + inner,
-        forces.outer + outer,
-        forces.cage + forces.slope * change - inner - outer,
-        forces.slope,
-        forces.inner_slope,
-        forces.outer_slope,
-        forces.cage_load + forces.cage_load_slope * change,
-        forces.cage_load_slope,
-        forces.resistance,
-        forces.inner_rolling,
-        forces.outer_rolling,
-        forces.cage_rolling,
-        forces.inner_lag,
-        forces.outer_lag,
-        forces.inner_skew,
-        forces.outer_skew,
-        forces.inner_rough,
-        forces.outer_rough,
-        forces.cage_rough,
-    )
+    inner, outer = forces.inner_slope * change, forces.outer_slope * change
+    forces.inner += inner
+    forces.outer += outer
+    forces.cage += forces.slope * change - inner - outer
+    forces.cage_load += forces.cage_load_slope * change
 
 
 @jit
@@ -304,12 +241,13 @@ def collocation(part, z1, z2, z3):
     return increment, rate
 
 
-@jit_inline
-def between_stages(path, state, step, stages, interval, part):
-    """Station, slip [m/s] and rate of its increment [m/s] at a part of a step, which lies in `interval` there."""
-    increment, rate = collocation(part, stages.s1, stages.s2, stages.s3)
-    there = station_of(path, state.time + part * step.length, interval)
-    return there, state.slip + there.ring_speed - state.at.ring_speed + increment, rate
+@jit
+def look_between(path, work, part):
+    """Find station, slip and the rate of its increment at a part of the step that was solved."""
+    time = work.time + part * work.length
+    locate(path, time, interval_of(path.motion, time, work.interval), work.there)
+    increment, work.there_rate = collocation(part, work.s[0], work.s[1], work.s[2])
+    work.there_slip = work.slip + work.there.ring_speed - work.at.ring_speed + increment
 
 
 @jit_inline
@@ -327,99 +265,72 @@ def _new_bend(bend, size, change):
 
 
 @jit
-def solve_stages(path, state, step, guess, smooth, bend):
-    """Solve the stage equations from a first guess.
+def _evaluate_stages(path, work, first):
+    """Find the forces at the stages from number `first` on, and the increments of slip by forces."""
+    for k in range(first, 3):
+        evaluate(path, work.stage_at[k], work.v[k], work.stage_forces[k])
+        work.s[k] = work.v[k] - work.slip - (work.stage_at[k].ring_speed - work.at.ring_speed)
+        work.count[2] += 1
 
-    Parameters
-    ----------
-    path : Path
-    state : State
-        Before the step.
-    step : Step
-    guess : tuple of float
-        First guess of slip at the stages [m/s].
-    smooth : bool
-        Whether forces bend from step to step in the same way, as those of a contact with microslip.
-    bend : float
-        As the last step left it [N s²/m²].
 
-    Returns
-    -------
-    Stages
-    """
-    scale, slip, at = step.scale, state.slip, state.at
-    at1, at2, at3 = step.at1, step.at2, step.at3
-    v1, v2, v3 = guess
-    d1, d2, d3 = at1.ring_speed - at.ring_speed, at2.ring_speed - at.ring_speed, at3.ring_speed - at.ring_speed
-    force_part = force_tolerance(path.limits.tolerance, path.body.microslip)
-    round_off = 4e-15 * scale * (path.limits.speed_scale + abs(slip))
-    converged, unbalanced, evaluations, change, foreseen = False, math.inf, 0, 0.0, math.inf
-    f1, f2, f3 = state.forces, state.forces, state.forces
-    s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
+@jit
+def _correct(work, change, first, shifted):
+    """Correct the slips from stage `first` on by `change` [m/s], and if they are `shifted`, the forces too."""
+    for k in range(first, 3):
+        work.v[k] += change[k]
+        if shifted:
+            shift(work.stage_forces[k], change[k])
+            work.s[k] = work.v[k] - work.slip - (work.stage_at[k].ring_speed - work.at.ring_speed)
+
+
+@jit
+def solve_stages(path, work):
+    """Solve the stage equations of a step of three stages from the first guess in `work.v`."""
+    scale, limits = work.scale, path.limits
+    force_part = force_tolerance(limits.tolerance, path.body.microslip)
+    round_off = 4e-15 * scale * (limits.speed_scale + abs(work.slip))
+    # Without microslip a roller that grips slips too little for its forces to bend in the same way twice.
+    smooth = path.body.microslip or work.zone == FREE
+    work.converged, work.left, change, foreseen = 0, math.inf, 0.0, math.inf
+    one, two, three = work.stage_forces[0], work.stage_forces[1], work.stage_forces[2]
     for iteration in range(ITERATIONS):
-        f1, f2, f3 = forces_of(path, at1, v1), forces_of(path, at2, v2), forces_of(path, at3, v3)
-        evaluations += 3
-        s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
-        rest = residuals(scale, s1, s2, s3, net_force(f1), net_force(f2), net_force(f3))
-        size = max(abs(rest[0]), abs(rest[1]), abs(rest[2]))
-        if (
-            abs(rest[0]) <= force_part * magnitude(f1) + round_off
-            and abs(rest[1]) <= force_part * magnitude(f2) + round_off
-            and abs(rest[2]) <= force_part * magnitude(f3) + round_off
-        ):
-            converged, unbalanced = True, size
-            break
-        if not math.isfinite(size) or (iteration > 2 and size > 0.9 * unbalanced):
-            break
+        _evaluate_stages(path, work, 0)
+        rest = residuals(scale, work.s[0], work.s[1], work.s[2], net_force(one), net_force(two), net_force(three))
+        size, solved = max(abs(rest[0]), abs(rest[1]), abs(rest[2])), True
+        for k in range(3):
+            solved = solved and abs(rest[k]) <= force_part * magnitude(work.stage_forces[k]) + round_off
+        if solved:
+            work.converged, work.left = 1, size
+            return
+        if not math.isfinite(size) or (iteration > 2 and size > 0.9 * work.left):
+            return
         # Newton's residuals shrink quadratically: the next one is predicted from the last two, or with a known bend from
         # the first correction, and where it is small enough the forces follow to first order, without an evaluation.
         if iteration > 0:
-            foreseen = size * size / unbalanced
+            foreseen = size * size / work.left
             if iteration == 1:
-                bend = _new_bend(bend, size, change)
-        u1, u2, u3 = newton_update(scale, f1.slope, f2.slope, f3.slope, rest)
-        change = max(abs(u1), abs(u2), abs(u3))
+                work.bend = _new_bend(work.bend, size, change)
+        update = newton_update(scale, one.slope, two.slope, three.slope, rest)
+        change = max(abs(update[0]), abs(update[1]), abs(update[2]))
         if iteration == 0:
-            foreseen = BEND_SAFETY * bend * change * change if smooth else math.inf
-        unbalanced = size
-        v1, v2, v3 = v1 + u1, v2 + u2, v3 + u3
-        least = min(magnitude(f1), magnitude(f2), magnitude(f3))
+            foreseen = BEND_SAFETY * work.bend * change * change if smooth else math.inf
+        work.left = size
+        least = min(magnitude(one), magnitude(two), magnitude(three))
         is_close = iteration == 0 or size <= LAST_REST * least + round_off
-        if is_close and foreseen <= force_part * least + round_off:
-            f1, f2, f3 = shifted(f1, u1), shifted(f2, u2), shifted(f3, u3)
-            s1, s2, s3 = v1 - slip - d1, v2 - slip - d2, v3 - slip - d3
-            converged, unbalanced = True, foreseen
-            break
-    return Stages(converged, v1, v2, v3, s1, s2, s3, f1, f2, f3, unbalanced, evaluations, bend)
+        last = is_close and foreseen <= force_part * least + round_off
+        _correct(work, update, 0, last)
+        if last:
+            work.converged, work.left = 1, foreseen
+            return
 
 
 @jit_inline
-def follows_loads(path, state, zone, length):
+def follows_loads(path, work, length):
     """Whether a roller is at its balance and forgets its slip within a small part of a step of `length` [s]."""
-    if zone != FIRM or not path.body.microslip:
+    if work.zone != FIRM or not path.body.microslip:
         return False
-    forces = state.forces
-    held = path.body.mobility * forces.slope * length > QUASI_STATIC
-    return held and abs(net_force(forces)) <= SETTLED_FORCE * magnitude(forces)
-
-
-@jit_inline
-def held_step_from(path, state, length):
-    """A step of `length` [s] from a state on, whose stages are its start, its middle and its end."""
-    middle, end = state.time + 0.5 * length, state.time + length
-    k2 = interval_of(path.motion, middle, state.interval)
-    k3 = interval_of(path.motion, end, k2)
-    return Step(
-        length,
-        1.0 / (length * path.body.mobility),
-        k3,
-        (state.time, middle, end),
-        state.at,
-        station_of(path, middle, k2),
-        station_of(path, end, k3),
-        SIMPSON,
-        True,
-    )
+    held = path.body.mobility * work.forces.slope * length > QUASI_STATIC
+    return held and abs(net_force(work.forces)) <= SETTLED_FORCE * magnitude(work.forces)
 
 
 @jit
@@ -439,64 +350,47 @@ def held_update(scale, d2, d3, rest_2, rest_3):
 
 
 @jit
-def solve_held(path, state, step, exponent, bend):
-    """Solve the stage equations of a held step.
-
-    Parameters
-    ----------
-    path : Path
-    state : State
-    step : Step
-        From `held_step_from`.
-    exponent : float
-        Power of the load that slip follows.
-    bend : float
-        As in `Stages`.
-
-    Returns
-    -------
-    Stages
-        Not converged where Newton's iteration would need a better guess than is available.
-    """
-    scale, slip, at = step.scale, state.slip, state.at
-    d2, d3 = step.at2.ring_speed - at.ring_speed, step.at3.ring_speed - at.ring_speed
+def solve_held(path, work):
+    """Solve the stage equations of a held step; not converged where Newton would need a better guess than is available."""
+    scale, slip = work.scale, work.slip
+    at, middle, end = work.at, work.stage_at[1], work.stage_at[2]
+    second, third = work.stage_forces[1], work.stage_forces[2]
+    work.stage_forces[0], work.v[0], work.s[0] = work.forces, slip, 0.0
     force_part = force_tolerance(path.limits.tolerance, True)
-    v2 = held_slip(True, slip, at, step.at2, exponent)
-    f2 = forces_of(path, step.at2, v2)
+    work.v[1] = held_slip(True, slip, at, middle, work.exponent)
+    evaluate(path, middle, work.v[1], second)
     # The middle first, with the end as far ahead as the middle: its solution makes a good guess of the end.
-    s2 = v2 - slip - d2
-    ahead = v2 - (scale * 2.0 * s2 + net_force(f2)) / (2.0 * scale + f2.slope)
-    v3 = held_slip(True, ahead, step.at2, step.at3, held_exponent(at, slip, step.at2, ahead, exponent))
-    f3 = forces_of(path, step.at3, v3)
-    evaluations, unbalanced, converged, change, foreseen = 2, math.inf, False, 0.0, math.inf
-    s3 = v3 - slip - d3
+    rest = scale * 2.0 * (work.v[1] - slip - (middle.ring_speed - at.ring_speed)) + net_force(second)
+    ahead = work.v[1] - rest / (2.0 * scale + second.slope)
+    work.v[2] = held_slip(True, ahead, middle, end, held_exponent(at, slip, middle, ahead, work.exponent))
+    evaluate(path, end, work.v[2], third)
+    work.count[2] += 2
+    for k in range(1, 3):
+        work.s[k] = work.v[k] - slip - (work.stage_at[k].ring_speed - at.ring_speed)
+    work.converged, work.left, change, foreseen = 0, math.inf, 0.0, math.inf
     for iteration in range(HELD_ITERATIONS):
-        rest_2 = scale * s3 + net_force(f2)
-        rest_3 = scale * (3.0 * s3 - 4.0 * s2) + net_force(f3)
+        rest_2 = scale * work.s[2] + net_force(second)
+        rest_3 = scale * (3.0 * work.s[2] - 4.0 * work.s[1]) + net_force(third)
         size = max(abs(rest_2), abs(rest_3))
-        allowed = force_part * min(magnitude(f2), magnitude(f3))
-        if not math.isfinite(size) or f2.slope <= 0.0 or f3.slope <= 0.0:
-            break
+        allowed = force_part * min(magnitude(second), magnitude(third))
+        if not math.isfinite(size) or second.slope <= 0.0 or third.slope <= 0.0:
+            return
         if iteration > 0:
             if iteration == 1:
-                bend = _new_bend(bend, size, change)
-            if size > 0.9 * unbalanced and size > allowed:
-                break
-            foreseen = min(size, size * size / unbalanced)
-        u2, u3 = held_update(scale, f2.slope, f3.slope, rest_2, rest_3)
-        change = max(abs(u2), abs(u3))
+                work.bend = _new_bend(work.bend, size, change)
+            if size > 0.9 * work.left and size > allowed:
+                return
+            foreseen = min(size, size * size / work.left)
+        update = held_update(scale, second.slope, third.slope, rest_2, rest_3)
+        change = max(abs(update[0]), abs(update[1]))
         if iteration == 0:
-            foreseen = BEND_SAFETY * bend * change * change
-        unbalanced = size
-        v2, v3 = v2 + u2, v3 + u3
-        s2, s3 = v2 - slip - d2, v3 - slip - d3
-        if foreseen <= allowed:
-            f2, f3 = shifted(f2, u2), shifted(f3, u3)
-            unbalanced, converged = foreseen, True
-            break
-        f2, f3 = forces_of(path, step.at2, v2), forces_of(path, step.at3, v3)
-        evaluations += 2
-    return Stages(converged, slip, v2, v3, 0.0, s2, s3, state.forces, f2, f3, unbalanced, evaluations, bend)
+            foreseen = BEND_SAFETY * work.bend * change * change
+        work.left, last = size, foreseen <= allowed
+        _correct(work, (0.0, update[0], update[1]), 1, last)
+        if last:
+            work.converged, work.left = 1, foreseen
+            return
+        _evaluate_stages(path, work, 1)
 
 
 @jit_inline
@@ -525,46 +419,32 @@ def held_exponent(at, slip, later, later_slip, exponent):
     return min(max(math.log(ratio) / change, -STEEPEST), STEEPEST)
 
 
-@jit_inline
-def first_memory():
-    """Before the first step."""
-    return Memory(LIMIT_EXPONENT, math.inf, 0.0, 0.0, 0.0, 0.0)
-
-
-@jit_inline
-def first_guess(path, state, step, zone, memory):
-    """Slip at the stages [m/s] to start Newton's iteration from.
+@jit
+def guess(path, work):
+    """Write the slip at the stages [m/s] to start Newton's iteration from.
 
     Where slip is smooth, the polynomial of the step before is continued. Otherwise a roller that drifts under small forces
     continues with the acceleration of the forces at the start, and one stuck to the cage keeps its spin; any other starts
     from the slip before the step, which `held_slip` changes with the load if the roller follows its loads.
     """
-    h, slip, forces, mobility = step.length, state.slip, state.forces, path.body.mobility
-    at, at1, at2, at3 = state.at, step.at1, step.at2, step.at3
-    microslip = path.body.microslip
-    gripped = mobility * forces.slope * h
-    if zone != FIRM and h <= MOST_AHEAD * memory.length and gripped < GRIPPED:
-        ratio = h / memory.length
-        ahead1, _ = collocation(1.0 + NODES[0] * ratio, memory.s1, memory.s2, memory.s3)
-        ahead2, _ = collocation(1.0 + NODES[1] * ratio, memory.s1, memory.s2, memory.s3)
-        ahead3, _ = collocation(1.0 + ratio, memory.s1, memory.s2, memory.s3)
-        base = slip - at.ring_speed - memory.s3
-        return base + at1.ring_speed + ahead1, base + at2.ring_speed + ahead2, base + at3.ring_speed + ahead3
-    drift = 0.0
-    drifts = gripped < 1.0 and zone != EDGE
-    if drifts:
-        drift = -mobility * net_force(forces) * h
-    v1, v2, v3 = slip, slip, slip
+    h, slip, forces, at = work.length, work.slip, work.forces, work.at
+    microslip, last = path.body.microslip, work.last_s
+    gripped = path.body.mobility * forces.slope * h
+    continues = work.zone != FIRM and h <= MOST_AHEAD * work.last_length and gripped < GRIPPED
+    drifts = gripped < 1.0 and work.zone != EDGE
     # What holds the roller may be the cage: its spin then stays as it is, at zero.
-    if drifts or forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope):
-        v1 = slip + (at1.ring_speed - at.ring_speed) + drift * NODES[0]
-        v2 = slip + (at2.ring_speed - at.ring_speed) + drift * NODES[1]
-        v3 = slip + (at3.ring_speed - at.ring_speed) + drift
-    if zone == FIRM or (microslip and gripped > GRIPPED and at3.elastic_load > 0.0):
-        v1 = held_slip(microslip, v1, at, at1, memory.exponent)
-        v2 = held_slip(microslip, v2, at, at2, memory.exponent)
-        v3 = held_slip(microslip, v3, at, at3, memory.exponent)
-    return v1, v2, v3
+    spins = drifts or forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope)
+    follows = work.zone == FIRM or (microslip and gripped > GRIPPED and work.stage_at[2].elastic_load > 0.0)
+    drift = -path.body.mobility * net_force(forces) * h if drifts else 0.0
+    for k in range(3):
+        quickening = work.stage_at[k].ring_speed - at.ring_speed
+        if continues:
+            ahead, _ = collocation(1.0 + NODES[k] * h / work.last_length, last[0], last[1], last[2])
+            work.v[k] = slip - last[2] + quickening + ahead
+            continue
+        work.v[k] = slip + quickening + drift * NODES[k] if spins else slip
+        if follows:
+            work.v[k] = held_slip(microslip, work.v[k], at, work.stage_at[k], work.exponent)
 
 
 @jit_inline
@@ -589,26 +469,23 @@ def surely_rising(body, tables, inner_load, outer_load, speed):
     )
 
 
-@jit_inline
-def is_continuous(path, state, step, stages):
+@jit
+def is_continuous(path, work):
     """Whether the solved stages of a step are sure to be the root that is continuous with the slip before it.
 
     Below the slip at which some part of a contact passes its peak of traction, forces rise with slip and the stage equations
     have one root. Above it, a step is accepted only where slip changes so little, and traction falls so gently, that the
     root found is the continuous one.
     """
-    # More than one root is possible only where traction falls with slip faster than the step allows.
-    if min(stages.f1.slope, stages.f2.slope, stages.f3.slope) < -0.5 * step.scale:
-        return False
-    slip, limits = state.slip, path.limits
-    change = max(abs(stages.v1 - slip), abs(stages.v2 - slip), abs(stages.v3 - slip))
-    if change <= HOT_CHANGE * abs(slip) + SMALL_CHANGE * limits.speed_scale:
+    slip, limits, at = work.slip, path.limits, work.at
+    change, largest, inner, outer = 0.0, abs(slip), at.inner_load, at.outer_load
+    for k in range(3):
+        # More than one root is possible only where traction falls with slip faster than the step allows.
+        if work.stage_forces[k].slope < -0.5 * work.scale:
+            return False
+        change, largest = max(change, abs(work.v[k] - slip)), max(largest, abs(work.v[k]))
+        inner, outer = max(inner, work.stage_at[k].inner_load), max(outer, work.stage_at[k].outer_load)
+    if change <= HOT_CHANGE * abs(slip) + SMALL_CHANGE * limits.speed_scale or largest <= limits.cold_slip:
         return True
-    largest = max(abs(slip), abs(stages.v1), abs(stages.v2), abs(stages.v3))
-    if largest <= limits.cold_slip:
-        return True
-    at = state.at
-    inner = max(at.inner_load, step.at1.inner_load, step.at2.inner_load, step.at3.inner_load)
-    outer = max(at.outer_load, step.at1.outer_load, step.at2.outer_load, step.at3.outer_load)
-    ring = max(abs(at.ring_speed), abs(step.at3.ring_speed))
+    ring = max(abs(at.ring_speed), abs(work.stage_at[2].ring_speed))
     return largest <= surely_rising(path.body, path.tables, inner, outer, ring)

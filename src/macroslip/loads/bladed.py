@@ -14,83 +14,43 @@ these loads. Values are in SI units as the header's unit codes state (F, FL, A/T
 
 from __future__ import annotations
 
+import math
 import re
 import shlex
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
+from macroslip.loads.source_file import MOST_VALUES, announced
 
-_KEYS = frozenset(
-    (
-        "FILE",
-        "ACCESS",
-        "FORM",
-        "RECL",
-        "FORMAT",
-        "CONTENT",
-        "CONFIG",
-        "NDIMENS",
-        "DIMENS",
-        "GENLAB",
-        "VARIAB",
-        "VARUNIT",
-        "AXISLAB",
-        "AXIUNIT",
-        "AXIMETH",
-        "AXIVAL",
-        "AXITICK",
-        "MIN",
-        "STEP",
-        "NVARS",
-        "ULOADS",
-        "MAXTIME",
-        "MINTIME",
-        "MEAN",
-    )
-)
+_KEYS = (
+    "FILE", "ACCESS", "FORM", "RECL", "FORMAT", "CONTENT", "CONFIG", "NDIMENS", "DIMENS", "GENLAB", "VARIAB",
+    "VARUNIT", "AXISLAB", "AXIUNIT", "AXIMETH", "AXIVAL", "AXITICK", "MIN", "STEP", "NVARS", "ULOADS", "MAXTIME",
+    "MINTIME", "MEAN",
+)  # fmt: skip
 _NUMBERS = {"R*4": np.dtype("<f4"), "R*8": np.dtype("<f8")}
-_FORCE = tuple(f"Stationary hub F{axis}" for axis in "xyz")
-_MOMENT = tuple(f"Stationary hub M{axis}" for axis in "xyz")
+_LOADS = tuple(f"Stationary hub {kind}{axis}" for kind in "FM" for axis in "xyz")
 _SPEED = "Rotor speed"
-_UNITS = {_SPEED: "A/T"} | dict.fromkeys(_FORCE, "F") | dict.fromkeys(_MOMENT, "FL")
+_UNITS = {_SPEED: "A/T"} | {name: "F" if " F" in name else "FL" for name in _LOADS}
 #: Largest difference between the mean of the data and the mean in the header, as part of the largest magnitude.
 _SAME_MEAN = 1e-3
-_MOST_VALUES = 500_000_000
+_AGAIN = "Copy the file again, or run Bladed again."
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
-    """A group of results: its header, and where its data are.
-
-    Parameters
-    ----------
-    header, data : Path
-        ``run.%nn`` and ``run.$nn``.
-    names, units : tuple of str
-        Of the variables.
-    samples : int
-        Number of time steps.
-    first, step : float
-        Time of the first sample and time between samples [s].
-    number : dtype or None
-        Of binary data; None for text.
-    mean : tuple of float
-        Means that the header states, or empty.
-    """
+class _Group(NamedTuple):
+    """A group of results, as its header describes it."""
 
     header: Path
-    data: Path
     names: tuple[str, ...]
     units: tuple[str, ...]
     samples: int
-    first: float
-    step: float
-    number: np.dtype | None
-    mean: tuple[float, ...]
+    first: float  # time of the first sample [s]
+    step: float  # time between samples [s]
+    number: np.dtype | None  # of binary data; None for text
+    mean: tuple[float, ...]  # means that the header states, or empty
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -99,19 +59,9 @@ class Group:
 
 
 def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Parameters
-    ----------
-    path : Path
-        Any file of the run.
-    speed_needed : bool
-        Whether the run has to hold the rotor speed; otherwise `shaft_speed` is left out if it does not.
-
-    Returns
-    -------
-    dict
-        The arrays, and `reading`: what each was read from.
+    Any file of the run may be named. Without a channel for it, `shaft_speed` is left out unless it is needed.
 
     Raises
     ------
@@ -119,8 +69,8 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
         A group is absent, cut off, or does not fit its header.
     """
     groups = _groups(path)
-    hub = _group_with((*_FORCE, *_MOMENT), groups, path)
-    columns = _columns(hub, (*_FORCE, *_MOMENT))
+    hub = _group_with(_LOADS, groups, path)
+    columns = _columns(hub, _LOADS)
     result = {"time": hub.time, "force": columns[:, :3], "moment": columns[:, 3:]}
     reading = [f"force and moment: Stationary hub Fx … Mz of {hub.header.name}, axes as in the file"]
     if speed_needed or any(_SPEED in group.names for group in groups):
@@ -137,7 +87,7 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
     return result | {"reading": tuple(reading)}
 
 
-def _groups(path: Path) -> list[Group]:
+def _groups(path: Path) -> list[_Group]:
     """Groups with a time axis beside `path`."""
     stem = path.name[: -len(path.suffix)]
     headers = sorted(
@@ -152,24 +102,22 @@ def _groups(path: Path) -> list[Group]:
             allowed="the headers (.%nn) and the data (.$nn) of a run in one folder",
             remedy="Copy the headers too: without them the data cannot be read.",
         )
-    found = (_header(one) for one in headers)
-    return [group for group in found if group is not None]
+    return [group for group in map(_header, headers) if group is not None]
 
 
-def _group_with(names: tuple[str, ...], groups: list[Group], path: Path) -> Group:
+def _group_with(names: tuple[str, ...], groups: list[_Group], path: Path) -> _Group:
     for group in groups:
         if all(name in group.names for name in names):
             return group
     present = {name for group in groups for name in group.names}
     missing = [name for name in names if name not in present]
-    speed = names == (_SPEED,)
     raise InputError(
         f"the run has no {', '.join(missing or names)}" + ("" if missing else " together in one group"),
         where=str(path),
         allowed=f"a group with {', '.join(names)}, among the headers of the run: "
         f"{', '.join(group.header.name for group in groups) or 'none has a time axis'}",
         remedy="Switch on the output of the drive train variables, or give the speed: loads.shaft_speed."
-        if speed
+        if names == (_SPEED,)
         else "Switch on the output of the hub loads in the fixed frame, and run Bladed again.",
     )
 
@@ -180,7 +128,7 @@ def _fields(path: Path) -> list[tuple[str, str]]:
         raise InputError("the header is larger than 10 MB", where=str(path), remedy="Check that it is one.")
     fields: list[tuple[str, str]] = []
     for line in path.read_text(encoding="latin-1").splitlines():
-        key, _, rest = line.strip().partition("\t") if "\t" in line.strip() else line.strip().partition(" ")
+        key, _, rest = line.strip().partition("\t" if "\t" in line.strip() else " ")
         if key.strip() in _KEYS:
             fields.append((key.strip(), rest.strip()))
         elif fields:
@@ -188,54 +136,45 @@ def _fields(path: Path) -> list[tuple[str, str]]:
     return fields
 
 
-def _header(path: Path) -> Group | None:
+def _header(path: Path) -> _Group | None:
     """The group of a header; None where it has no plain time axis, as statistics and spectra have none."""
     fields = _fields(path)
     given = dict(reversed(fields))
     try:
         names = tuple(name.strip() for name in shlex.split(given["VARIAB"]))
-        dimensions = [int(word) for word in given["DIMENS"].split()]
+        variables, *others = [int(word) for word in given["DIMENS"].split()]
         axes = [value.strip("' ") for key, value in fields if key == "AXISLAB"]
-        if len(dimensions) != 2 or axes[-1:] != ["Time"] or given["AXIMETH"].strip() != "2":
+        if len(others) != 1 or axes[-1:] != ["Time"] or given["AXIMETH"].strip() != "2":
             return None
+        samples = others[0]
         units = tuple(given["VARUNIT"].split())
-        text = given["FORM"].strip().upper() == "F"
-        number = None if text else _NUMBERS[given["FORMAT"].strip().upper()]
-        group = Group(
-            header=path,
-            data=path.with_suffix(path.suffix.replace("%", "$")),
-            names=names,
-            units=units,
-            samples=dimensions[1],
-            first=float(given["MIN"]),
-            step=float(given["STEP"]),
-            number=number,
-            mean=tuple(float(word) for word in given.get("MEAN", "").split()),
-        )
+        form = given["FORM"].strip().upper()
+        if form not in ("F", "U"):
+            raise ValueError(f"FORM {form}, where F is text and U is binary")
+        number = None if form == "F" else _NUMBERS[given["FORMAT"].strip().upper()]
+        first, step = float(given["MIN"]), float(given["STEP"])
+        if not (step > 0.0 and math.isfinite(first + step * samples)):
+            raise ValueError(f"MIN {first:g} and STEP {step:g}, where times are finite and the step is above 0")
+        mean = tuple(float(word) for word in given.get("MEAN", "").split())
+        if not all(map(math.isfinite, mean)):
+            raise ValueError("MEAN is not finite")
     except (KeyError, ValueError, IndexError) as error:
         raise InputError(
             f"not readable as a header of Bladed ({error})",
             where=str(path),
             allowed="the keys DIMENS, VARIAB, VARUNIT, FORM, FORMAT, AXISLAB, AXIMETH, MIN and STEP",
-            remedy="Copy the file again, or run Bladed again.",
+            remedy=_AGAIN,
         ) from error
-    if len(names) != dimensions[0] or len(units) != dimensions[0]:
-        raise InputError(
-            f"the header announces {dimensions[0]} variables, and names {len(names)} with {len(units)} units",
-            where=str(path),
-            remedy="Copy the file again, or run Bladed again.",
-        )
-    if not 0 < dimensions[0] * dimensions[1] <= _MOST_VALUES:
-        raise InputError(
-            f"the header announces {dimensions[0]} variables of {dimensions[1]} samples",
-            where=str(path),
-            allowed=f"1 to {_MOST_VALUES} values",
-            remedy="Copy the file again, or run Bladed again.",
-        )
-    return group
+    if len(names) != variables or len(units) != variables:
+        what = f"the header announces {variables} variables, and names {len(names)} with {len(units)} units"
+        raise InputError(what, where=str(path), remedy=_AGAIN)
+    if not 0 < variables * samples <= MOST_VALUES:
+        what = f"the header announces {variables} variables of {samples} samples"
+        raise InputError(what, where=str(path), allowed=f"1 to {MOST_VALUES} values", remedy=_AGAIN)
+    return _Group(path, names, units, samples, first, step, number, mean)
 
 
-def _columns(group: Group, names: tuple[str, ...]) -> NDArray[np.float64]:
+def _columns(group: _Group, names: tuple[str, ...]) -> NDArray[np.float64]:
     """Values (n, len(names)) of some variables in SI units, checked against the header."""
     for name in names:
         unit = group.units[group.names.index(name)]
@@ -246,7 +185,12 @@ def _columns(group: Group, names: tuple[str, ...]) -> NDArray[np.float64]:
                 allowed=f"{_UNITS[name]}, in SI units",
                 remedy="Run Bladed with SI output.",
             )
-    values = _values(group)
+    data = group.header.with_suffix(group.header.suffix.replace("%", "$"))
+    if not data.is_file():
+        what = f"there is no {data.name} beside the header"
+        raise InputError(what, where=str(group.header), remedy="Copy the data file too.")
+    count = group.samples * len(group.names)
+    values = announced(data, group.number, count, "its header", _AGAIN).reshape(group.samples, -1).astype(np.float64)
     mean = values.mean(axis=0)
     if len(group.mean) == len(group.names):
         off = np.abs(mean - np.array(group.mean)) / np.maximum(np.abs(values).max(axis=0), 1e-30)
@@ -254,43 +198,7 @@ def _columns(group: Group, names: tuple[str, ...]) -> NDArray[np.float64]:
         if off[worst] > _SAME_MEAN:
             raise InputError(
                 f"the mean of {group.names[worst]} is {mean[worst]:.6g}, and the header states {group.mean[worst]:.6g}",
-                where=str(group.data),
+                where=str(data),
                 remedy="Header and data are not of the same run, or the data are damaged: copy both again.",
             )
     return np.ascontiguousarray(values[:, [group.names.index(name) for name in names]])
-
-
-def _values(group: Group) -> NDArray[np.float64]:
-    shape = (group.samples, len(group.names))
-    if not group.data.is_file():
-        raise InputError(
-            f"there is no {group.data.name} beside the header",
-            where=str(group.header),
-            remedy="Copy the data file too.",
-        )
-    expected = shape[0] * shape[1]
-    if group.number is not None:
-        size, full = group.data.stat().st_size, expected * group.number.itemsize
-        if size != full:
-            state = "cut off" if size < full else "damaged"
-            raise InputError(
-                f"the file is {state}: its header announces {full} bytes, it has {size}",
-                where=str(group.data),
-                remedy="Copy the file again, or run Bladed again.",
-            )
-        return np.fromfile(group.data, group.number).reshape(shape).astype(np.float64)
-    try:
-        values = np.array(group.data.read_text(encoding="ascii").split(), dtype=np.float64)
-    except ValueError as error:
-        raise InputError(
-            f"not readable as numbers ({error})",
-            where=str(group.data),
-            remedy="Copy the file again, or run Bladed again.",
-        ) from error
-    if values.size != expected:
-        raise InputError(
-            f"the file holds {values.size} numbers, its header announces {expected}",
-            where=str(group.data),
-            remedy="Copy the file again, or run Bladed again.",
-        )
-    return values.reshape(shape)

@@ -19,6 +19,7 @@ weight of the rotor decides: it has to give a mean fz below zero.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,13 +27,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
-from macroslip.loads.turning import turn_to_fixed
+from macroslip.loads.source_file import ANGLE, FORCE, MOMENT, MOST_VALUES, SPEED, announced, in_si, turn_to_fixed
 
-_FACTORS = {
-    "n": 1.0, "kn": 1e3, "nm": 1.0, "knm": 1e3, "s": 1.0, "rad/s": 1.0, "rpm": np.pi / 30.0, "deg/s": np.pi / 180.0,
-    "deg": np.pi / 180.0, "rad": 1.0,
-}  # fmt: skip
-_UNITS = {"force": ("kN", "N"), "moment": ("kNm", "Nm"), "speed": ("rad/s", "rpm", "deg/s"), "angle": ("deg", "rad")}
 _REMEDY = (
     "Add to the output section of the .htc file\n  mbdy forcevec shaft N 2 shaft ;\n  mbdy momentvec shaft N 2 shaft ;\n"
     "  constraint bearing1 shaft_rot 2 ;\nwith the number of the shaft's last element for N, and run HAWC2 again."
@@ -40,10 +36,9 @@ _REMEDY = (
 _AGAIN = "Copy the file again, or run HAWC2 again."
 #: Part of the mean force in the bearing's plane that has to point down for the weight to decide sign and angle.
 _DOWN = 0.9
-_MOST_VALUES = 500_000_000
 
 
-class Output(NamedTuple):
+class _Output(NamedTuple):
     """Channels of an output file and their values (n, channels)."""
 
     names: list[str]
@@ -51,22 +46,18 @@ class Output(NamedTuple):
     descriptions: list[str]
     values: NDArray
     time: NDArray
+    where: str
+
+    def in_si(self, index: int, factors: Mapping[str, float]) -> NDArray[np.float64]:
+        """Values (n,) of a channel in SI units."""
+        name, unit = self.names[index].strip(), self.units[index].strip()
+        return in_si(self.values[:, index], unit, factors, channel=name, where=self.where)
 
 
 def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Parameters
-    ----------
-    path : Path
-        ``.sel``, or ``.hdf5`` in the format gtsdf.
-    speed_needed : bool
-        Whether the output has to hold the speed; otherwise `shaft_speed` is left out if it does not.
-
-    Returns
-    -------
-    dict
-        The arrays, and `reading`: what each was read from.
+    Without a channel for it, `shaft_speed` is left out unless it is needed.
 
     Raises
     ------
@@ -74,21 +65,20 @@ def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
         The file is cut off or damaged, lacks a channel, or its forces do not show the rotor's weight.
     """
     output = _read_gtsdf(path) if path.suffix.lower() in (".hdf5", ".h5") else _read_sel(path)
-    where = str(path)
-    force, node = _vector(output, "F", where)
-    moment, _ = _vector(output, "M", where, node)
-    angle = _channel(output, r"angle(?!\s*_?speed)", "angle", where, prefix="bea|bearing|shaft_rot")
+    force, node = _vector(output, "force", FORCE)
+    moment, _ = _vector(output, "moment", MOMENT, node)
+    angle = _channel(output, r"angle(?!\s*_?speed)", ANGLE, prefix="bea|bearing|shaft_rot")
     if angle is None:
-        raise InputError("there is no angle of the shaft's bearing", where=where, remedy=_REMEDY)
-    force, moment, turned = _to_fixed(force, moment, angle[0], where)
+        raise InputError("there is no angle of the shaft's bearing", where=output.where, remedy=_REMEDY)
+    force, moment, turned = _to_fixed(force, moment, angle[0], output.where)
     how = f"turned back by {turned[0]} {angle[1]}, sign {turned[1]} by the rotor's weight"
     reading = [f"force and moment: main body shaft, node {node}, {how}"]
     result = {"time": output.time, "force": force, "moment": moment}
-    speed = _channel(output, r"omega|rotor speed|angle_?\s*speed", "speed", where)
+    speed = _channel(output, r"omega|rotor speed|angle_?\s*speed", SPEED)
     if speed is None and speed_needed:
         raise InputError(
             "there is no speed of the shaft",
-            where=where,
+            where=output.where,
             allowed="constraint bearing1 of the shaft, or aero omega",
             remedy="Add one of them to the output section, or give the speed: loads.shaft_speed.",
         )
@@ -98,8 +88,11 @@ def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
     return result | {"reading": tuple(reading)}
 
 
-def _vector(output: Output, letter: str, where: str, node: int | None = None) -> tuple[NDArray, int]:
-    """Components x', y', z' of the force (F) or moment (M) of the shaft at a node, or at the last one there is."""
+def _vector(
+    output: _Output, kind: str, factors: Mapping[str, float], node: int | None = None
+) -> tuple[NDArray[np.float64], int]:
+    """Components x', y', z' of the shaft's force or moment (n, 3) at a node, or at the last one there is."""
+    letter = kind[0].upper()
     found: dict[int, dict[str, int]] = {}
     for i, (name, text) in enumerate(zip(output.names, output.descriptions, strict=True)):
         axis = re.match(rf"{letter}([xyz])\s+coo:\s*shaft\b", name.strip(), re.IGNORECASE)
@@ -108,37 +101,25 @@ def _vector(output: Output, letter: str, where: str, node: int | None = None) ->
             found.setdefault(int(body[1]), {})[axis[1].lower()] = i
     whole = [number for number, axes in found.items() if len(axes) == 3]
     if not whole or (node is not None and node not in whole):
-        kind = "force" if letter == "F" else "moment"
         at = f" at node {node}, where the force is given" if node is not None and whole else ""
         raise InputError(
             f"there is no {kind} of the main body shaft in its own axes{at} ({len(output.names)} channels)",
-            where=where,
+            where=output.where,
             allowed=f"{letter}x, {letter}y and {letter}z with 'coo: shaft' and 'Mbdy:shaft' in the description",
             remedy=_REMEDY,
         )
     node = max(whole) if node is None else node
-    kind = "force" if letter == "F" else "moment"
-    return np.column_stack([_values(output, found[node][axis], kind, where) for axis in "xyz"]), node
+    return np.column_stack([output.in_si(found[node][axis], factors) for axis in "xyz"]), node
 
 
-def _channel(output: Output, pattern: str, kind: str, where: str, prefix: str = "") -> tuple[NDArray, str] | None:
+def _channel(
+    output: _Output, pattern: str, factors: Mapping[str, float], prefix: str = ""
+) -> tuple[NDArray[np.float64], str] | None:
     for i, (name, text) in enumerate(zip(output.names, output.descriptions, strict=True)):
         both = f"{name} {text}"
-        if re.search(pattern, both, re.IGNORECASE) and (not prefix or re.search(prefix, both, re.IGNORECASE)):
-            return _values(output, i, kind, where), f"{name.strip()} ({text.strip()})"
+        if re.search(pattern, both, re.IGNORECASE) and re.search(prefix, both, re.IGNORECASE):
+            return output.in_si(i, factors), f"{name.strip()} ({text.strip()})"
     return None
-
-
-def _values(output: Output, index: int, kind: str, where: str) -> NDArray[np.float64]:
-    unit = output.units[index].strip()
-    if unit not in _UNITS[kind]:
-        raise InputError(
-            f"channel {output.names[index].strip()} has the unit {unit or 'none'}",
-            where=where,
-            allowed=", ".join(_UNITS[kind]),
-            remedy="Convert the channel.",
-        )
-    return np.asarray(output.values[:, index], dtype=np.float64) * _FACTORS[unit.lower()]
 
 
 def _to_fixed(force: NDArray, moment: NDArray, angle: NDArray, where: str) -> tuple[NDArray, NDArray, tuple[str, str]]:
@@ -169,7 +150,7 @@ def _turned(vector: NDArray, angle: NDArray) -> NDArray:
     return np.column_stack([-vector[:, 2], y, z])
 
 
-def _read_sel(path: Path) -> Output:
+def _read_sel(path: Path) -> _Output:
     if path.stat().st_size > 50_000_000:
         raise InputError("the list of channels is larger than 50 MB", where=str(path), remedy="Check that it is one.")
     lines = path.read_text(encoding="latin-1").splitlines()
@@ -177,29 +158,48 @@ def _read_sel(path: Path) -> Output:
         start = next(i for i, line in enumerate(lines) if line.split()[:2] == ["Scans", "Channels"])
         scans, channels, duration, kind = lines[start + 1].split()
         scans, channels, duration = int(scans), int(channels), float(duration)
-        if not (0 < scans * channels <= _MOST_VALUES) or kind not in ("ASCII", "BINARY"):
-            raise ValueError(f"{scans} scans of {channels} channels, format {kind}")
+        if not (0 < scans * channels <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in ("ASCII", "BINARY"):
+            raise ValueError(f"{scans} scans of {channels} channels in {duration} s, format {kind}")
         rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:channels]
         names, units, texts = zip(*(_channel_line(row) for row in rows), strict=True)
         if len(rows) != channels:
             raise ValueError(f"{len(rows)} channels are listed, {channels} are announced")
         scale = _scale(lines, channels) if kind == "BINARY" else None
     except (StopIteration, ValueError, IndexError) as error:
-        raise InputError(
-            f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})",
-            where=str(path),
-            remedy=_AGAIN,
-        ) from error
+        what = f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})"
+        raise InputError(what, where=str(path), remedy=_AGAIN) from error
     beside = (one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == ".dat")
     data = next((one for one in beside if one.is_file()), None)
     if data is None:
         raise InputError(f"there is no {path.stem}.dat beside it", where=str(path), remedy="Copy the data file too.")
-    values = _binary(data, scans, channels, scale) if scale is not None else _text(data, scans, channels)
-    time = values[:, 0] if names[0].strip().lower() == "time" else np.arange(scans) * duration / scans
-    if scale is not None and names[0].strip().lower() == "time":
-        # 16 bits resolve the time of a long run to more than a step; the samples are equally spaced.
-        time = time[0] + (time[-1] - time[0]) * np.arange(scans) / max(scans - 1, 1)
-    return Output(list(names), list(units), list(texts), values, time)
+    count, header = scans * channels, "the list of channels"
+    values = announced(data, None if scale is None else "<i2", count, header, _AGAIN)
+    values = values.reshape(scans, channels) if scale is None else values.reshape(channels, scans).T * scale
+    if names[0].strip().lower() == "time":
+        time = _announced_time(values[:, 0], duration, 0.0 if scale is None else abs(float(scale[0])), data)
+    else:
+        time = np.arange(scans) * duration / scans
+    return _Output(list(names), list(units), list(texts), values, time, str(path))
+
+
+def _announced_time(stamps: NDArray, duration: float, resolution: float, data: Path) -> NDArray[np.float64]:
+    """Times of the samples, which have to last as long as the list of channels announces.
+
+    16 bits resolve the time of a long run to more than a step, so that binary times are those of equal steps.
+    """
+    # Some programs announce the time of the last sample, others that of one step more than from first to last.
+    near = 2.5 * duration / stamps.size + resolution + 1e-3
+    if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
+        what = (
+            f"its time goes from {stamps[0]:.6g} s to {stamps[-1]:.6g} s, the list of channels announces {duration:g} s"
+        )
+        raise InputError(what, where=str(data), remedy=_AGAIN)
+    if not resolution:
+        return stamps
+    even = np.linspace(stamps[0], stamps[-1], stamps.size)
+    if np.abs(stamps - even).max() > 2.0 * resolution:
+        raise InputError("the samples of its time are not equally spaced", where=str(data), remedy=_AGAIN)
+    return even
 
 
 def _channel_line(line: str) -> tuple[str, str, str]:
@@ -215,33 +215,7 @@ def _scale(lines: list[str], channels: int) -> NDArray:
     return np.array(numbers[-channels:], dtype=np.float64)
 
 
-def _binary(path: Path, scans: int, channels: int, scale: NDArray) -> NDArray:
-    size, full = path.stat().st_size, 2 * scans * channels
-    if size != full:
-        state = "cut off" if size < full else "damaged"
-        raise InputError(
-            f"the file is {state}: the list of channels announces {full} bytes, it has {size}",
-            where=str(path),
-            remedy=_AGAIN,
-        )
-    return np.fromfile(path, "<i2").reshape(channels, scans).T * scale
-
-
-def _text(path: Path, scans: int, channels: int) -> NDArray:
-    try:
-        values = np.array(path.read_text(encoding="ascii").split(), dtype=np.float64)
-    except ValueError as error:
-        raise InputError(f"not readable as numbers ({error})", where=str(path), remedy=_AGAIN) from error
-    if values.size != scans * channels:
-        raise InputError(
-            f"the file holds {values.size} numbers, the list of channels announces {scans * channels}",
-            where=str(path),
-            remedy=_AGAIN,
-        )
-    return values.reshape(scans, channels)
-
-
-def _read_gtsdf(path: Path) -> Output:
+def _read_gtsdf(path: Path) -> _Output:
     import h5py
 
     from macroslip.hdf5_file import check_hdf5
@@ -252,7 +226,8 @@ def _read_gtsdf(path: Path) -> Output:
             if str(_plain(file.attrs.get("type", ""))).lower() != "general time series data format":
                 raise ValueError("its type is not 'General time series data format'")
             names, units, texts = (
-                [str(_plain(one)) for one in np.asarray(file[f"attribute_{kind}"])] for kind in _ATTRIBUTES
+                [str(_plain(one)) for one in np.asarray(file[f"attribute_{kind}"])]
+                for kind in ("names", "units", "descriptions")
             )
             blocks = [file[f"block{i:04d}"] for i in range(int(file.attrs["no_blocks"]))]
             values = np.concatenate([_block_values(block) for block in blocks])
@@ -262,15 +237,9 @@ def _read_gtsdf(path: Path) -> Output:
             f"not readable as HAWC2 output in the format gtsdf ({error})", where=str(path), remedy=_AGAIN
         ) from error
     if values.shape != (time.size, len(names)):
-        raise InputError(
-            f"data of shape {values.shape} for {time.size} times and {len(names)} channels",
-            where=str(path),
-            remedy=_AGAIN,
-        )
-    return Output(names, units, texts, values, time)
-
-
-_ATTRIBUTES = ("names", "units", "descriptions")
+        what = f"data of shape {values.shape} for {time.size} times and {len(names)} channels"
+        raise InputError(what, where=str(path), remedy=_AGAIN)
+    return _Output(names, units, texts, values, time, str(path))
 
 
 def _plain(value: object) -> object:

@@ -13,26 +13,32 @@ LSSTipMza) is turned by the channel Azimuth. This supposes ``AzimB1Up = 0`` in t
 coincide with the non-rotating ones when blade 1 is up, and the azimuth written to the file is then AzimB1Up.
 Turned forces whose mean does not point down are refused. The units written in the file are used. Text output holds
 four significant digits as a rule; prefer the binary one.
+
+The official reader, openfast_io, reads the file once it is sure that the file is whole.
 """
 
 from __future__ import annotations
 
-import math
+import contextlib
+import io
+import struct
+import tempfile
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
-from macroslip.loads.openfast_output import read_output
-from macroslip.loads.turning import turn_to_fixed
+from macroslip.loads.source_file import ANGLE, FORCE, SPEED, in_si, turn_to_fixed
 
-_RPM = math.pi / 30.0
-_FORCE_UNITS = {"N": 1.0, "kN": 1e3}
-_MOMENT_UNITS = {"N-m": 1.0, "kN-m": 1e3}
-_SPEED_UNITS = {"rpm": _RPM, "rad/s": 1.0, "deg/s": math.pi / 180.0}
-_ANGLE_UNITS = {"deg": math.pi / 180.0, "rad": 1.0}
-_TIME_UNITS = {"s": 1.0, "sec": 1.0}
+
+def _in_brackets(factors: Mapping[str, float]) -> dict[str, float]:
+    return {f"({unit})": factor for unit, factor in factors.items()}
+
+
+_FORCES, _SPEEDS, _ANGLES = _in_brackets(FORCE), _in_brackets(SPEED), _in_brackets(ANGLE)
+_MOMENTS, _TIMES = {"(N-m)": 1.0, "(kN-m)": 1e3}, {"(s)": 1.0, "(sec)": 1.0}
 
 _THRUST = ("LSShftFxa", "LSShftFxs", "LSSGagFxa", "LSSGagFxs", "RotThrust")
 _TORQUE = ("LSShftMxa", "LSShftMxs", "LSSGagMxa", "LSSGagMxs", "RotTorq", "LSShftTq")
@@ -53,21 +59,16 @@ _MEANING = {
     "LSSTipMys": "(kN-m); shaft bending moment at the hub about ys, non-rotating",
     "LSSTipMzs": "(kN-m); shaft bending moment at the hub about zs, non-rotating",
 }
+_AGAIN = "Copy the file again, or run OpenFAST again."
+_INVALID = (
+    "OpenFAST writes INVALID for a channel that it cannot compute with this model; check that ElastoDyn is in use."
+)
 
 
 def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
-    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N] and moment (n, 3) [N m].
+    """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Parameters
-    ----------
-    path : Path
-    speed_needed : bool
-        Whether the file has to hold the speed; otherwise `shaft_speed` is left out if it does not.
-
-    Returns
-    -------
-    dict
-        The arrays, and `reading`: the channels they come from.
+    Without a channel for it, `shaft_speed` is left out unless it is needed.
 
     Raises
     ------
@@ -75,20 +76,18 @@ def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
         The file is cut off or damaged, lacks a channel (the error gives the lines to add to the output list), or
         declares a unit that is not known.
     """
-    channels = _Channels(*read_output(path), str(path))
-    time = channels.column(("Time",), _TIME_UNITS)
-    with_speed = speed_needed or channels.has_all((_SPEED,))
-    speed = {"shaft_speed": channels.column(_SPEED, _SPEED_UNITS)} if with_speed else {}
-    thrust = channels.column(_THRUST, _FORCE_UNITS)
-    shear = channels.across(_SHEAR, _ROTATING_SHEAR, _FORCE_UNITS)
-    torque = channels.column(_TORQUE, _MOMENT_UNITS)
-    bending = channels.across(_BENDING, _ROTATING_BENDING, _MOMENT_UNITS)
+    channels = _Channels(*(_read_binary if path.suffix.lower() == ".outb" else _read_text)(path), str(path))
+    found = {"time": channels.column(("Time",), _TIMES)}
+    if speed_needed or channels.has_all((_SPEED,)):
+        found["shaft_speed"] = channels.column(_SPEED, _SPEEDS)
+    thrust = channels.column(_THRUST, _FORCES)
+    shear = channels.across(_SHEAR, _ROTATING_SHEAR, _FORCES)
+    torque = channels.column(_TORQUE, _MOMENTS)
+    bending = channels.across(_BENDING, _ROTATING_BENDING, _MOMENTS)
     channels.raise_if_missing()
     if not channels.has_all(_SHEAR):
         _check_weight(*shear, str(path))
-    return {
-        "time": time,
-        **speed,
+    return found | {
         "force": np.column_stack([thrust, *shear]),
         "moment": np.column_stack([torque, *bending]),
         "reading": tuple(channels.taken),
@@ -101,61 +100,51 @@ class _Channels:
     def __init__(self, names: list[str], units: list[str], data: NDArray, where: str):
         self.names, self.units, self.data, self.where = names, units, data, where
         self.index = {name.lower(): i for i, name in reversed(list(enumerate(names)))}
-        self.missing: list[str] = []
-        self.looked_for: list[str] = []
+        #: Channels that were not found, and the names they were looked for by.
+        self.missing: dict[str, str] = {}
         self.taken: list[str] = []
 
     def has_all(self, quantities: tuple[tuple[str, ...], ...]) -> bool:
         return all(any(alias.lower() in self.index for alias in aliases) for aliases in quantities)
 
-    def column(self, aliases: tuple[str, ...], factors: dict[str, float]) -> NDArray[np.float64]:
+    def column(self, aliases: tuple[str, ...], factors: Mapping[str, float]) -> NDArray[np.float64]:
         found = next((alias for alias in aliases if alias.lower() in self.index), None)
         if found is None:
-            self.missing.append(aliases[0])
-            self.looked_for.append(" or ".join(aliases))
+            self.missing[aliases[0]] = " or ".join(aliases)
             return np.zeros(len(self.data))
         i = self.index[found.lower()]
-        self.taken.append(f"{self.names[i]} ({self.units[i]})")
-        unit = self.units[i].replace("·", "-").replace("*", "-").replace(" ", "-")
-        if unit not in factors:
-            # OpenFAST writes INVALID without the brackets that its reader takes away.
-            invalid = unit.upper() in ("INVALID", "NVALI")
-            raise InputError(
-                f"channel {self.names[i]} has the unit ({'INVALID' if invalid else self.units[i]})",
-                where=self.where,
-                allowed=", ".join(f"({name})" for name in factors),
-                remedy="OpenFAST writes INVALID for a channel that it cannot compute with this model; check that "
-                "ElastoDyn is in use."
-                if invalid
-                else "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel.",
-            )
-        return self.data[:, i] * factors[unit]
+        name, unit = self.names[i], self.units[i]
+        self.taken.append(f"{name} ({unit})")
+        remedy = "OpenFAST itself writes kN, kN-m, rpm and deg; convert the channel."
+        # OpenFAST writes INVALID without the brackets that its reader takes away.
+        if unit.upper() in ("INVALID", "NVALI"):
+            unit, remedy = "INVALID", _INVALID
+        unit = f"({unit.replace('·', '-').replace('*', '-').replace(' ', '-')})"
+        return in_si(self.data[:, i], unit, factors, channel=name, where=self.where, remedy=remedy)
 
     def across(
-        self, fixed: tuple[tuple[str, ...], ...], rotating: tuple[tuple[str, ...], ...], factors: dict[str, float]
+        self, fixed: tuple[tuple[str, ...], ...], rotating: tuple[tuple[str, ...], ...], factors: Mapping[str, float]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The components along y and z, from the non-rotating pair or else from the rotating pair."""
         if self.has_all(fixed):
             return self.column(fixed[0], factors), self.column(fixed[1], factors)
         if self.has_all((*rotating, _AZIMUTH)):
             y, z = self.column(rotating[0], factors), self.column(rotating[1], factors)
-            azimuth = self.column(_AZIMUTH, _ANGLE_UNITS)
+            azimuth = self.column(_AZIMUTH, _ANGLES)
             self.taken[-3:] = [f"{self.taken[-3]} and {self.taken[-2]} turned by {self.taken[-1]}"]
             return turn_to_fixed(y, z, azimuth)
         for aliases in fixed:
             if not self.has_all((aliases,)):
-                self.missing.append(aliases[0])
                 turned = f"{rotating[0][0]}, {rotating[1][0]} and {_AZIMUTH[0]}"
-                self.looked_for.append(f"{' or '.join(aliases)} (or {turned})")
+                self.missing[aliases[0]] = f"{' or '.join(aliases)} (or {turned})"
         return np.zeros(len(self.data)), np.zeros(len(self.data))
 
     def raise_if_missing(self) -> None:
         if not self.missing:
             return
         if "time" not in self.index:
-            raise InputError(
-                "there is no channel Time", where=self.where, remedy="This is not an OpenFAST time series."
-            )
+            remedy = "This is not an OpenFAST time series."
+            raise InputError("there is no channel Time", where=self.where, remedy=remedy)
         lines = "\n".join(f'"{name}"{" " * (14 - len(name))}- {_MEANING[name]}' for name in self.missing)
         gauge = [name for name in self.names if name.lower() in ("lssgagmys", "lssgagmzs", "lssgagmya", "lssgagmza")]
         note = (
@@ -167,7 +156,7 @@ class _Channels:
             f"of the channels needed, {', '.join(self.missing)} {'are' if len(self.missing) > 1 else 'is'} not in the "
             f"file ({len(self.names)} channels)",
             where=self.where,
-            allowed=f"{'; '.join(self.looked_for)}, in upper or lower case.{note}",
+            allowed=f"{'; '.join(self.missing.values())}, in upper or lower case.{note}",
             remedy=f"Add to the OutList of the ElastoDyn input file\n{lines}\nand run OpenFAST again.",
         )
 
@@ -183,3 +172,125 @@ def _check_weight(fy: NDArray, fz: NDArray, where: str) -> None:
             allowed="AzimB1Up = 0 in the ElastoDyn input file, and gravity",
             remedy="Add LSShftFys, LSShftFzs, LSSTipMys and LSSTipMzs to the OutList and run OpenFAST again.",
         )
+
+
+def _read_binary(path: Path) -> tuple[list[str], list[str], NDArray]:
+    """Names, units and columns of all channels, the time among them."""
+    from openfast_io.FAST_output_reader import load_binary_output
+
+    actual, expected = path.stat().st_size, _binary_size(path)
+    # Some versions of OpenFAST write more bytes than their header announces; the official reader leaves them.
+    if actual < expected:
+        what = f"the file is cut off: its header announces {expected} bytes, it has {actual}"
+        raise InputError(what, where=str(path), remedy=_AGAIN)
+    try:
+        data, info, _ = load_binary_output(str(path))
+    except Exception as error:  # the reader raises any error of its parsing
+        what = f"not readable as OpenFAST binary output ({error})"
+        raise InputError(what, where=str(path), remedy=_AGAIN) from error
+    return info["attribute_names"], info["attribute_units"], data
+
+
+def _binary_size(path: Path) -> int:
+    """Size [bytes] the file must have by its own header: the official reader trusts the counts in it."""
+    damaged = InputError(
+        "the header is not that of an OpenFAST binary file",
+        where=str(path),
+        allowed="file formats 1 to 4 of OpenFAST",
+        remedy="Text output must be named .out; otherwise copy the file again or run OpenFAST again.",
+    )
+    with path.open("rb") as file:
+
+        def take(layout: str) -> tuple:
+            return struct.unpack("<" + layout, file.read(struct.calcsize("<" + layout)))
+
+        try:
+            (file_format,) = take("h")
+            if file_format not in (1, 2, 3, 4):
+                raise damaged
+            name_length = take("h")[0] if file_format == 4 else 10
+            channels, samples, *_ = take("iidd")
+            if min(name_length, channels, samples) < 1:
+                raise damaged
+            packed = file_format != 3
+            file.seek(8 * channels if packed else 0, io.SEEK_CUR)
+            (description,) = take("i")
+        except struct.error:
+            raise InputError("the file is cut off within its header", where=str(path), remedy=_AGAIN) from None
+        if description < 0:
+            raise damaged
+        header = file.tell() + description + 2 * (channels + 1) * name_length
+        return header + samples * ((4 if file_format == 1 else 0) + channels * (2 if packed else 8))
+
+
+def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
+    """Names, units and columns of all channels, the time among them."""
+    from openfast_io.FAST_output_reader import load_ascii_output
+
+    with path.open("rb") as file:
+        if b"\0" in file.read(1024):
+            raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
+    try:
+        with _plain_text(path) as plain:
+            data, info = load_ascii_output(str(plain))
+    except Exception as error:  # the reader raises any error of its parsing
+        raise InputError(
+            f"not readable as OpenFAST text output ({_first_bad_line(path) or error})",
+            where=str(path),
+            remedy="If the run was stopped or the copy cut off, delete the incomplete last line; otherwise run OpenFAST "
+            "again.",
+        ) from error
+    names, units = info["attribute_names"], info["attribute_units"]
+    if not names or data.ndim != 2 or data.shape[1] != len(names) or len(units) != len(names):
+        raise InputError(
+            f"not an OpenFAST text output: {len(names)} channel names, {len(units)} units, data of shape {data.shape}",
+            where=str(path),
+            allowed="6 lines of description, a line of names, a line of units, then the data",
+            remedy=_AGAIN,
+        )
+    _check_last_line(path)
+    return names, units, data
+
+
+@contextlib.contextmanager
+def _plain_text(path: Path) -> Iterator[Path]:
+    """The file itself, or a copy in ASCII: the official reader takes the encoding of the system it runs on.
+
+    Older versions write units such as kN·m in Latin-1.
+    """
+    content = path.read_bytes()
+    if content.isascii():
+        yield path
+        return
+    try:
+        text = content.decode("utf-8")
+    except UnicodeDecodeError:
+        text = content.decode("latin-1")
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / path.name
+        copy.write_bytes(text.replace("·", "-").encode("ascii", "replace"))
+        yield copy
+
+
+def _check_last_line(path: Path) -> None:
+    # A line cut within its last number still parses. OpenFAST ends every line, and all data lines are equally long.
+    lines = path.read_bytes().splitlines(keepends=True)[-2:]
+    if not lines[-1].endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip(b"\r\n")):
+        remedy = "Copy the file again, run OpenFAST again, or delete that line."
+        raise InputError("the last line is cut off", where=str(path), remedy=remedy)
+
+
+def _first_bad_line(path: Path) -> str:
+    """Which line of a text output is at fault, or an empty string when none is (the file is not text at all)."""
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    width = len(lines[6].split()) if len(lines) > 6 else 0
+    for number, line in enumerate(lines[8:], start=9):
+        values = line.split()
+        if len(values) != width:
+            return f"line {number} has {len(values)} values for {width} channels"
+        for value in values:
+            try:
+                float(value)
+            except ValueError:
+                return f"line {number} holds {value!r} instead of a number"
+    return ""

@@ -1,30 +1,36 @@
-"""The file a load history is read from: it has to exist, hold something and be of a known kind."""
+"""The files that loads are read from: path, units, and the numbers that a header announces; shared by all readers."""
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from macroslip.errors import InputError
 from macroslip.files import check_regular
 
 #: What to do about a file that no reader understands.
 DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it holds."
+#: Values that a header may announce; more must be damage.
+MOST_VALUES = 500_000_000
+
+RPM = math.pi / 30.0
+#: Units of channels, and the factor that gives SI.
+FORCE = {"N": 1.0, "kN": 1e3}
+MOMENT = {"Nm": 1.0, "kNm": 1e3}
+SPEED = {"rpm": RPM, "rad/s": 1.0, "deg/s": math.pi / 180.0}
+ANGLE = {"deg": math.pi / 180.0, "rad": 1.0}
 
 
 def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
-    """Return the path and its lower-case extension, or raise what is wrong with it.
+    """Return the path and its lower-case extension, which has to be among `kinds`; they say what a file holds.
 
-    Parameters
-    ----------
-    path : path
-        File to read.
-    kinds : mapping
-        Accepted extensions, with the dot, and what they hold.
-    remedy : str
-        What to do about an extension that is not among `kinds`.
+    `remedy` is what to do about another extension.
     """
     path = Path(path)
     check_regular(path, "Name a file with loads.")
@@ -57,3 +63,57 @@ def without_folders(source: str) -> str:
     'front bearing under run.outb'
     """
     return re.sub(r"(?:(?<=\s)|^)(?:[A-Za-z]:)?[\\/](?:.*[\\/])?", "", source)
+
+
+def in_si(
+    values: ArrayLike,
+    unit: str,
+    factors: Mapping[str, float],
+    *,
+    channel: str,
+    where: str,
+    remedy: str = "Convert the channel.",
+) -> NDArray[np.float64]:
+    """Values of a channel in SI units; InputError if its unit is none of those in `factors`."""
+    if unit not in factors:
+        what = f"channel {channel} has the unit {unit or 'none'}"
+        raise InputError(what, where=where, allowed=", ".join(factors), remedy=remedy)
+    return np.asarray(values, dtype=np.float64) * factors[unit]
+
+
+def announced(path: Path, number: DTypeLike | None, count: int, header: str, again: str) -> NDArray:
+    """`count` numbers, binary or (None) text, which must fill the file; `header` names where they are announced."""
+    if number is not None:
+        size, full = path.stat().st_size, count * np.dtype(number).itemsize
+        if size == full:
+            return np.fromfile(path, number)
+        state = "cut off" if size < full else "damaged"
+        what = f"the file is {state}: {header} announces {full} bytes, it has {size}"
+        raise InputError(what, where=str(path), remedy=again)
+    try:
+        values = np.array(path.read_text(encoding="ascii").split(), dtype=np.float64)
+    except ValueError as error:
+        raise InputError(f"not readable as numbers ({error})", where=str(path), remedy=again) from error
+    if values.size != count:
+        what = f"the file holds {values.size} numbers, {header} announces {count}"
+        raise InputError(what, where=str(path), remedy=again)
+    return values
+
+
+def turn_to_fixed(
+    along_ya: NDArray | float, along_za: NDArray | float, azimuth: NDArray | float
+) -> tuple[NDArray, NDArray]:
+    """Components along the non-rotating y and z from those in the rotating shaft axes, at the azimuth ψ [rad].
+
+    y = y_a cos ψ − z_a sin ψ, z = y_a sin ψ + z_a cos ψ; ψ = 0 with blade 1 up, increasing with rotation about +x.
+
+    Examples
+    --------
+    A quarter of a turn after blade 1 was up, the rotating z axis points to −y:
+
+    >>> y, z = turn_to_fixed(0.0, 1.0, math.pi / 2)
+    >>> round(float(y), 12), round(float(z), 12)
+    (-1.0, 0.0)
+    """
+    cos, sin = np.cos(azimuth), np.sin(azimuth)
+    return along_ya * cos - along_za * sin, along_ya * sin + along_za * cos

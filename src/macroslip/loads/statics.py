@@ -15,8 +15,7 @@ from macroslip.catalogue.quantity_forms import Quantity
 from macroslip.catalogue.units import ANGLE, LENGTH, MASS
 from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
-from macroslip.loads.bearing_loads import BearingLoads
-from macroslip.loads.hub_loads import HubLoads
+from macroslip.loads.history import BearingLoads, HubLoads
 
 MOUNTS = ("three-point", "four-point")
 BEARINGS = ("front", "rear")
@@ -102,10 +101,8 @@ class Drivetrain:
                 remedy="Add what is missing.",
             )
         if self.mount == "three-point" and given:
-            raise InputError(
-                f"the mount is three-point, which has no {' and no '.join(given)}",
-                remedy="Write mount: four-point, or remove what belongs to it.",
-            )
+            what = f"the mount is three-point, which has no {' and no '.join(given)}"
+            raise InputError(what, remedy="Write mount: four-point, or remove what belongs to it.")
 
 
 def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDArray[np.float64]]:
@@ -131,18 +128,11 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 
     and what the forces across the shaft leave goes to the second one. Thrust is F_Z0 = fx + W sin tilt.
 
-    Parameters
-    ----------
-    hub_loads : HubLoads
-        Loads of the rotor on the shaft, n samples.
-    drivetrain : Drivetrain
-        Support positions and shaft mass.
-
     Returns
     -------
     dict
-        (n, 3) [N] by the name of the support: `bearing` and `gearbox` on a three-point mount, `front` and `rear` on a
-        four-point mount.
+        (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing` and `gearbox` on a three-point
+        mount, `front` and `rear` on a four-point mount.
 
     Notes
     -----
@@ -177,19 +167,7 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 
 
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
-    """Load on the inner ring of the simulated main bearing, from the loads at the hub; see `support_loads`.
-
-    Parameters
-    ----------
-    hub_loads : HubLoads
-        Loads of the rotor on the shaft, n samples.
-    drivetrain : Drivetrain
-        Mount and shaft mass; on a four-point mount also which bearing it is.
-
-    Returns
-    -------
-    BearingLoads
-        force (n, 3) [N], with the time and shaft speed of `hub_loads`.
+    """Load on the inner ring of the simulated main bearing, by `support_loads`, with time and speed of the hub loads.
 
     Raises
     ------

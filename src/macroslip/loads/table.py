@@ -16,7 +16,6 @@ main-bearing forces. CSV: comma-separated, decimal point, one header line.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -24,17 +23,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from macroslip.errors import InputError
+from macroslip.loads.source_file import FORCE, MOMENT, RPM
 
-_SPEED = {"rpm": math.pi / 30.0, "rad_s": 1.0, "radps": 1.0}
-_FORCE = {"N": 1.0, "kN": 1e3}
-_MOMENT = {"Nm": 1.0, "kNm": 1e3}
-_BASE = {"time": (("time",), {"s": 1.0}), "shaft_speed": (("shaft_speed", "rotor_speed"), _SPEED)}
-_HUB = (
-    _BASE
-    | {name: ((name,), _FORCE) for name in ("fx", "fy", "fz")}
-    | {name: ((name,), _MOMENT) for name in ("mx", "my", "mz")}
-)
-_BEARING = _BASE | {name: ((name,), _FORCE) for name in ("F_X0", "F_Y0", "F_Z0")}
+#: Names of a quantity, and the factors of its units.
+_Choice = tuple[tuple[str, ...], Mapping[str, float]]
+_BASE: dict[str, _Choice] = {
+    "time": (("time",), {"s": 1.0}),
+    "shaft_speed": (("shaft_speed", "rotor_speed"), {"rpm": RPM, "rad_s": 1.0, "radps": 1.0}),
+}
+_HUB_VECTORS = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}
+_BEARING_VECTORS = {"force": ("F_X0", "F_Y0", "F_Z0")}
 
 
 def read_hub_table(path: Path, *, speed_needed: bool = True) -> dict:
@@ -42,41 +40,26 @@ def read_hub_table(path: Path, *, speed_needed: bool = True) -> dict:
 
     Without a column for it, `shaft_speed` is left out unless it is needed; `reading` names the columns.
     """
-    columns, taken = _read(
-        path,
-        _HUB,
-        "F_X0",
-        "This table holds main-bearing loads: read it with BearingLoads.read.",
-        optional=() if speed_needed else ("shaft_speed",),
-    )
-    speed = {"shaft_speed": columns["shaft_speed"]} if "shaft_speed" in columns else {}
-    return {
-        "time": columns["time"],
-        **speed,
-        "force": np.column_stack([columns[name] for name in ("fx", "fy", "fz")]),
-        "moment": np.column_stack([columns[name] for name in ("mx", "my", "mz")]),
-        "reading": taken,
-    }
+    remedy = "This table holds main-bearing loads: read it with BearingLoads.read."
+    return _read(path, _HUB_VECTORS, "F_X0", remedy, () if speed_needed else ("shaft_speed",))
 
 
 def read_bearing_table(path: Path) -> dict[str, NDArray[np.float64]]:
     """Read time (n,) [s], shaft_speed (n,) [rad/s] and force (n, 3) [N] on the inner ring."""
-    columns, _ = _read(
-        path, _BEARING, "fx", "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
-    )
-    return {
-        "time": columns["time"],
-        "shaft_speed": columns["shaft_speed"],
-        "force": np.column_stack([columns[name] for name in ("F_X0", "F_Y0", "F_Z0")]),
-    }
+    remedy = "This table holds hub loads: read it with HubLoads.read, then main_bearing_load."
+    columns = _read(path, _BEARING_VECTORS, "fx", remedy)
+    del columns["reading"]
+    return columns
 
 
 def _read(
-    path: Path, quantities: Mapping, other_kind: str, other_remedy: str, optional: tuple[str, ...] = ()
-) -> tuple[dict[str, NDArray[np.float64]], tuple[str, ...]]:
-    """Columns by quantity in SI units, and the names of those taken."""
-    import pyarrow as pa
-
+    path: Path,
+    vectors: Mapping[str, tuple[str, ...]],
+    other_kind: str,
+    other_remedy: str,
+    optional: tuple[str, ...] = (),
+) -> dict:
+    """Arrays in SI units, and `reading`: the names of the columns they are from."""
     table = _open(path)
     names = [name.strip() for name in table.column_names]
     if len(names) == 1 and (";" in names[0] or "\t" in names[0]):
@@ -86,31 +69,16 @@ def _read(
             allowed="commas between columns and points as decimal marks",
             remedy="Write the file again so.",
         )
-    chosen: dict[str, tuple[int, float]] = {}
-    missing = []
-    for quantity, (prefixes, factors) in quantities.items():
-        spellings = {f"{prefix}_{unit}": factor for prefix in prefixes for unit, factor in factors.items()}
-        found = [i for i, name in enumerate(names) if name in spellings]
-        if len(found) > 1:
-            raise InputError(
-                f"columns {' and '.join(names[i] for i in found)} both give {quantity}",
-                where=str(path),
-                allowed=f"one of {', '.join(spellings)}",
-                remedy="Remove or rename all but one of them.",
-            )
-        if found:
-            chosen[quantity] = found[0], spellings[names[found[0]]]
-            continue
-        near = [name for name in names if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes)]
-        if near:
-            raise InputError(
-                f"column {near[0]} has no known unit",
-                where=str(path),
-                allowed=", ".join(spellings),
-                remedy="Convert the values and rename the column.",
-            )
-        if quantity not in optional:
-            missing.append(" or ".join(spellings))
+    units = {"force": FORCE, "moment": MOMENT}
+    quantities = dict(_BASE)
+    for field, components in vectors.items():
+        quantities |= {name: ((name,), units[field]) for name in components}
+    found = {quantity: _find(names, quantity, *choice, str(path)) for quantity, choice in quantities.items()}
+    missing = [
+        " or ".join(_spellings(*quantities[quantity]))
+        for quantity, place in found.items()
+        if place is None and quantity not in optional
+    ]
     if missing:
         other = any(name.startswith(f"{other_kind}_") for name in names)
         raise InputError(
@@ -118,21 +86,58 @@ def _read(
             where=str(path),
             remedy=other_remedy if other else "Add or rename the columns; the unit is part of the name.",
         )
-    result = {}
-    for quantity, (i, factor) in chosen.items():
-        column = table.column(i)
-        kind = column.type
-        if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
-            raise InputError(
-                f"column {names[i]} holds {kind}, not numbers",
-                where=str(path),
-                allowed="numbers with a decimal point",
-                remedy="Look for text among the values, such as a second header line or a unit line.",
-            )
-        # Empty cells become NaN here and are reported with their time.
-        values = column.cast(pa.float64()).to_numpy() * factor
-        result[quantity] = _rebuild_uniform(values) if quantity == "time" and kind == pa.float32() else values
-    return result, tuple(names[i] for i, _ in chosen.values())
+    chosen = {quantity: place for quantity, place in found.items() if place is not None}
+    columns = {name: _values(table, *place, name == "time", str(path)) for name, place in chosen.items()}
+    result: dict = {name: columns[name] for name in _BASE if name in columns}
+    result |= {field: np.column_stack([columns[name] for name in vectors[field]]) for field in vectors}
+    return result | {"reading": tuple(names[i] for i, _ in chosen.values())}
+
+
+def _spellings(prefixes: tuple[str, ...], factors: Mapping[str, float]) -> dict[str, float]:
+    return {f"{prefix}_{unit}": factor for prefix in prefixes for unit, factor in factors.items()}
+
+
+def _find(
+    names: list[str], quantity: str, prefixes: tuple[str, ...], factors: Mapping[str, float], where: str
+) -> tuple[int, float] | None:
+    """Column of a quantity and the factor that makes it SI; None if there is none."""
+    spellings = _spellings(prefixes, factors)
+    found = [i for i, name in enumerate(names) if name in spellings]
+    if len(found) > 1:
+        raise InputError(
+            f"columns {' and '.join(names[i] for i in found)} both give {quantity}",
+            where=where,
+            allowed=f"one of {', '.join(spellings)}",
+            remedy="Remove or rename all but one of them.",
+        )
+    if found:
+        return found[0], spellings[names[found[0]]]
+    near = [name for name in names if any(name == prefix or name.startswith(f"{prefix}_") for prefix in prefixes)]
+    if near:
+        raise InputError(
+            f"column {near[0]} has no known unit",
+            where=where,
+            allowed=", ".join(spellings),
+            remedy="Convert the values and rename the column.",
+        )
+    return None
+
+
+def _values(table, index: int, factor: float, is_time: bool, where: str) -> NDArray[np.float64]:
+    import pyarrow as pa
+
+    column = table.column(index)
+    kind = column.type
+    if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
+        raise InputError(
+            f"column {table.column_names[index].strip()} holds {kind}, not numbers",
+            where=where,
+            allowed="numbers with a decimal point",
+            remedy="Look for text among the values, such as a second header line or a unit line.",
+        )
+    # Empty cells become NaN here and are reported with their time.
+    values = column.cast(pa.float64()).to_numpy() * factor
+    return _rebuild_uniform(values) if is_time and kind == pa.float32() else values
 
 
 def _open(path: Path):
@@ -149,11 +154,8 @@ def _open(path: Path):
             return file.read()
     except (pa.ArrowException, OSError, ValueError) as error:
         kind = "CSV" if path.suffix.lower() == ".csv" else "Parquet"
-        raise InputError(
-            f"not readable as a {kind} table ({error})",
-            where=str(path),
-            remedy="Write or copy the file again, if it was cut off.",
-        ) from error
+        what = f"not readable as a {kind} table ({error})"
+        raise InputError(what, where=str(path), remedy="Write or copy the file again, if it was cut off.") from error
 
 
 def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -25,6 +25,7 @@ from macroslip.contact.table import chords_for, patch_of
 from macroslip.measures.totals import orbit_at
 from macroslip.ring.orbit import angle_at
 from macroslip.roller.forces import LOWEST_SPEED, cage_traction
+from macroslip.roller.step import STEP
 
 if TYPE_CHECKING:
     from macroslip.contact.laws import ContactLaws, RollerLaws
@@ -171,7 +172,7 @@ def _remember(step, last, orbit, angle, memory):
 
 
 @jit
-def _choose(steps, j, angles, edges, memory, outer_radius, at_end, looks):
+def _choose(steps, j, angles, edges, memory, outer_radius, looks):
     """Write the looks of a buffer; returns how many. `angles` are the shaft's at the ends of the steps, and at the first start."""
     found = 0
     for n in range(steps.shape[0]):
@@ -188,8 +189,7 @@ def _choose(steps, j, angles, edges, memory, outer_radius, at_end, looks):
             memory.energy[i] += energy
             memory.moment[i] += energy * (middle - memory.time)
         orbit, last = orbit_at(edges, middle, memory.orbit), step.stages - 1
-        ends = at_end and n == steps.shape[0] - 1
-        if ends or orbit != memory.orbit or _is_due(step, last, memory, outer_radius):
+        if orbit != memory.orbit or _is_due(step, last, memory, outer_radius):
             look, span = looks[found], step.end - memory.time
             look.step, look.orbit, look.span, look.number = n, orbit, span, memory.count
             look.before, look.after = memory.angle, angles[n + 1]
@@ -360,23 +360,36 @@ class Looker:
         self.details = new_details(edges)
         self._roller, self._laws, self._contacts, self._motion = roller, laws, contacts, motion
         self._start_angle = start_angle
+        self._last = np.zeros((1, 1), STEP)
 
-    def add(self, steps: np.ndarray, j: int, *, last: bool = False) -> None:
-        """Take up the steps of roller `j` in a buffer; the last one ends with a look."""
-        if not len(steps):
-            return
+    def add(self, steps: np.ndarray, j: int) -> None:
+        """Take up the steps of roller `j` in a buffer."""
+        self._last[0, 0] = steps[-1, j]
         body, times = self._roller.body[0], np.append(steps[0, j]["start"], steps[:, j]["end"])
         angles = angle_at(self._motion, times)
         looks = np.zeros(len(steps), _LOOK)
         memory = self.details.memory[0]
-        count = _choose(steps, j, angles, self.details.edges, memory, body["outer_radius"], last, looks)
+        count = _choose(steps, j, angles, self.details.edges, memory, float(body["outer_radius"]), looks)
         if count:
-            looks = looks[:count]
-            states = self._states(steps[looks["step"], j])
-            _look(
-                steps, j, looks, states, self._contacts, self._start_angle, float(body["orbit_ratio"]), self.details
-            )
-            self._check_quadrature(steps[looks["step"], j], looks, states)
+            self._look(steps, j, looks[:count])
+
+    def finish(self) -> None:
+        """Spread what has been kept since the last look."""
+        memory, end = self.details.memory[0], float(self._last["end"][0, 0])
+        if memory["time"] < end:
+            look = np.zeros(1, _LOOK)
+            angle = angle_at(self._motion, np.array([end]))[0]
+            moment = memory["moment"] / np.maximum(memory["energy"] * (end - memory["time"]), 1e-300)
+            look[0] = (
+                0, memory["orbit"], end - memory["time"], memory["angle"], angle, memory["energy"],
+                np.clip(moment, 0.0, 1.0), 1,
+            )  # fmt: skip
+            self._look(self._last, 0, look)
+
+    def _look(self, steps: np.ndarray, j: int, looks: np.ndarray) -> None:
+        states, ratio = self._states(steps[looks["step"], j]), float(self._roller.body[0]["orbit_ratio"])
+        _look(steps, j, looks, states, self._contacts, self._start_angle, ratio, self.details)
+        self._check_quadrature(steps[looks["step"], j], looks, states)
 
     def _states(self, steps: np.ndarray) -> np.ndarray:
         """Load, film, share of asperities, and power of the cage at the ends of steps."""

@@ -1,6 +1,5 @@
 """The usual ratings beside slip: static safety, rating lives, pressures, film ratio, minimum load, load spectra."""
 
-from macroslip.rating.rate import rate
-from macroslip.rating.roller_load import roller_load_history
+from macroslip.rating.rate import rate, roller_load_history
 
 __all__ = ["rate", "roller_load_history"]

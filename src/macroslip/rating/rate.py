@@ -3,27 +3,33 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing import geometry
+from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.load_ratings import fatigue_load_limit
 from macroslip.errors import InputError
-from macroslip.rating import iso76, iso281, iso16281
-from macroslip.rating.contacts import FILM_LAW, contact_numbers
-from macroslip.rating.history import RACEWAYS, History, load_history, variable
-from macroslip.rating.minimum_load import minimum_load
-from macroslip.rating.spectrum import damage_equivalent_load, load_duration
-from macroslip.roller.model import interfaces
+from macroslip.contact.interface import highest_load, interfaces
+from macroslip.contact.registry import FILM_LAWS
+from macroslip.loads import BearingLoads
+from macroslip.mechanisms import Laws
+from macroslip.rating import iso
+from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
+from macroslip.ring.balance import roller_loads
+from macroslip.ring.motion import ring_motion
+from macroslip.roller.model import ring_geometry, roller_model
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
     from macroslip.bearing import Bearing
-    from macroslip.loads import BearingLoads
     from macroslip.lubricant import Lubricant
 
+RACEWAYS = ("inner", "outer")
+FILM_LAW = "masjedi-khonsari"
 #: How the load of a roller lies along it, for the reference life.
 DISTRIBUTIONS = ("hertz", "uniform")
 LOADS = ("radial", "axial", "equivalent")
@@ -31,6 +37,51 @@ LOAD_CLASSES = 40
 CONTAMINATION = 0.5
 """e_C by default: between slight and typical contamination of a bearing with a pitch above 100 mm; an estimate."""
 WOHLER_EXPONENTS = (4.0, 10.0)
+_HOUR = 3600.0
+
+
+def roller_load_history(
+    bearing: Bearing, lubricant: Lubricant, loads: BearingLoads
+) -> tuple[BearingLoads, NDArray[np.float64]]:
+    """Elastic load of every roller at every sample.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    lubricant : Lubricant
+        No roller load depends on it.
+    loads : BearingLoads
+        Load on the inner ring.
+
+    Returns
+    -------
+    loads : BearingLoads
+        The same loads, with samples in between where the shaft turns too far between two of them.
+    roller_load : ndarray, shape (2, Z, n)
+        Q [N] over row, roller and the samples of these loads.
+
+    Raises
+    ------
+    InputError
+        If a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
+
+    Examples
+    --------
+    >>> from macroslip import Bearing, BearingLoads, Lubricant
+    >>> thrust = BearingLoads.constant([0.0, 0.0, 100e3], 2.1, 1.0)
+    >>> _, load = roller_load_history(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), thrust)
+    >>> load.shape, round(load[0].sum(axis=0)[0] * np.sin(np.radians(11.2))), load[1].max().item()
+    ((2, 28, 21), 100000, 0.0)
+    """
+    model = roller_model(bearing, lubricant, AXIAL_SIGNS["downwind"], tilt=0.0)
+    ring = ring_geometry(bearing, model)
+    motion, _ = ring_motion(loads, bearing, ring, highest_load(bearing, lubricant, Laws.physical()))
+    found = np.empty((motion.time.size, len(ROWS) * bearing.rollers_per_row))
+    for line, angle, place in zip(found, motion.shaft_angle, motion.displacement, strict=True):
+        roller_loads(ring, angle, place, line)
+    force = np.column_stack([np.interp(motion.time, loads.time, component) for component in loads.force.T])
+    finer = BearingLoads(motion.time, motion.shaft_speed, force, loads.source)
+    return finer, np.moveaxis(found, 0, -1).reshape(len(ROWS), bearing.rollers_per_row, -1)
 
 
 def rate(
@@ -82,20 +133,9 @@ def rate(
     """
     import xarray as xr
 
-    history = load_history(bearing, loads, roller_load)
-    if not 0.0 < contamination <= 1.0:
-        raise InputError(
-            f"the contamination factor is {contamination!r}",
-            allowed="a number above 0 and at most 1",
-            remedy="1 is extreme cleanliness, 0.5 slight to typical contamination, 0.1 severe contamination",
-        )
-    parts = (
-        _static(bearing, history),
-        _iso281(bearing, lubricant, history, contamination),
-        _reference(bearing, lubricant, history, contamination),
-        contact_numbers(bearing, lubricant, history),
-        _spectra(history, wohler_exponents),
-    )
+    history = _history(bearing, lubricant, loads, roller_load, contamination)
+    parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
+             _spectra(history, wohler_exponents))  # fmt: skip
     variables = {name: value for part in parts for name, value in part.items()}
     edges = _class_edges(history)
     coordinates = {
@@ -104,74 +144,141 @@ def rate(
         "load_along_roller": list(DISTRIBUTIONS),
         "load": list(LOADS),
         "wohler_exponent": list(wohler_exponents),
-        "load_class": variable(0.5 * (edges[1:] + edges[:-1]), "N", "middle of the class of load", "load_class"),
+        "load_class": _variable(0.5 * (edges[1:] + edges[:-1]), "N", "middle of the class of load", "load_class"),
     }
     return xr.Dataset(variables, coordinates, {"bearing": bearing.name, "lubricant": lubricant.name,
                                                "contamination": contamination, "film_law": FILM_LAW})  # fmt: skip
+
+
+class _History(NamedTuple):
+    """A bearing, its ratings C, C0 and C_u [N], and its loads over n samples."""
+
+    bearing: Bearing
+    lubricant: Lubricant
+    loads: BearingLoads
+    contamination: float
+    dynamic: float
+    static: float
+    fatigue_limit: float
+    #: Q [N] over (row, roller, sample).
+    roller_load: NDArray[np.float64]
+    #: Time [s] and turns of the shaft [-] that every sample represents.
+    duration: NDArray[np.float64]
+    revolutions: NDArray[np.float64]
+    #: Fr, Fa, P and P0 [N].
+    radial: NDArray[np.float64]
+    axial: NDArray[np.float64]
+    equivalent: NDArray[np.float64]
+    static_equivalent: NDArray[np.float64]
+
+    @property
+    def viscosity_ratio(self) -> float:
+        """Kappa at the mean speed; NaN for a shaft at rest."""
+        mean_speed = 2.0 * math.pi * self.revolutions.sum() / self.duration.sum()
+        if mean_speed == 0.0:
+            return math.nan
+        kinematic = self.lubricant.viscosity / self.lubricant.density
+        return kinematic / iso.reference_viscosity(mean_speed, 2.0 * self.bearing.pitch_radius)
+
+    @property
+    def hours_a_revolution(self) -> float:
+        """Mean time of a turn of the shaft [h]; NaN for a shaft at rest."""
+        turned = self.revolutions.sum()
+        return self.duration.sum() / turned / _HOUR if turned > 0.0 else math.nan
+
+
+def _variable(values: object, units: str, long_name: str, *dims: str) -> tuple:
+    """A variable of a dataset, with its unit and name."""
+    return dims, values, {"units": units, "long_name": long_name}
+
+
+def _history(
+    bearing: Bearing, lubricant: Lubricant, loads: BearingLoads, roller_load: NDArray[np.float64], contamination: float
+) -> _History:
+    """Check the input of `rate` and prepare what its parts share."""
+    keys = ("dynamic_load_rating", "static_load_rating", "axial_factor_e", "axial_factor_y1", "axial_factor_y2",
+            "axial_factor_y0")  # fmt: skip
+    bearing.require(*keys, purpose="the rating")
+    dynamic, static, e, y1, y2, y0 = (float(getattr(bearing, key)) for key in keys)
+    limit = bearing.fatigue_load_limit
+    if limit is None:
+        limit = fatigue_load_limit(static, 2.0 * bearing.pitch_radius)
+    roller_load = np.asarray(roller_load, float)
+    expected = (len(ROWS), bearing.rollers_per_row, loads.time.size)
+    if roller_load.shape != expected or not np.all(roller_load >= 0.0) or not np.all(np.isfinite(roller_load)):
+        raise InputError(
+            f"roller_load has the shape {roller_load.shape}, or loads that are negative or not finite",
+            allowed=f"loads from 0 N in the shape {expected}: row, roller, sample",
+            remedy="Take them from macroslip.rating.roller_load_history.",
+        )
+    if not 0.0 < contamination <= 1.0:
+        raise InputError(
+            f"the contamination factor is {contamination!r}",
+            allowed="a number above 0 and at most 1",
+            remedy="1 is extreme cleanliness, 0.5 slight to typical contamination, 0.1 severe contamination",
+        )
+    duration = sample_durations(loads.time)
+    radial, axial = np.hypot(loads.force[:, 0], loads.force[:, 1]), loads.force[:, 2]
+    return _History(
+        bearing, lubricant, loads, contamination, dynamic, static, limit, roller_load, duration,
+        duration * np.abs(loads.shaft_speed) / (2.0 * math.pi), radial, axial,
+        iso.dynamic_equivalent_load(radial, axial, e, y1, y2), iso.static_equivalent_load(radial, axial, y0),
+    )  # fmt: skip
 
 
 def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
     return float(weight[condition].sum() / weight.sum())
 
 
-def _viscosity_ratio(bearing: Bearing, lubricant: Lubricant, history: History) -> float:
-    """Kappa at the mean speed; NaN for a shaft at rest."""
-    mean_speed = 2.0 * math.pi * history.revolutions.sum() / history.duration.sum()
-    if mean_speed == 0.0:
-        return math.nan
-    kinematic = lubricant.viscosity / lubricant.density
-    return kinematic / iso281.reference_viscosity(mean_speed, 2.0 * bearing.pitch_radius)
-
-
-def _static(bearing: Bearing, history: History) -> dict[str, tuple]:
-    equivalent = iso76.static_equivalent_load(history.radial, history.axial, history.published.y0)
-    least = minimum_load(history.published.static)
+def _static(history: _History) -> dict[str, tuple]:
+    least = iso.minimum_load(history.static)
     below = _share(history.equivalent < least, history.duration)
-    safety = iso76.static_safety(history.published.static, equivalent.max())
+    safety = iso.static_safety(history.static, history.static_equivalent.max())
     return {
-        "static_equivalent_load": variable(float(equivalent.max()), "N", "largest static equivalent load P0"),
-        "static_safety": variable(float(safety), "1", "static safety factor C0/P0, the least"),
-        "minimum_load": variable(least, "N", "least load P that the maker requires, 0.01 C0"),
-        "share_below_minimum_load": variable(below, "1", "share of time in which P is below the minimum load"),
+        "static_equivalent_load": _variable(
+            float(history.static_equivalent.max()), "N", "largest static equivalent load P0"
+        ),
+        "static_safety": _variable(float(safety), "1", "static safety factor C0/P0, the least"),
+        "minimum_load": _variable(least, "N", "least load P that the maker requires, 0.01 C0"),
+        "share_below_minimum_load": _variable(below, "1", "share of time in which P is below the minimum load"),
     }
 
 
-def _iso281(bearing: Bearing, lubricant: Lubricant, history: History, contamination: float) -> dict[str, tuple]:
-    mean = iso281.mean_equivalent_load(history.equivalent, history.revolutions)
-    limit = history.published.fatigue_limit
-    kappa = _viscosity_ratio(bearing, lubricant, history)
-    life = iso281.basic_life(history.published.dynamic, mean) * history.hours_a_revolution
-    factor = float(iso281.life_modification(kappa, contamination, limit / mean if mean else math.inf))
+def _iso281(history: _History) -> dict[str, tuple]:
+    mean = iso.mean_equivalent_load(history.equivalent, history.revolutions)
+    limit = history.fatigue_limit
+    kappa = history.viscosity_ratio
+    life = iso.basic_life(history.dynamic, mean) * history.hours_a_revolution
+    factor = float(iso.life_modification(kappa, history.contamination, limit / mean if mean else math.inf))
     below = _share(history.equivalent < limit, history.duration)
     return {
-        "equivalent_load": variable(mean, "N", "mean dynamic equivalent load P_m"),
-        "fatigue_load_limit": variable(limit, "N", "fatigue load limit C_u"),
-        "share_below_fatigue_load_limit": variable(below, "1", "share of time in which P is below C_u"),
-        "viscosity_ratio": variable(kappa, "1", "viscosity ratio kappa at the mean speed"),
-        "basic_life": variable(float(life), "h", "basic rating life L10h, ISO 281"),
-        "life_modification": variable(factor, "1", "life modification factor a_ISO"),
-        "modified_life": variable(float(life * factor), "h", "modified rating life, ISO 281"),
+        "equivalent_load": _variable(mean, "N", "mean dynamic equivalent load P_m"),
+        "fatigue_load_limit": _variable(limit, "N", "fatigue load limit C_u"),
+        "share_below_fatigue_load_limit": _variable(below, "1", "share of time in which P is below C_u"),
+        "viscosity_ratio": _variable(kappa, "1", "viscosity ratio kappa at the mean speed"),
+        "basic_life": _variable(float(life), "h", "basic rating life L10h, ISO 281"),
+        "life_modification": _variable(factor, "1", "life modification factor a_ISO"),
+        "modified_life": _variable(float(life * factor), "h", "modified rating life, ISO 281"),
     }
 
 
-def _ring_damages(bearing: Bearing, lubricant: Lubricant, history: History) -> NDArray[np.float64]:
+def _ring_damages(history: _History) -> NDArray[np.float64]:
     """Damage (Q_e/Q_c)^(9/2) over distribution, row, raceway and sample."""
+    bearing = history.bearing
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.roller_diameter * cosine / (2.0 * bearing.pitch_radius)
-    ratings = iso16281.ring_ratings(
-        history.published.dynamic, len(ROWS), bearing.rollers_per_row, bearing.contact_angle, gamma
-    )
-    semi_axes = [raceway.hertz.semi_axis_across for raceway in interfaces(bearing, lubricant)]
+    ratings = iso.ring_ratings(history.dynamic, len(ROWS), bearing.rollers_per_row, bearing.contact_angle, gamma)
+    semi_axes = [raceway.hertz.semi_axis_across for raceway in interfaces(bearing, history.lubricant)]
     found = np.empty((len(DISTRIBUTIONS), len(ROWS), len(RACEWAYS), history.loads.time.size))
     for row, load in enumerate(history.roller_load):
         for k, rating in enumerate(ratings):
             stationary = RACEWAYS[k] == "outer"
-            found[:, row, k] = iso16281.damage_series(load, semi_axes[k], bearing.roller_length, rating, stationary)
+            found[:, row, k] = iso.damage_series(load, semi_axes[k], bearing.roller_length, rating, stationary)
     return found
 
 
-def _reference(bearing: Bearing, lubricant: Lubricant, history: History, contamination: float) -> dict[str, tuple]:
-    damages = _ring_damages(bearing, lubricant, history)
+def _reference(history: _History) -> dict[str, tuple]:
+    damages = _ring_damages(history)
 
     def hours(life: NDArray[np.float64]) -> NDArray[np.float64]:
         # Palmgren and Miner: the shares of life used by each load add up.
@@ -180,31 +287,64 @@ def _reference(bearing: Bearing, lubricant: Lubricant, history: History, contami
         with np.errstate(divide="ignore", invalid="ignore"):
             return turned / used * history.hours_a_revolution
 
-    together = iso16281.reference_life(damages, axis=(1, 2))
-    load = history.published.dynamic * (1e6 / together) ** (1.0 / iso281.LIFE_EXPONENT)
-    kappa = _viscosity_ratio(bearing, lubricant, history)
+    together = iso.reference_life(damages, axis=(1, 2))
+    load = history.dynamic * (1e6 / together) ** (1.0 / iso.LIFE_EXPONENT)
     with np.errstate(divide="ignore"):
-        factor = iso281.life_modification(kappa, contamination, history.published.fatigue_limit / load)
-    by_raceway = hours(iso16281.reference_life(damages, axis=()))
+        factor = iso.life_modification(history.viscosity_ratio, history.contamination, history.fatigue_limit / load)
+    by_raceway = hours(iso.reference_life(damages, axis=()))
     name = "basic reference rating life, ISO/TS 16281"
     return {
-        "reference_life": variable(hours(together), "h", name, "load_along_roller"),
-        "raceway_reference_life": variable(
+        "reference_life": _variable(hours(together), "h", name, "load_along_roller"),
+        "raceway_reference_life": _variable(
             by_raceway, "h", f"{name}, one raceway", "load_along_roller", "row", "raceway"
         ),
-        "modified_reference_life": variable(
+        "modified_reference_life": _variable(
             hours(together * factor), "h", "modified reference rating life", "load_along_roller"
         ),
     }
 
 
-def _class_edges(history: History) -> NDArray[np.float64]:
+def _contacts(history: _History) -> dict[str, tuple]:
+    """Largest roller load and pressure of each row, and the film ratio where rollers carry load."""
+    bearing = history.bearing
+    raceways = interfaces(bearing, history.lubricant)[: len(RACEWAYS)]
+    load = history.roller_load
+    largest = load.max(axis=(1, 2))
+    pressure = np.array([[raceway.hertz.pressure * np.cbrt(one) for raceway in raceways] for one in largest])
+    inner, outer = geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing)
+    entrainment = np.abs(history.loads.shaft_speed) * inner * outer / (inner + outer)
+    low, middle = np.full((2, len(ROWS), len(RACEWAYS)), np.nan)
+    weights = np.broadcast_to(history.duration, load.shape[1:])
+    for k, raceway in enumerate(raceways):
+        film = FILM_LAWS.named(FILM_LAW)
+        for row in range(len(ROWS)):
+            carried = (load[row] > 0.0) & (entrainment > 0.0)
+            if carried.any():
+                speed = np.broadcast_to(entrainment, carried.shape)[carried]
+                ratio = film(raceway, load[row][carried], speed) / bearing.composite_roughness
+                quantiles = _quantiles(ratio, weights[carried], (0.05, 0.5))
+                low[row, k], middle[row, k] = quantiles
+    return {
+        "largest_roller_load": _variable(largest, "N", "largest roller load", "row"),
+        "largest_pressure": _variable(pressure, "Pa", "largest Hertz pressure", "row", "raceway"),
+        "film_ratio": _variable(middle, "1", "film ratio Lambda, median over loaded rollers", "row", "raceway"),
+        "film_ratio_low": _variable(low, "1", "film ratio Lambda, 5 % of loaded rollers below", "row", "raceway"),
+    }
+
+
+def _quantiles(values: NDArray, weights: NDArray, shares: tuple[float, ...]) -> NDArray[np.float64]:
+    order = np.argsort(values)
+    reached = np.cumsum(weights[order])
+    return values[order][np.searchsorted(reached, np.array(shares) * reached[-1]).clip(max=values.size - 1)]
+
+
+def _class_edges(history: _History) -> NDArray[np.float64]:
     reach = [history.radial, history.axial, history.equivalent]
     low, high = min(one.min() for one in reach), max(one.max() for one in reach)
     return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
 
 
-def _spectra(history: History, exponents: tuple[float, ...]) -> dict[str, tuple]:
+def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple]:
     edges = _class_edges(history)
     by_name = dict(zip(LOADS, (history.radial, history.axial, history.equivalent), strict=True))
     times = [load_duration(load, history.duration, edges) for load in by_name.values()]
@@ -212,9 +352,9 @@ def _spectra(history: History, exponents: tuple[float, ...]) -> dict[str, tuple]
     total = history.duration.sum()
     ranges = [[damage_equivalent_load(load, total, one) for one in exponents] for load in by_name.values()]
     return {
-        "time_share": variable(times, "1", "share of time in the class of load", "load", "load_class"),
-        "revolution_share": variable(turns, "1", "share of revolutions in the class", "load", "load_class"),
-        "damage_equivalent_load": variable(
+        "time_share": _variable(times, "1", "share of time in the class of load", "load", "load_class"),
+        "revolution_share": _variable(turns, "1", "share of revolutions in the class", "load", "load_class"),
+        "damage_equivalent_load": _variable(
             ranges, "N", "range of the damage-equivalent load at 1 Hz", "load", "wohler_exponent"
         ),
     }

@@ -83,7 +83,7 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
 def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0) -> float:
     """Range of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
 
-    Cycles are counted by the rainflow method; the history is taken as repeating, so that every cycle closes.
+    Cycles are those of `rainflow_ranges`.
 
     Parameters
     ----------
@@ -103,8 +103,7 @@ def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *,
 
     References
     ----------
-    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17. IEC 61400-13,
-    annex on damage-equivalent loads.
+    IEC 61400-13, annex on damage-equivalent loads.
 
     Examples
     --------

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from macroslip.catalogue.entry import TAGS
 from macroslip.catalogue.units import with_unit
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.machine import machine
 from macroslip.report.bibliography import bibtex
 from macroslip.report.page import Paragraph, Section, Table, Verbatim

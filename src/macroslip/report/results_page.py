@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from macroslip.errors import InputError
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.report.bearing_figures import plot_case_energies
 from macroslip.report.bearing_section import further_blocks, roller_sections, view_section
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Table, render

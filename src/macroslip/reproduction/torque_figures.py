@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from macroslip.torque.comparison import TorqueHistory
+    from macroslip.torque import TorqueHistory
 
 _STYLES = ((BLUE, "-"), (ORANGE, "--"), (GREEN, "-."), (BLACK, ":"), (GREY, "-"))
 

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.film.film_law import film_in_range, film_thickness
 from macroslip.result.orbit_position import in_window, position
 from macroslip.result.run_input import run_input
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED
+from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED
 from macroslip.roller.model import RollerModel
 
 if TYPE_CHECKING:
@@ -54,12 +53,10 @@ def films(result: xr.Dataset) -> xr.Dataset:
     speed = np.maximum(speed, LOWEST_ENTRAINMENT_SPEED)
     thickness, inside = np.full(load.shape, np.nan), np.full(load.shape, np.nan)
     model = next(iter(models.values()))
-    for i, contact in enumerate((model.inner, model.outer, model.cage)):
+    for i, contact in enumerate(model.laws):
         here = (load[..., i] > 0.0) & np.isfinite(speed[..., i])
-        arguments = zip(load[..., i][here].tolist(), speed[..., i][here].tolist(), strict=True)
-        found = [(film_thickness(contact.film, *one)[0], film_in_range(contact.film, *one)) for one in arguments]
-        if found:
-            thickness[..., i][here], inside[..., i][here] = np.array(found, dtype=float).T
+        thickness[..., i][here] = contact.film_thickness(load[..., i][here], speed[..., i][here])
+        inside[..., i][here] = contact.film_in_range(load[..., i][here], speed[..., i][here])
     dims = ("row", "roller", "time", "interface")
     coordinates = {name: result[name] for name in ("row", "roller", "interface")} | {"time": window.time}
     return xr.Dataset(
@@ -78,7 +75,7 @@ def films(result: xr.Dataset) -> xr.Dataset:
 
 
 def _raceway_loads(model: RollerModel, row: xr.Dataset, angle: np.ndarray) -> np.ndarray:
-    """Normal loads at inner and outer raceway with weight and centrifugal force (18), as `roller.forces.station`."""
+    """Normal loads at inner and outer raceway with weight and centrifugal force (18), as `macroslip.roller.forces.station`."""
     orbital = row.spin_pure.values * model.radius / model.outer_radius
     height = -np.cos(np.radians(angle))  # sine of the position φ
     outward = (model.centrifugal * orbital**2 - model.weight_in_plane * height) * model.cos_contact_angle

@@ -10,7 +10,8 @@ from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.ring.balance import roller_loads
 from macroslip.ring.motion import ring_motion
-from macroslip.roller.model import highest_load, ring_geometry, roller_model
+from macroslip.contact.interface import highest_load
+from macroslip.roller.model import ring_geometry, roller_model
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,7 +12,7 @@ import numpy as np
 
 from macroslip.bearing.frames import ROWS
 from macroslip.errors import InputError
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.result.variables import INTERFACES, VARIABLES
 
 if TYPE_CHECKING:

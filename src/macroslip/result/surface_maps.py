@@ -16,13 +16,13 @@ import numpy as np
 from macroslip.bearing import geometry
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
 from macroslip.errors import InputError
-from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS
+from macroslip.measures.details import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.bearing import Bearing
-    from macroslip.integrate.record import RollerRecord
+    from macroslip.measures.details import Details
 
 _PLACES = ("row", "raceway", "angle", "station")
 #: As `macroslip.result.variables.VARIABLES`.
@@ -41,7 +41,7 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
 }
 
 
-def values(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Maps of the rows; NaN for a row with a roller that failed, whose part is missing."""
     energy = np.array([sum(record.surface_energy for record in line) for line in records])
     density = np.array([np.max([record.surface_density for record in line], axis=0) for line in records])

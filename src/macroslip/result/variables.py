@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from macroslip.integrate.record import COUNTS
+from macroslip.measures.totals import INTERFACES
 from macroslip.result import surface_maps
 
-INTERFACES = ("inner", "outer", "cage")
+#: What an integrator counts.
+COUNTS = ("steps", "rejections", "force_evaluations")
 _ROLLERS = ("row", "roller")
 _INTERFACES = (*_ROLLERS, "interface")
 _ORBITS = (*_ROLLERS, "orbit", "interface")
@@ -64,6 +65,7 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "spin": (_TRACES, "rad/s", "spin about the roller's axis, relative to the orbiting frame"),
     "spin_pure": (_TRACES, "rad/s", "spin in pure rolling, relative to the orbiting frame"),
     "slip": (_TRACES, "m/s", "slip at the middle of either raceway contact, ring less roller"),
+    "raceway_slip": ((*_TRACES, "raceway"), "m/s", "slip at the middle of a raceway contact"),
     "roller_load": (_TRACES, "N", "elastic load of the roller, without body forces"),
     "cage_force": (_TRACES, "N", "normal force of the cage on the roller, positive along the orbit"),
     "traction": (

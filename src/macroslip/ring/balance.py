@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_lawless
+from macroslip.compiled import jit
 
 #: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts as failed.
 _WARM_ITERATIONS, _COLD_ITERATIONS = 40, 200
@@ -184,7 +184,7 @@ def balance(ring, shaft_angle, force, displacement):
     return unbalanced
 
 
-@jit_lawless
+@jit
 def balance_series(ring, shaft_angle, force, current, displacement, unbalanced):
     """`balance` over a series, each sample started from the one before.
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.compiled import jit_lawless
+from macroslip.compiled import jit
 from macroslip.errors import InputError, MacroslipError
 from macroslip.ring.balance import RingGeometry, balance_series, roller_loads
 from macroslip.ring.orbit import Motion, shaft_angle
@@ -26,7 +26,7 @@ _NEGLIGIBLE_FORCE = 1e-3
 _SAMPLES_AT_A_TIME = 20_000
 
 
-@jit_lawless
+@jit
 def largest_load(ring, angle, displacement):
     """Largest roller load in a series [N], and the index of its sample."""
     loads = np.empty(ring.cosine.size)

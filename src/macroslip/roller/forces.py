@@ -11,6 +11,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.closed_form import patch_integral
 from macroslip.contact.look_up import Traction, in_plane, log_load, log_speed, traction
@@ -25,29 +27,34 @@ _FADED = 1.0 / 30.0
 _LIGHTEST, _HEAVIEST, _ITERATIONS = math.log(1e-9), math.log(1e7), 60
 
 
-class Station(NamedTuple):
-    """What a roller meets at one place and time, whatever its spin.
-
-    Attributes
-    ----------
-    ring_speed : float
-        Speed of both raceway surfaces past the roller's centre, u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s].
-    interference : float
-        Elastic approach δ of ring, roller and ring [m]; negative where there is play.
-    elastic_load : float
-        Load Q that the rings press on the roller [N].
-    inner_load, outer_load : float
-        Normal loads with body forces [N], and those of films that share a roller's play.
-    tangential : float
-        F_g,x' + F_d,x' [N], along +x'.
-    """
-
-    ring_speed: float
-    interference: float
-    elastic_load: float
-    inner_load: float
-    outer_load: float
-    tangential: float
+#: What a roller meets at one place and time, whatever its spin.
+#:
+#: ring_speed : speed of both raceway surfaces past the roller's centre, u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s]
+#: interference : elastic approach δ of ring, roller and ring [m]; negative where there is play
+#: elastic_load : load Q that the rings press on the roller [N]
+#: inner_load, outer_load : normal loads with body forces, and those of films that share a roller's play [N]
+#: tangential : F_g,x' + F_d,x', along +x' [N]
+STATION = np.dtype(
+    [(name, "f8") for name in ("ring_speed", "interference", "elastic_load", "inner_load", "outer_load", "tangential")]
+)
+#: Tangential forces on a roller at a given slip.
+#:
+#: inner, outer, cage : F_i, F_o, F_c in the spin equation, that is moments over r, positive where they drive the spin ω up [N]
+#: slope : d(F_i + F_o + F_c + resistance)/dv [N s/m]
+#: inner_slope, outer_slope : dF_i/dv and dF_o/dv [N s/m]
+#: cage_load, cage_load_slope : F_n,cage with its sign, positive where the cage pushes the roller along +φ [N], and its derivative by
+#:     v [N s/m]
+#: resistance : rolling resistance of all three contacts in the spin equation [N]; its derivative is in `slope`
+#: rolling : power of rolling resistance by interface [W]
+#: lag, skew : ∫τ h/r dA [N] and skew moment ∫τ ζ dA [N m] of the raceways
+#: rough : power that asperities dissipate by interface [W]
+FORCES = np.dtype(
+    [
+        *((name, "f8") for name in ("inner", "outer", "cage", "slope", "inner_slope", "outer_slope")),
+        ("cage_load", "f8"), ("cage_load_slope", "f8"), ("resistance", "f8"),
+        ("rolling", "f8", (3,)), ("lag", "f8", (2,)), ("skew", "f8", (2,)), ("rough", "f8", (3,)),
+    ]
+)  # fmt: skip
 
 
 class Oil(NamedTuple):
@@ -90,52 +97,6 @@ class Cage(NamedTuple):
     resistance_by_load: float
     rolling: float
     asperity_power: float
-
-
-class SlipForces(NamedTuple):
-    """Tangential forces on a roller at a given slip.
-
-    Attributes
-    ----------
-    inner, outer, cage : float
-        F_i, F_o, F_c [N] in the spin equation, that is moments over r, positive where they drive the spin ω up.
-    slope : float
-        d(F_i + F_o + F_c + resistance)/dv [N s/m].
-    inner_slope, outer_slope : float
-        dF_i/dv and dF_o/dv [N s/m].
-    cage_load, cage_load_slope : float
-        F_n,cage with its sign [N], positive where the cage pushes the roller along +φ, and its derivative by v [N s/m].
-    resistance : float
-        Rolling resistance of all three contacts in the spin equation [N]; its derivative is in `slope`.
-    inner_rolling, outer_rolling, cage_rolling : float
-        Power of rolling resistance [W].
-    inner_lag, outer_lag : float
-        ∫τ h/r dA [N].
-    inner_skew, outer_skew : float
-        Skew moments ∫τ ζ dA [N m].
-    inner_rough, outer_rough, cage_rough : float
-        Power that asperities dissipate [W].
-    """
-
-    inner: float
-    outer: float
-    cage: float
-    slope: float
-    inner_slope: float
-    outer_slope: float
-    cage_load: float
-    cage_load_slope: float
-    resistance: float
-    inner_rolling: float
-    outer_rolling: float
-    cage_rolling: float
-    inner_lag: float
-    outer_lag: float
-    inner_skew: float
-    outer_skew: float
-    inner_rough: float
-    outer_rough: float
-    cage_rough: float
 
 
 @jit_inline
@@ -227,9 +188,9 @@ def film_load(body, tables, load, approach, outward, ring_speed):
     return most * math.exp(-load / most) if most > _FADED * load else 0.0
 
 
-@jit_inline
-def station(body, tables, start_angle, now):
-    """Loads on a roller and speed of the rings past it.
+@jit
+def station(body, tables, start_angle, now, found):
+    """Write loads on a roller and speed of the rings past it.
 
     Parameters
     ----------
@@ -239,10 +200,7 @@ def station(body, tables, start_angle, now):
         Roller position φ at the first sample [rad].
     now : Instant
         The ring's motion.
-
-    Returns
-    -------
-    Station
+    found : record of `STATION`
 
     Notes
     -----
@@ -259,14 +217,9 @@ def station(body, tables, start_angle, now):
     outward += body.weight_along_axis * body.sin_contact_angle
     ring_speed = -orbital_speed * body.outer_radius
     pressed = load + film_load(body, tables, load, approach, outward, ring_speed)
-    return Station(
-        ring_speed,
-        approach,
-        load,
-        pressed - min(outward, 0.0),
-        pressed + max(outward, 0.0),
-        body.weight_in_plane * cosine + body.drag * orbital_speed * abs(orbital_speed),
-    )
+    found.ring_speed, found.interference, found.elastic_load = ring_speed, approach, load
+    found.inner_load, found.outer_load = pressed - min(outward, 0.0), pressed + max(outward, 0.0)
+    found.tangential = body.weight_in_plane * cosine + body.drag * orbital_speed * abs(orbital_speed)
 
 
 @jit_inline
@@ -415,20 +368,17 @@ def cage_contact(body, tables, load, surface_speed, ln_surface):
 
 
 @jit
-def slip_forces(body, tables, at, slip):
-    """Forces of the raceways and the cage for the raceway slip v = Δu_in = Δu_out.
+def slip_forces(body, tables, at, slip, found):
+    """Write the forces of the raceways and the cage for the raceway slip v = Δu_in = Δu_out.
 
     Parameters
     ----------
     body, tables
         The roller.
-    at : Station
+    at : record of `STATION`
     slip : float
         v [m/s].
-
-    Returns
-    -------
-    SlipForces
+    found : record of `FORCES`
 
     Notes
     -----
@@ -456,31 +406,16 @@ def slip_forces(body, tables, at, slip):
     cage_load_slope -= outer.pull_by_slip + outer_oil.sliding_by_slip + body.outer.push * outer_oil.shear_by_slip
     cage = cage_contact(body, tables, abs(cage_load), surface, log_speed(surface))
     by_load = math.copysign(1.0, cage_load) * (cage.friction_by_load + cage.resistance_by_load)
-    inner_slope = inner.pull_by_slip - inner.lag_by_slip + inner_oil.sliding_by_slip
-    outer_slope = outer.pull_by_slip - outer.lag_by_slip + outer_oil.sliding_by_slip
-    slope = inner_slope + outer_slope + inner_oil.shear_by_slip + outer_oil.shear_by_slip
-    slope += cage.friction_by_slip + cage.resistance_by_slip + by_load * cage_load_slope
-    return SlipForces(
-        inner.pull - inner.lag + inner_oil.sliding,
-        outer.pull - outer.lag + outer_oil.sliding,
-        cage.friction,
-        slope,
-        inner_slope,
-        outer_slope,
-        cage_load,
-        cage_load_slope,
-        inner_oil.shear + outer_oil.shear + cage.resistance,
-        inner_oil.power,
-        outer_oil.power,
-        cage.rolling,
-        inner.lag,
-        outer.lag,
-        inner.skew,
-        outer.skew,
-        inner.asperity_power,
-        outer.asperity_power,
-        cage.asperity_power,
-    )
+    found.inner_slope = inner.pull_by_slip - inner.lag_by_slip + inner_oil.sliding_by_slip
+    found.outer_slope = outer.pull_by_slip - outer.lag_by_slip + outer_oil.sliding_by_slip
+    slope = found.inner_slope + found.outer_slope + inner_oil.shear_by_slip + outer_oil.shear_by_slip
+    found.slope = slope + cage.friction_by_slip + cage.resistance_by_slip + by_load * cage_load_slope
+    found.inner, found.outer = inner.pull - inner.lag + inner_oil.sliding, outer.pull - outer.lag + outer_oil.sliding
+    found.cage, found.cage_load, found.cage_load_slope = cage.friction, cage_load, cage_load_slope
+    found.resistance = inner_oil.shear + outer_oil.shear + cage.resistance
+    found.rolling[0], found.rolling[1], found.rolling[2] = inner_oil.power, outer_oil.power, cage.rolling
+    found.lag[0], found.lag[1], found.skew[0], found.skew[1] = inner.lag, outer.lag, inner.skew, outer.skew
+    found.rough[0], found.rough[1], found.rough[2] = inner.asperity_power, outer.asperity_power, cage.asperity_power
 
 
 @jit_inline
@@ -497,18 +432,17 @@ def magnitude(forces):
 
 @jit_inline
 def raceway_power(law, microslip, slip, ring_speed, force, lag, skew):
-    """Frictional power of a raceway contact [W] (33): |F Δu|, and with microslip ∫τ v dA = Δu F + u2 (curvature lag − spin skew)."""
+    """Frictional power of a raceway contact (33) [W]: |F Δu|, with microslip ∫τ v dA = Δu F + u2 (curvature lag − spin skew)."""
     if not microslip:
         return abs(slip * force)
     return slip * force + ring_speed * (law.curvature * lag - law.spin * skew)
 
 
-@jit_inline
-def powers(body, at, forces, slip):
-    """Frictional power (33) at inner, outer and cage interface [W]."""
+@jit
+def powers(body, at, forces, slip, found):
+    """Write the frictional power (33) at inner, outer and cage interface [W]; returns their sum."""
     ring = at.ring_speed
-    return (
-        raceway_power(body.inner, body.microslip, slip, ring, forces.inner, forces.inner_lag, forces.inner_skew),
-        raceway_power(body.outer, body.microslip, slip, ring, forces.outer, forces.outer_lag, forces.outer_skew),
-        abs(forces.cage * (ring - slip)),
-    )
+    found[0] = raceway_power(body.inner, body.microslip, slip, ring, forces.inner, forces.lag[0], forces.skew[0])
+    found[1] = raceway_power(body.outer, body.microslip, slip, ring, forces.outer, forces.lag[1], forces.skew[1])
+    found[2] = abs(forces.cage * (ring - slip))
+    return found[0] + found[1] + found[2]

@@ -55,23 +55,17 @@ def new_steps(rollers: int = 1, bytes_: int = BUFFER) -> np.ndarray:
 
 
 @jit_inline
-def write_stage(row, k, time, weight, body, at, forces, slip, power):
-    """Write stage `k` of a step on an imposed orbit: time and weight [s], station, forces, slip [m/s] and powers [W]."""
-    row.time[k], row.weight[k], row.pure_speed = time, weight, at.ring_speed
+def write_stage(row, k, body, at, forces, slip, power):
+    """Write stage `k` of a step on an imposed orbit but for its time: station, forces, slip [m/s] and powers [W]."""
+    row.pure_speed = at.ring_speed
     row.inner_slip[k] = row.outer_slip[k] = slip
     row.inner_speed[k] = row.outer_speed[k] = at.ring_speed
     row.cage_speed[k] = at.ring_speed - slip
     row.inner_load[k], row.outer_load[k], row.elastic_load[k] = at.inner_load, at.outer_load, at.elastic_load
     row.cage_load[k] = forces.cage_load
     row.force[k, 0], row.force[k, 1], row.force[k, 2] = forces.inner, forces.outer, forces.cage
-    row.power[k, 0], row.power[k, 1], row.power[k, 2] = power
-    row.rolling[k, 0], row.rolling[k, 1], row.rolling[k, 2] = (
-        forces.inner_rolling,
-        forces.outer_rolling,
-        forces.cage_rolling,
-    )
-    row.rough[k, 0], row.rough[k, 1], row.rough[k, 2] = forces.inner_rough, forces.outer_rough, forces.cage_rough
-    row.lag_power[k, 0] = at.ring_speed * body.inner.curvature * forces.inner_lag
-    row.lag_power[k, 1] = at.ring_speed * body.outer.curvature * forces.outer_lag
-    row.skew_power[k, 0] = -at.ring_speed * body.inner.spin * forces.inner_skew
-    row.skew_power[k, 1] = -at.ring_speed * body.outer.spin * forces.outer_skew
+    for i in range(3):
+        row.power[k, i], row.rolling[k, i], row.rough[k, i] = power[i], forces.rolling[i], forces.rough[i]
+    ring = at.ring_speed
+    row.lag_power[k, 0], row.skew_power[k, 0] = ring * body.inner.curvature * forces.lag[0], -ring * body.inner.spin * forces.skew[0]
+    row.lag_power[k, 1], row.skew_power[k, 1] = ring * body.outer.curvature * forces.lag[1], -ring * body.outer.spin * forces.skew[1]

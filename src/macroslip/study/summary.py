@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.bearing.geometry import orbit_ratio
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.result.thermal_balance import bearing_friction_power
 from macroslip.study.rating_values import VARIABLES as RATING_VARIABLES
 from macroslip.study.rating_values import rating_values

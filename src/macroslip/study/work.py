@@ -173,7 +173,7 @@ def _computed(
 
 def _failed_rollers(result: Any) -> str:
     """Which rollers failed, and how the first of them."""
-    from macroslip.integrate.status import Status
+    from macroslip.imposed.status import Status
 
     failed = [one for one in result.status.stack(one=("row", "roller")) if one != Status.COMPLETED]
     first = failed[0]

@@ -1,10 +1,15 @@
 """Friction torque of a whole bearing: as computed from its contacts, and as handbooks estimate it."""
 
-from macroslip.torque.comparison import TorqueHistory, torque_histories
 from macroslip.torque.computed import computed_torque
-from macroslip.torque.palmgren import PalmgrenTorque, palmgren_torque
-from macroslip.torque.skf import SkfTorque, skf_torque
-from macroslip.torque.skf_drag import OilBath
+from macroslip.torque.handbooks import (
+    OilBath,
+    PalmgrenTorque,
+    SkfTorque,
+    TorqueHistory,
+    palmgren_torque,
+    skf_torque,
+    torque_histories,
+)
 
 __all__ = [
     "OilBath",

@@ -62,11 +62,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     import xarray as xr
 
     if "power" not in result or "time" not in result.power.dims or not result.sizes["time"]:
-        raise InputError(
-            "the result has no traces",
-            where="friction torque",
-            remedy="Give the case traces, such as traces: {step: 0.05 s}.",
-        )
+        what = "the result has no traces"
+        raise InputError(what, where="friction torque", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
     bearing, models, _ = run_input(result)
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
@@ -89,30 +86,26 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     drag_force = model.drag * orbital**2
     drag = 2 * bearing.rollers_per_row * drag_force * bearing.pitch_radius * np.abs(orbital) * per_power
 
-    def put(values: object, units: str, long_name: str) -> tuple:
-        return "time", np.asarray(values), {"units": units, "long_name": long_name}
-
     contacts.attrs = {"units": "N m", "long_name": "torque of the friction at the interface"}
     rolling.attrs = {"units": "N m", "long_name": "torque of rolling resistance at the interface"}
     rings = _ring_torques(result, bearing, model)
     rings.attrs = {"units": "N m", "long_name": "torque of the contacts on the ring, positive along the orbit"}
+    total = sum(one.sum(("row", "interface"), skipna=False) for one in (contacts, rolling)) + drag
     return xr.Dataset(
         {
-            "shaft_speed": put(shaft, "rad/s", "speed of the inner ring"),
-            "torque": put(
-                contacts.sum(("row", "interface"), skipna=False)
-                + rolling.sum(("row", "interface"), skipna=False)
-                + drag,
-                "N m",
-                "friction torque of the bearing, against the rotation",
-            ),
+            "shaft_speed": _over_time(shaft, "rad/s", "speed of the inner ring"),
+            "torque": _over_time(total, "N m", "friction torque of the bearing, against the rotation"),
             "contact_torque": contacts,
             "rolling_torque": rolling,
             "ring_torque": rings,
-            "drag_torque": put(drag, "N m", "torque of the lubricant's drag on the rollers"),
+            "drag_torque": _over_time(drag, "N m", "torque of the lubricant's drag on the rollers"),
         },
         attrs={"title": f"Friction torque: {result.attrs['title']}", "model": result.attrs["model"]},
     )
+
+
+def _over_time(values: object, units: str, long_name: str) -> tuple:
+    return "time", np.asarray(values), {"units": units, "long_name": long_name}
 
 
 def _per_speed(power: xr.DataArray, per_power: np.ndarray) -> xr.DataArray:

@@ -1,0 +1,437 @@
+"""Histories of loads at the hub and on the main bearing, checked once, where they enter the program."""
+
+from __future__ import annotations
+
+import importlib.resources
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from numbers import Real
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from macroslip.catalogue.entry import is_finite_number
+from macroslip.errors import InputError
+from macroslip.files import reading
+from macroslip.loads.bladed import read_bladed
+from macroslip.loads.hawc2 import read_hawc2
+from macroslip.loads.openfast import read_openfast
+from macroslip.loads.source_file import DAMAGED, RPM, source_file
+from macroslip.loads.table import read_bearing_table, read_hub_table
+from macroslip.overview import html_overview
+
+GAP_FACTOR = 1.5
+"""A step longer than this many median steps is a gap: something between two samples was lost."""
+
+LATEST_TIME = 1e10
+"""Largest time stamp [s], about 300 years: seconds since 1970 are allowed, milliseconds are not."""
+
+MAGNITUDE_LIMITS = {"shaft_speed": (100.0, "rad/s"), "force": (1e8, "N"), "moment": (1e9, "N m")}
+"""Magnitudes beyond which the unit must be a mistake.
+
+Rotors on a main bearing stay below 10 rad/s, generators behind a gearbox turn faster than 100. 1e8 N is about ten times
+the weight of the heaviest rotor, 1e9 N m about ten times the extreme bending moment of a 20 MW rotor.
+"""
+
+#: Samples of a constant load beyond which the duration must be a mistake.
+_MOST_SAMPLES = 20_000_000
+
+_TABLES = {".parquet": "table", ".csv": "table"}
+_HUB_FILES = {
+    ".outb": "OpenFAST binary output",
+    ".out": "OpenFAST text output",
+    ".%nn": "Bladed output, any file of the run",
+    ".$nn": "the same",
+    ".sel": "HAWC2 output",
+    ".hdf5": "HAWC2 output in the format gtsdf",
+} | _TABLES
+#: Readers by extension; all others are Bladed's.
+_READERS = {".out": read_openfast, ".outb": read_openfast, ".sel": read_hawc2, ".hdf5": read_hawc2}
+_READERS |= dict.fromkeys(_TABLES, read_hub_table)
+
+
+def bundled_cases() -> list[str]:
+    """Names of the load cases that come with the package: mean wind speed [m/s] and IEC turbulence class.
+
+    Examples
+    --------
+    >>> bundled_cases()[:4], len(bundled_cases())
+    (['12A', '12B', '12C', '14A'], 21)
+    """
+    return [f"{speed}{turbulence}" for speed in range(12, 25, 2) for turbulence in "ABC"]
+
+
+class _History:
+    """What both kinds of loads share: checks, windows and their printed form."""
+
+    __slots__ = ()
+
+    #: Fields of shape (n, 3), and the names of their components.
+    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]]
+    time: NDArray[np.float64]
+    shaft_speed: NDArray[np.float64]
+    force: NDArray[np.float64]
+    source: str
+
+    def __post_init__(self) -> None:
+        source = self.source
+        time = _numbers("time", self.time, source)
+        if time.ndim != 1 or time.size < 2:
+            raise InputError(
+                f"time has shape {time.shape}",
+                where=source,
+                allowed="one dimension with at least 2 samples",
+                remedy="Give one time stamp [s] a sample.",
+            )
+        _check_time(time, source)
+        object.__setattr__(self, "time", time)
+        for field in ("shaft_speed", *self._VECTORS):
+            array = _numbers(field, getattr(self, field), source)
+            components = self._VECTORS.get(field)
+            shape = (time.size,) if components is None else (time.size, 3)
+            if array.shape != shape:
+                raise InputError(
+                    f"{field} has shape {array.shape}",
+                    where=source,
+                    allowed=f"shape {shape}",
+                    remedy=f"Give one value for each of the {time.size} time stamps"
+                    + ("." if components is None else f" and component ({', '.join(components)})."),
+                )
+            for name, values in zip(components or (field,), array.reshape(time.size, -1).T, strict=True):
+                _check_values(name, values, *MAGNITUDE_LIMITS[field], time, source)
+            object.__setattr__(self, field, array)
+
+    @property
+    def duration(self) -> float:
+        """Time from the first to the last sample [s]."""
+        return float(self.time[-1] - self.time[0])
+
+    def window(self, start: float | None, end: float | None) -> Self:
+        """The samples with ``start <= time <= end`` [s]; None keeps that end. Outside the record: InputError."""
+        columns = {name: getattr(self, name) for name in ("time", "shaft_speed", *self._VECTORS)}
+        record: Any = self
+        return replace(record, **cut(columns, start, end, self.source))
+
+    def __repr__(self) -> str:
+        means = ", ".join(f"{name} {values.mean() / 1e3:.4g} kN" for name, values in self._forces().items())
+        rpm = self.shaft_speed.mean() / RPM
+        return f"<{type(self).__name__} from {self.source}: {self._span()}; means: {means}, shaft {rpm:.4g} rpm>"
+
+    def _repr_html_(self) -> str:
+        channels = {"shaft speed [rpm]": self.shaft_speed / RPM}
+        channels |= {f"{name} [kN]": values / 1e3 for name, values in self._forces().items()}
+        rows = [
+            [name, *(f"{value:.4g}" for value in (values.mean(), values.std(), values.min(), values.max()))]
+            for name, values in channels.items()
+        ]
+        title = f"{type(self).__name__} from {self.source}: {self._span()}"
+        return html_overview(title, ["", "mean", "std", "min", "max"], rows)
+
+    def _span(self) -> str:
+        return f"{self.time.size} samples, {self.time[0]:g} s to {self.time[-1]:g} s"
+
+    def _forces(self) -> dict[str, NDArray[np.float64]]:
+        return dict(zip(self._VECTORS["force"], self.force.T, strict=True))
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class HubLoads(_History):
+    """Force and moment of the rotor **on** the shaft at the hub centre, in the non-rotating shaft axes.
+
+    Axes, right-handed and turning with neither the rotor nor the shaft: x along the shaft, from the hub towards the
+    gearbox (downwind); z up, perpendicular to the shaft; y = z × x, horizontal, to the left looking downwind. They
+    are OpenFAST's ``s`` axes. The rotor's weight is part of these loads, the shaft's is not. The arrays are stored as
+    read-only, C-contiguous float64 copies.
+
+    Parameters
+    ----------
+    time : (n,) array [s]
+        Strictly increasing, without gaps (no step above 1.5 times the median step). It need not begin at zero.
+    shaft_speed : (n,) array [rad/s]
+        Positive about +x, clockwise looking downwind. Zero and negative speeds are legal. At most 100 rad/s.
+    force : (n, 3) array [N]
+        fx, fy, fz; at most 1e8 N each.
+    moment : (n, 3) array [N m]
+        mx (> 0 drives the rotation), my (> 0: more thrust on the upper half of the rotor), mz; at most 1e9 N m each.
+    source : str
+        Where the loads come from, for errors and reports.
+    reading : tuple of str
+        Which channels of a file they were read from, and how; empty for loads that were not read.
+
+    Raises
+    ------
+    InputError
+        Wrong shape, fewer than 2 samples, values that are not finite, time that does not increase, a gap, or a
+        magnitude that only a wrong unit explains.
+    """
+
+    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}
+    time: NDArray[np.float64]
+    shaft_speed: NDArray[np.float64]
+    force: NDArray[np.float64]
+    moment: NDArray[np.float64]
+    source: str
+    reading: tuple[str, ...] = ()
+
+    @classmethod
+    def constant(
+        cls, force: ArrayLike, moment: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05
+    ) -> HubLoads:
+        """The same force (3,) [N], moment (3,) [N m] and shaft speed [rad/s] over `duration`, in equal steps up to `step` [s].
+
+        Examples
+        --------
+        >>> HubLoads.constant([164e3, 0, -263e3], [726e3, 0, 0], 2.14, 600.0).time.size
+        12001
+        """
+        return cls(**_constant(duration, step, shaft_speed, force=force, moment=moment))
+
+    @classmethod
+    def read(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        start: float | None = None,
+        end: float | None = None,
+        shaft_speed: float | None = None,
+    ) -> HubLoads:
+        """Read output of OpenFAST, Bladed or HAWC2, or a table with units in its column names (Parquet, CSV).
+
+        Parameters
+        ----------
+        path : path
+            ``.outb`` and ``.out``: see `macroslip.loads.openfast` for the channels; ``.%nn`` or ``.$nn``, any file of a
+            run: `macroslip.loads.bladed`; ``.sel`` or ``.hdf5``: `macroslip.loads.hawc2`; ``.parquet`` and ``.csv``:
+            `macroslip.loads.table` for the columns.
+        start, end : float, optional
+            Keep only this part of the file [s], on the file's own time axis. What lies outside is not validated.
+        shaft_speed : float, optional
+            Constant shaft speed [rad/s] in place of the file's; needed where the file has none.
+
+        Raises
+        ------
+        InputError
+            The file is absent, empty, damaged or cut off, lacks a channel, or holds values that `HubLoads` refuses.
+        """
+        path, extension = source_file(path, _HUB_FILES)
+        # Numbers that are not finite are reported with their channel and time, without NumPy's warnings before.
+        with reading(path, DAMAGED), np.errstate(all="ignore"):
+            columns = _READERS.get(extension, read_bladed)(path, speed_needed=shaft_speed is None)
+        taken = columns.pop("reading")
+        if shaft_speed is not None:
+            columns["shaft_speed"] = np.full(columns["time"].shape, shaft_speed)
+            taken = (*taken, f"shaft speed: given, {shaft_speed:g} rad/s")
+        return cls(**cut(columns, start, end, str(path)), source=str(path), reading=taken)
+
+    @classmethod
+    def bundled(cls, case: str) -> HubLoads:
+        """One of the load cases that come with the package, 600 s at 20 Hz; `bundled_cases` lists them.
+
+        Simulated with OpenFAST for the WindPACT 1.5 MW turbine; ``cases/README.md`` beside this module describes how.
+
+        Examples
+        --------
+        >>> loads = HubLoads.bundled("14B")
+        >>> print(f"{loads.shaft_speed.mean():.4f} rad/s, {loads.force[:, 0].mean() / 1e3:.1f} kN")
+        2.1431 rad/s, 164.4 kN
+        """
+        if case not in bundled_cases():
+            raise InputError(
+                f"there is no bundled case {case!r}",
+                allowed=", ".join(bundled_cases()),
+                remedy="Use HubLoads.read for a file of your own.",
+            )
+        folder = importlib.resources.files("macroslip.loads") / "cases"
+        with importlib.resources.as_file(folder / f"{case}.parquet") as path:
+            columns = read_hub_table(path)
+        del columns["reading"]
+        return cls(**columns, source=f"bundled case {case}")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class BearingLoads(_History):
+    """Force on the inner ring of the main bearing, in the bearing frame.
+
+    Bearing frame, right-handed and not rotating: Z0 along the shaft, downwind; Y0 up, in the plane of the shaft tilt;
+    X0 = Y0 × Z0, horizontal, to the left looking downwind. In OpenFAST's shaft axes (X0, Y0, Z0) = (y, z, x).
+    A spherical bearing carries no moment. The arrays are stored as read-only, C-contiguous float64 copies.
+
+    Parameters
+    ----------
+    time, shaft_speed : (n,) array [s], [rad/s]
+        As in `HubLoads`; the speed is that of the inner ring, positive about +Z0.
+    force : (n, 3) array [N]
+        F_X0, F_Y0, F_Z0, the load of the shaft **on** the inner ring: a hanging weight has F_Y0 < 0, thrust on an
+        upwind rotor has F_Z0 > 0. At most 1e8 N each.
+    source : str
+        Where the loads come from, for errors and reports.
+
+    Raises
+    ------
+    InputError
+        As `HubLoads`.
+    """
+
+    _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("F_X0", "F_Y0", "F_Z0")}
+    time: NDArray[np.float64]
+    shaft_speed: NDArray[np.float64]
+    force: NDArray[np.float64]
+    source: str
+
+    @classmethod
+    def constant(cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05) -> BearingLoads:
+        """The same force (3,) [N] and shaft speed [rad/s] from t = 0 to `duration` [s], in steps of at most `step` [s].
+
+        Examples
+        --------
+        >>> BearingLoads.constant([0.0, -343e3, 0.0], 2.14, 10.0).force[-1]
+        array([      0., -343000.,       0.])
+        """
+        return cls(**_constant(duration, step, shaft_speed, force=force))
+
+    @classmethod
+    def read(
+        cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None
+    ) -> BearingLoads:
+        """Read a table of main-bearing loads (``.parquet``, ``.csv``) with units in its column names.
+
+        `macroslip.loads.table` says which columns are needed. `start` and `end` [s], and errors: as `HubLoads.read`.
+        """
+        remedy = "Hub loads from OpenFAST become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())."
+        path, _ = source_file(path, _TABLES, remedy)
+        with reading(path, DAMAGED), np.errstate(all="ignore"):
+            columns = read_bearing_table(path)
+        return cls(**cut(columns, start, end, str(path)), source=str(path))
+
+
+def cut(columns: Mapping[str, NDArray], start: float | None, end: float | None, source: str) -> dict[str, Any]:
+    """Keep the samples with ``start <= time <= end`` [s]; None is the end of the record on that side.
+
+    Works on arrays that are not validated yet, so that a bad stretch of a file can be cut away on reading.
+    """
+    columns = {name: np.asarray(values) for name, values in columns.items()}
+    for name, value in (("start", start), ("end", end)):
+        if value is not None and (isinstance(value, bool) or not isinstance(value, Real)):
+            raise InputError(f"{name} is {value!r}", where=source, allowed="a number of seconds, or None")
+    if start is None and end is None:
+        return columns
+    stamps = columns["time"][np.isfinite(columns["time"])]
+    if stamps.size < 2:  # nothing to cut; validation reports the fault
+        return columns
+    first, last = float(stamps.min()), float(stamps.max())
+    slack = 1e-6 * (last - first) / (stamps.size - 1)  # a stamp such as 0.30000000000000004 s must not lose its sample
+    low, high = first if start is None else start, last if end is None else end
+    window = f"the window from {low:.10g} s to {high:.10g} s"
+    if not (first - slack <= low < high <= last + slack):
+        raise InputError(
+            f"{window} cannot be cut out",
+            where=source,
+            allowed=f"start before end, both within {first:.10g} s to {last:.10g} s",
+            remedy="Choose a window on the record's own time axis, which need not begin at zero.",
+        )
+    inside = np.flatnonzero((columns["time"] >= low - slack) & (columns["time"] <= high + slack))
+    if inside.size < 2:
+        what = f"{window} holds {inside.size} sample(s)"
+        raise InputError(what, where=source, allowed="at least 2 samples", remedy="Widen the window.")
+    # A stamp that is not a number may lie inside: it is kept, so that validation refuses it.
+    unknown = np.flatnonzero(~np.isfinite(columns["time"]))
+    unknown = unknown[(unknown > inside[0]) & (unknown < inside[-1])]
+    keep = np.sort(np.concatenate([inside, unknown]))
+    return {name: values[keep] for name, values in columns.items()}
+
+
+def _constant(duration: float, step: float, shaft_speed: float, **vectors: ArrayLike) -> dict[str, Any]:
+    """Fields of a load that does not change, at times equally spaced by at most `step` [s]."""
+    for name, value in (("duration", duration), ("step", step)):
+        if not (is_finite_number(value) and value > 0):
+            raise InputError(f"the {name} of a constant load is {value} s", allowed="a finite number above 0 s")
+    if duration / step > _MOST_SAMPLES:
+        raise InputError(
+            f"the duration of a constant load is {duration:g} s, {duration / step:.3g} samples",
+            allowed=f"up to {_MOST_SAMPLES * step:g} s at a step of {step:g} s",
+            remedy="A load that does not change needs no longer time: its energy per orbit stays the same.",
+        )
+    source = "constant load"
+    if not is_finite_number(shaft_speed):
+        raise InputError(f"the shaft_speed is {shaft_speed!r}", where=source, allowed="a finite number")
+    count = max(2, math.ceil(duration / step * (1 - 1e-12)) + 1)
+    fields = {"time": np.linspace(0.0, duration, count), "shaft_speed": np.full(count, float(shaft_speed))}
+    for name, value in vectors.items():
+        vector = _numbers(name, value, source)
+        if vector.shape != (3,):
+            raise InputError(f"the {name} has shape {vector.shape}", where=source, allowed="three components")
+        fields[name] = np.tile(vector, (count, 1))
+    return fields | {"source": source}
+
+
+def _numbers(name: str, values: ArrayLike, source: str) -> NDArray[np.float64]:
+    """A read-only copy; text that looks like a number is not one."""
+    try:
+        given = np.asarray(values)
+        if given.dtype.kind not in "iuf":
+            raise TypeError(f"it holds {given.dtype}")
+        array = np.array(given, dtype=np.float64, order="C")
+    except (TypeError, ValueError) as error:
+        what = f"{name} does not convert to an array of numbers ({error})"
+        raise InputError(what, where=source, allowed="real numbers") from error
+    array.setflags(write=False)
+    return array
+
+
+def _check_time(time: NDArray, source: str) -> None:
+    bad = np.flatnonzero(~np.isfinite(time))
+    if bad.size:
+        what = f"time is {time[bad[0]]} at sample {bad[0]} (counted from 0)"
+        raise InputError(what, where=source, allowed="finite numbers [s]", remedy="Remove or repair that sample.")
+    steps = np.diff(time)
+    bad = np.flatnonzero(steps <= 0)
+    if bad.size:
+        i = bad[0]
+        raise InputError(
+            f"time does not increase: sample {i} (counted from 0) is at {time[i]:.10g} s, "
+            f"sample {i + 1} at {time[i + 1]:.10g} s",
+            where=source,
+            allowed="strictly increasing time",
+            remedy="Remove repeated samples; a restart leaves them, or a time written with too few digits.",
+        )
+    typical = float(np.median(steps))
+    latest = float(np.abs(time).max())
+    if latest > LATEST_TIME or np.spacing(latest) > 1e-6 * typical:
+        raise InputError(
+            f"time reaches {latest:.6g} s, with steps of {typical:.6g} s",
+            where=source,
+            allowed=f"magnitudes up to {LATEST_TIME:g} s, and steps that numbers of this size resolve",
+            remedy="Time is in seconds. Convert stamps of an epoch, such as microseconds, and count from the start.",
+        )
+    bad = np.flatnonzero(steps > GAP_FACTOR * typical)
+    if bad.size:
+        i = bad[0]
+        raise InputError(
+            f"gap of {steps[i]:.6g} s after t = {time[i]:.10g} s (median step {typical:.6g} s)",
+            where=source,
+            allowed=f"steps up to {GAP_FACTOR:g} times the median step",
+            remedy="Read the part before or after the gap (start=, end=), or resample the record.",
+        )
+
+
+def _check_values(name: str, values: NDArray, limit: float, unit: str, time: NDArray, source: str) -> None:
+    bad = np.flatnonzero(~np.isfinite(values))
+    if bad.size:
+        raise InputError(
+            f"{name} is {values[bad[0]]} ({bad.size} of {values.size} samples are not finite)",
+            where=f"{source}, t = {time[bad[0]]:.10g} s",
+            allowed="finite numbers",
+            remedy="Repair the channel, or read only the part without such samples (start=, end=).",
+        )
+    worst = int(np.abs(values).argmax())
+    if abs(values[worst]) > limit:
+        rpm, kilo = "Is it in rpm, or the speed of the generator?", "Is a value already in newtons declared as kN?"
+        raise InputError(
+            f"{name} is {values[worst]:.6g} {unit}, beyond any wind turbine",
+            where=f"{source}, t = {time[worst]:.10g} s",
+            allowed=f"magnitudes up to {limit:g} {unit}",
+            remedy=f"Check the unit. {rpm if unit == 'rad/s' else kilo}",
+        )

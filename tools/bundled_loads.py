@@ -1,0 +1,121 @@
+"""Make the bundled load cases from 50 Hz simulation records: ``python tools/bundled_loads.py SOURCE_DIR``.
+
+Each record becomes ``src/macroslip/loads/cases/<name>.parquet``: 600 s at 20 Hz, float32, with its provenance in the schema metadata.
+
+The filter. 50 Hz becomes 20 Hz by inserting a zero after every sample (100 Hz), a symmetric Kaiser-window FIR, and
+keeping every fifth value. Symmetry means no delay: sample i of the result is at i/20 s, and every second one
+coincides with a sample of the source. Measured on the 337 taps (± 1.68 s): the gain is within 1.0e-4 of 1 up to 8.5
+Hz, half at 9.25 Hz, and below 1.0e-4 (−80 dB) from 10 Hz on. As 10 Hz is the new Nyquist frequency, nothing folds
+back above that level; a default of about 53 dB with half gain at 10 Hz would fold the band above 10 Hz onto 8.4 to 10
+Hz. Before the first and after the last sample the record is continued by its point reflection in that sample, which
+keeps value and slope; within 1.68 s of either end the result therefore depends partly on that continuation.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+import macroslip.loads
+from macroslip.errors import InputError
+from macroslip.loads import bundled_cases
+
+SOURCE_RATE, RATE = 50, 20
+PASS_BAND, STOP_BAND = 8.5, 10.0
+COLUMNS = {
+    "rotor_speed_rpm": "rpm",
+    "fx_N": "N",
+    "fy_N": "N",
+    "fz_N": "N",
+    "mx_Nm": "N m",
+    "my_Nm": "N m",
+    "mz_Nm": "N m",
+    "wind_mps": "m/s",
+}
+
+
+def anti_alias_filter() -> NDArray[np.float64]:
+    """Coefficients of the low-pass at 100 Hz, symmetric, unit sum.
+
+    Examples
+    --------
+    >>> taps = anti_alias_filter()
+    >>> taps.size, round(float(taps.sum()), 12)
+    (337, 1.0)
+    """
+    from scipy.signal import firwin, kaiserord
+
+    taps, beta = kaiserord(80.0, (STOP_BAND - PASS_BAND) / SOURCE_RATE)
+    return np.asarray(firwin(taps | 1, 0.5 * (PASS_BAND + STOP_BAND), window=("kaiser", beta), fs=2 * SOURCE_RATE))
+
+
+def decimate(values: NDArray) -> NDArray[np.float64]:
+    """Bring a record (n,) or (n, k), sampled at 50 Hz, to 20 Hz; sample 0 stays at its time."""
+    from scipy.signal import resample_poly
+
+    return resample_poly(
+        np.asarray(values, dtype=np.float64), 2, 5, axis=0, window=anti_alias_filter(), padtype="antireflect"
+    )
+
+
+def write_case(case: str, columns: Mapping[str, NDArray], provenance: Mapping[str, str], target: Path) -> None:
+    """Decimate the 50 Hz `columns` of one case and write ``<case>.parquet`` into the folder `target`."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    values = {name: decimate(columns[name]).astype(np.float32) for name in COLUMNS}
+    time = (np.arange(values["fx_N"].size) / RATE).astype(np.float32)
+    metadata = {
+        "case": case,
+        "turbine": "WindPACT 1.5 MW baseline",
+        **provenance,
+        "nature": "simulated hub loads, not measurements",
+        "frame": "rotor on shaft at the hub centre; non-rotating shaft axes: x downwind along the shaft, z up, "
+        "y = z cross x",
+        "time": "0 s is simulation time 60 s",
+        "decimation": f"{SOURCE_RATE} Hz to {RATE} Hz, symmetric Kaiser FIR, gain 1 within 1e-4 up to {PASS_BAND} Hz "
+        f"and below 1e-4 from {STOP_BAND:g} Hz, point-reflected ends",
+        "units": json.dumps({"time_s": "s"} | COLUMNS),
+        "made_by": "tools/bundled_loads.py",
+    }
+    table = pa.table({"time_s": time} | values).replace_schema_metadata(metadata)
+    # Byte-stream split groups the exponents of neighbouring samples, which compress; their mantissas do not.
+    pq.write_table(
+        table,
+        target / f"{case}.parquet",
+        compression="zstd",
+        compression_level=19,
+        use_dictionary=False,
+        use_byte_stream_split=True,
+    )
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Convert every bundled case found in a folder of 50 Hz records, and report the size."""
+    import pyarrow.parquet as pq
+
+    parser = argparse.ArgumentParser(description="Make the bundled load cases from 50 Hz simulation records.")
+    parser.add_argument("source", type=Path, help="folder of windpact1.5_<speed>mps_<class>.parquet files")
+    source = parser.parse_args(arguments).source
+    target = Path(macroslip.loads.__path__[0]) / "cases"
+    for case in bundled_cases():
+        path = source / f"windpact1.5_{case[:2]}mps_{case[2]}.parquet"
+        if not path.is_file():
+            raise InputError("no such file", where=str(path), remedy="Give the folder that holds all 21 records.")
+        table = pq.read_table(path)
+        stored = {key.decode(): text.decode() for key, text in table.schema.metadata.items()}
+        if stored["sample_rate_Hz"] != str(SOURCE_RATE):
+            raise InputError(f"sampled at {stored['sample_rate_Hz']} Hz", where=str(path), allowed=f"{SOURCE_RATE} Hz")
+        provenance = {"source": stored["code"], "wind": stored["case"], "turbsim_seeds": stored["seeds"]}
+        write_case(case, {name: table[name].to_numpy() for name in COLUMNS}, provenance, target)
+    total = sum(path.stat().st_size for path in target.glob("*.parquet"))
+    print(f"{len(bundled_cases())} cases, {total / 1e6:.2f} MB in {target}")
+
+
+if __name__ == "__main__":
+    main()
