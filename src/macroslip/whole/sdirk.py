@@ -35,6 +35,7 @@ from macroslip.imposed.status import (
 )
 from macroslip.ring.orbit import Motion, instant, interval_of
 from macroslip.roller.step import STEP
+from macroslip.whole import tuning
 from macroslip.whole.books import FLOWS, add_flows
 from macroslip.whole.cage import Cage
 from macroslip.whole.model import Assembly, WholeBearing
@@ -52,29 +53,6 @@ from macroslip.whole.stage import (
     solve_stage,
 )
 from macroslip.whole.tractions import cage_shear_from, evaluate_marked, locate, raceway_from, raceway_powers, shear_from
-from macroslip.whole.tuning import (
-    BEGUN,
-    CAGE_REACH,
-    FAR_OFF,
-    FIRST_STEP,
-    FORCE_SHARE,
-    GROWTH,
-    IMPACT_PART,
-    LEAST_PART,
-    LEAST_SPEED,
-    LOAD_CHANGE,
-    LONGEST_REST,
-    LONGEST_STEP,
-    PLACE_TIME,
-    POWER_SHARE,
-    REST_GROWTH,
-    REST_PART,
-    REST_SAFETY,
-    RINGING,
-    SAFETY,
-    SPEED_SHARE,
-    UNSOLVED_PART,
-)
 
 #: Node of the first stage.
 GAMMA = 1.0 - math.sqrt(0.5)
@@ -231,7 +209,7 @@ def steps_of(
             raise InputError("it is not finite", where=f"start, {name}", allowed="finite numbers")
     stops = np.ascontiguousarray(stops, dtype=float)
     memory = np.zeros(1, MEMORY)
-    memory["time"], memory["shaft_speed"], memory["step"] = motion.time[0], motion.shaft_speed[0], FIRST_STEP
+    memory["time"], memory["shaft_speed"], memory["step"] = motion.time[0], motion.shaft_speed[0], tuning.FIRST_STEP
     space = new_space(assembly, memory)
     space.rollers[STATE] = np.column_stack([start.slip_inner, start.slip_outer, start.offset])
     space.cages[STATE, :, 0] = start.cage_lead
@@ -250,15 +228,15 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     """Bounds for a relative tolerance and the largest raceway speed of the history."""
     bearing, body = assembly.bearing[0], assembly.bodies[0]
     scale = float(np.abs(motion.shaft_speed).max()) * bearing["orbit_ratio"] * bearing["outer_radius"]
-    scale = max(float(scale), LEAST_SPEED)
+    scale = max(float(scale), tuning.LEAST_SPEED)
     dry = bearing["pocket"]["film"] == 0.0
     limits = np.zeros(1, LIMITS)
-    limits["allowed_speed"] = SPEED_SHARE * (RINGING if dry else 1.0) * tolerance * scale
-    limits["power"], limits["force"] = POWER_SHARE * tolerance, FORCE_SHARE * tolerance
+    limits["allowed_speed"] = tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
+    limits["power"], limits["force"] = tuning.POWER_SHARE * tolerance, tuning.FORCE_SHARE * tolerance
     limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
-    limits["longest_step"] = min(LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
-    limits["longest_rest"] = LONGEST_REST
-    limits["cage_reach"] = min(CAGE_REACH, CAGE_REACH * math.sqrt(tolerance / 2e-4))
+    limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
+    limits["longest_rest"] = tuning.LONGEST_REST
+    limits["cage_reach"] = min(tuning.CAGE_REACH, tuning.CAGE_REACH * math.sqrt(tolerance / 2e-4))
     limits["slowest"] = max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 2
     return limits
 
@@ -400,7 +378,7 @@ def _step_error(assembly, limits, h, space):
         slope, first, last = rollers[SLOPE, j], rollers[FIRST_RATE, j], rollers[LAST_RATE, j]
         for i in range(2):
             space.blocks[j].rest[i] = bearing.roller_mass / GAMMA * _weighed(slope[i], first[i], last[i])
-        worst = max(worst, abs(h * _weighed(slope[2], first[2], last[2])) / (allowed * PLACE_TIME))
+        worst = max(worst, abs(h * _weighed(slope[2], first[2], last[2])) / (allowed * tuning.PLACE_TIME))
     for c in range(cages.shape[1]):
         slope, first, last = cages[SLOPE, c], cages[FIRST_RATE, c], cages[LAST_RATE, c]
         for i in range(3):
@@ -435,7 +413,7 @@ def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_sca
     for k in range(4):
         wrong += predicted[k] - found[k]
         power += abs(found[k])
-    change = abs(load - known.load) / (LOAD_CHANGE * max(load, known.load) + 1e-9)
+    change = abs(load - known.load) / (tuning.LOAD_CHANGE * max(load, known.load) + 1e-9)
     worst = max(drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12))
     return max(worst, change * change)
 
@@ -481,15 +459,17 @@ def _refresh(assembly, limits, time, space, power_scale):
                 old.outer, new.outer, outer_ratio, mass, limits, at.outer_load, at.outer_speed, span, power_scale
             )
             one.ratio = max(inner, outer)
-            if not one.fresh and one.ratio > FAR_OFF and span > 0.0:
+            if not one.fresh and one.ratio > tuning.FAR_OFF and span > 0.0:
                 one.rest = 0.0
                 good = False
     # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
     for j in range(rests.size):
         one = rests[j]
         if good and one.due:
-            factor = REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
-            one.rest = min(limits.longest_rest, (time - known[j].when) * max(REST_PART, min(factor, REST_GROWTH)))
+            factor = tuning.REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
+            one.rest = min(
+                limits.longest_rest, (time - known[j].when) * max(tuning.REST_PART, min(factor, tuning.REST_GROWTH))
+            )
     return good
 
 
@@ -518,8 +498,8 @@ def _impact_step(bearing, space):
         depth = abs(offset) - pocket.half_gap
         if depth > 0.0 and offset * speed > 0.0:
             deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
-            if depth < BEGUN * deepest:
-                shortest = min(shortest, IMPACT_PART * deepest / abs(speed))
+            if depth < tuning.BEGUN * deepest:
+                shortest = min(shortest, tuning.IMPACT_PART * deepest / abs(speed))
     return shortest
 
 
@@ -654,12 +634,12 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         if np.isnan(error) or (not worst < math.inf and h < 1e-12):
             status = NOT_FINITE
             break
-        factor = SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
+        factor = tuning.SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
         if error > 1.0:
             memory.rejections += 1
             memory.inaccurate += 1 if solved else 0
             memory.unsolved += 0 if solved else 1
-            memory.step = h * (max(LEAST_PART, factor) if solved else UNSOLVED_PART)
+            memory.step = h * (max(tuning.LEAST_PART, factor) if solved else tuning.UNSOLVED_PART)
             memory.failed = 1
             continue
         power_scale = max(memory.spent, 0.0) / (end.time - motion.time[0]) / (2 * row.size)
@@ -674,6 +654,6 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         memory.unbalanced = max(memory.unbalanced, worst)
         _write_end(assembly, start, end, space, row, whole, offsets[rows])
         _advance(end, space, row)
-        memory.step, memory.failed = h * min(1.0 if memory.failed else GROWTH, factor), 0
+        memory.step, memory.failed = h * min(1.0 if memory.failed else tuning.GROWTH, factor), 0
         rows += 1
     return status, rows

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.whole import tuning
 from macroslip.whole.cage import guide_force
 from macroslip.whole.model import Assembly
 from macroslip.whole.pocket import pocket_force
@@ -27,7 +28,6 @@ from macroslip.whole.tractions import (
     new_sheets,
     raceway_from,
 )
-from macroslip.whole.tuning import ITERATIONS, PREDICTED, PREDICTED_REST
 
 #: Speed over which the guide's friction turns its sign [m/s].
 GUIDE_SPEED = 1e-3
@@ -329,7 +329,7 @@ def _raceway_forces(assembly, stage, moments, rollers, rests, sheets):
             off = abs(at.spin_inner - inner.spin) + abs(at.pull_inner - inner.pull)
             off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
             # Slopes that predicted the force well enough serve until the stage is solved.
-            rests[j].settled = off <= PREDICTED * stage.tolerance
+            rests[j].settled = off <= tuning.PREDICTED * stage.tolerance
             at.spin_inner, at.pull_inner, at.spin_outer, at.pull_outer = inner.spin, inner.pull, outer.spin, outer.pull
     return evaluations
 
@@ -346,7 +346,12 @@ def _place_cages(stage, cages, star):
 @jit_inline
 def _assemble(assembly, stage, k, size, space):
     """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
-    rollers, cages, moments, sheets = space.rollers[FIRST + k], space.cages[FIRST + k], space.moments[k], space.sheets[0]
+    rollers, cages, moments, sheets = (
+        space.rollers[FIRST + k],
+        space.cages[FIRST + k],
+        space.moments[k],
+        space.sheets[0],
+    )
     star, bearing = space.rollers[STAR], assembly.bearing[0]
     _place_cages(stage, cages, space.cages[STAR])
     for c in range(cages.shape[0]):
@@ -439,14 +444,14 @@ def solve_stage(assembly, stage, k, space):
     worst, before = math.inf, math.inf
     for j in range(blocks.size):
         space.rests[j].settled = False
-    for _ in range(ITERATIONS):
+    for _ in range(tuning.ITERATIONS):
         worst = _assemble(assembly, stage, k, size, space)
         eliminate(places, size, blocks, borders)
         if worst <= stage.tolerance or not worst < math.inf:
             break
         solve(places, size, blocks, borders)
         _update(space.rollers[FIRST + k], space.cages[FIRST + k], size, blocks, borders)
-        predicted = worst * max((worst / before) ** 2, PREDICTED_REST)
+        predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_REST)
         if predicted <= stage.tolerance:
             _place_cages(stage, space.cages[FIRST + k], space.cages[STAR])
             _follow(assembly, stage, k, space)
