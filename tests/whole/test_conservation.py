@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, Cage, Case, Laws, Radau, simulate
-from macroslip.whole.books import FLOWS
 from macroslip.result.prepared import prepared
 from macroslip.roller.model import with_tables as rollers_with_tables
+from macroslip.whole.books import FLOWS
 from macroslip.whole.model import whole_bearing, with_tables
 from macroslip.whole.pocket import restitution
 from macroslip.whole.sdirk import pure_rolling

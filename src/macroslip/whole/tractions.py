@@ -236,7 +236,9 @@ def shear_from(sheet, load, speed, slip):
 def is_out_of_reach(sheet, at):
     """Whether a raceway load has changed too much for the slopes."""
     inner, outer = sheet.inner.load, sheet.outer.load
-    return abs(at.inner_load - inner) > tuning.LOAD_REACH * inner or abs(at.outer_load - outer) > tuning.LOAD_REACH * outer
+    return (
+        abs(at.inner_load - inner) > tuning.LOAD_REACH * inner or abs(at.outer_load - outer) > tuning.LOAD_REACH * outer
+    )
 
 
 @jit_inline
