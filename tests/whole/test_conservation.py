@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, Cage, Case, Laws, Radau, simulate
-from macroslip.result.prepared import prepared
+from macroslip.result.prepared import prepare
 from macroslip.roller.model import with_tables as rollers_with_tables
 from macroslip.whole.books import FLOWS
 from macroslip.whole.model import whole_bearing, with_tables
@@ -181,7 +181,7 @@ def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
     imposed = simulate(case)
     cage = Cage(gap=0.0, impact="dry", weight=False)
     # The oil of an imposed orbit's pockets has play, which spars in this limit have not; its cage cannot be slowed.
-    ready = prepared(case)
+    ready = prepare(case)
     held = whole_bearing(case.bearing, case.oil, cage, tilt=case.drivetrain.tilt, laws=ROLLING)
     held = replace(held, cage_mass=1e8)
     assembly, _ = with_tables(held, ready.box)
