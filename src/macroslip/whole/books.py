@@ -40,27 +40,27 @@ _ENERGY_SIGNS = {
 @jit_inline
 def add_flows(assembly, shaft_speed, k, span, space, flows):
     """Add what flows during `span` [s] in the state of the solved stage `k` to `flows`, shape (13,)."""
-    bearing, rollers, cages = assembly.bearing[0], space.rollers[FIRST + k], space.cages[FIRST + k]
+    bearing, cages = assembly.bearing[0], space.cages
     pitch = bearing.pitch_radius
     arm = bearing.lever * pitch
     for j in range(assembly.places.size):
-        place, at = assembly.places[j], space.moments[k, j]
-        orbital = 0.5 * (rollers[j, 0] - rollers[j, 1] + shaft_speed * place.inner_radius)
+        place, at, own = assembly.places[j], space.moments[k, j], space.rollers[j].y[FIRST + k]
+        orbital = 0.5 * (own[0] - own[1] + shaft_speed * place.inner_radius)
         lag_in, lag_out = at.pull_inner - at.spin_inner, at.pull_outer - at.spin_outer
-        cage = cages[place.cage]
+        cage = cages[place.cage].y[FIRST + k]
         flows[0] -= span * (pitch * at.pull_inner - arm * at.spin_inner)
         flows[1] += span * (pitch * at.pull_outer + arm * at.spin_outer)
         flows[2] -= span * pitch * at.tangential
         flows[4] += span * at.push * (cage[4] * at.cosine + cage[5] * at.sine)
         flows[5] -= span * shaft_speed * (place.inner_radius * at.spin_inner + pitch * lag_in)
         flows[6] -= span * at.tangential * orbital
-        loss = at.spin_inner * rollers[j, 0] - lag_in * (shaft_speed * pitch - orbital)
-        loss += at.spin_outer * rollers[j, 1] - lag_out * orbital
+        loss = at.spin_inner * own[0] - lag_in * (shaft_speed * pitch - orbital)
+        loss += at.spin_outer * own[1] - lag_out * orbital
         flows[8] += span * loss
         flows[9] += span * at.friction * at.sliding
         flows[11] -= span * at.push * at.pocket_speed
-    for c in range(cages.shape[0]):
-        cage = cages[c]
+    for c in range(cages.size):
+        cage = cages[c].y[FIRST + k]
         turning = cage[0] + 0.5 * shaft_speed * bearing.inner_radius
         drag = bearing.guide_friction * math.tanh(turning / GUIDE_SPEED)
         flows[3] -= span * pitch * drag

@@ -211,8 +211,8 @@ def steps_of(
     memory = np.zeros(1, MEMORY)
     memory["time"], memory["shaft_speed"], memory["step"] = motion.time[0], motion.shaft_speed[0], tuning.FIRST_STEP
     space = new_space(assembly, memory)
-    space.rollers[STATE] = np.column_stack([start.slip_inner, start.slip_outer, start.offset])
-    space.cages[STATE, :, 0] = start.cage_lead
+    space.rollers["y"][:, STATE] = np.column_stack([start.slip_inner, start.slip_outer, start.offset])
+    space.cages["y"][:, STATE, 0] = start.cage_lead
     limits = _limits(assembly, motion, float(stops[-1]), tolerance)
     limits["max_steps"], limits["rests"] = max_steps, rests
     count = assembly.places.size
@@ -269,20 +269,21 @@ def _guess(assembly, k, step, span, change, space):
 
     `step` is γh [s]; the change of the shaft's speed [rad/s] enters exactly.
     """
-    rollers, cages = space.rollers, space.cages
     rate = SLOPE if k == 0 else FIRST_RATE
-    for j in range(rollers.shape[1]):
+    for j in range(space.rollers.size):
+        y = space.rollers[j].y
         for i in range(3):
-            rollers[STAR, j, i] = rollers[STATE, j, i] + span * rollers[FIRST_RATE, j, i]
-        rollers[STAR, j, 0] -= assembly.places[j].inner_radius * change
+            y[STAR, i] = y[STATE, i] + span * y[FIRST_RATE, i]
+        y[STAR, 0] -= assembly.places[j].inner_radius * change
         for i in range(3):
-            rollers[FIRST + k, j, i] = rollers[STAR, j, i] + step * rollers[rate, j, i]
-    for c in range(cages.shape[1]):
+            y[FIRST + k, i] = y[STAR, i] + step * y[rate, i]
+    for c in range(space.cages.size):
+        y = space.cages[c].y
         for i in range(6):
-            cages[STAR, c, i] = cages[STATE, c, i] + span * cages[FIRST_RATE, c, i]
-        cages[STAR, c, 0] -= 0.5 * assembly.bearing[0].inner_radius * change
+            y[STAR, i] = y[STATE, i] + span * y[FIRST_RATE, i]
+        y[STAR, 0] -= 0.5 * assembly.bearing[0].inner_radius * change
         for i in range(6):
-            cages[FIRST + k, c, i] = cages[STAR, c, i] + step * cages[rate, c, i]
+            y[FIRST + k, i] = y[STAR, i] + step * y[rate, i]
 
 
 @jit_inline
@@ -291,7 +292,7 @@ def _write_stage(assembly, k, time, weight, space, row):
     bearing = assembly.bearing[0]
     inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
     for j in range(row.size):
-        step, at, sheet, own = row[j], space.moments[k, j], space.sheets[0, j], space.rollers[FIRST + k, j]
+        step, at, sheet, own = row[j], space.moments[k, j], space.sheets[0, j], space.rollers[j].y[FIRST + k]
         at_inner, at_outer = (at.inner_load, at.inner_speed, own[0]), (at.outer_load, at.outer_speed, own[1])
         shear_in, shear_out = shear_from(sheet.inner, *at_inner), shear_from(sheet.outer, *at_outer)
         shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
@@ -317,14 +318,15 @@ def _write_stage(assembly, k, time, weight, space, row):
 @jit_inline
 def _keep_rate(step, k, space):
     """Slopes of a solved stage."""
-    rollers, cages = space.rollers, space.cages
-    for j in range(rollers.shape[1]):
+    for j in range(space.rollers.size):
+        y = space.rollers[j].y
         for i in range(2):
-            rollers[FIRST_RATE + k, j, i] = (rollers[FIRST + k, j, i] - rollers[STAR, j, i]) / step
-        rollers[FIRST_RATE + k, j, 2] = space.moments[k, j].pocket_speed
-    for c in range(cages.shape[1]):
+            y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
+        y[FIRST_RATE + k, 2] = space.moments[k, j].pocket_speed
+    for c in range(space.cages.size):
+        y = space.cages[c].y
         for i in range(6):
-            cages[FIRST_RATE + k, c, i] = (cages[FIRST + k, c, i] - cages[STAR, c, i]) / step
+            y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
 
 
 @jit_inline
@@ -353,7 +355,7 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
             interval = _interval_of(motion, time, start.interval)
             now = instant(motion, interval, time)
             _guess(assembly, k, step, k * (1.0 - GAMMA) * h, now.shaft_speed - start.shaft_speed, space)
-            locate(assembly, now, space.rollers[FIRST + k], space.cages[FIRST + k], space.moments[k], whole.turn[k])
+            locate(assembly, now, FIRST + k, space.rollers, space.cages, space.moments[k], whole.turn[k])
             rest = solve_stage(assembly, Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach), k, space)
             solved = rest <= tolerance
             worst = max(worst, rest) if solved else rest
@@ -365,31 +367,30 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
 
 
 @jit_inline
-def _weighed(slope, first, last):
-    return _ERROR[0] * slope + _ERROR[1] * first + _ERROR[2] * last
+def _off(y, i):
+    """Error of the rate of an unknown."""
+    return _ERROR[0] * y[SLOPE, i] + _ERROR[1] * y[FIRST_RATE, i] + _ERROR[2] * y[LAST_RATE, i]
 
 
 @jit_inline
 def _step_error(assembly, limits, h, space):
     """Error of a solved step of `h` [s] over what is allowed."""
-    bearing, rollers, cages, allowed = assembly.bearing[0], space.rollers, space.cages, limits.allowed_speed
-    worst = 0.0
-    for j in range(rollers.shape[1]):
-        slope, first, last = rollers[SLOPE, j], rollers[FIRST_RATE, j], rollers[LAST_RATE, j]
+    bearing, allowed, worst = assembly.bearing[0], limits.allowed_speed, 0.0
+    for j in range(space.rollers.size):
+        y = space.rollers[j].y
         for i in range(2):
-            space.blocks[j].rest[i] = bearing.roller_mass / GAMMA * _weighed(slope[i], first[i], last[i])
-        worst = max(worst, abs(h * _weighed(slope[2], first[2], last[2])) / (allowed * tuning.PLACE_TIME))
-    for c in range(cages.shape[1]):
-        slope, first, last = cages[SLOPE, c], cages[FIRST_RATE, c], cages[LAST_RATE, c]
+            space.blocks[j].rest[i] = bearing.roller_mass / GAMMA * _off(y, i)
+        worst = max(worst, abs(h * _off(y, 2)) / (allowed * tuning.PLACE_TIME))
+    for c in range(space.cages.size):
         for i in range(3):
-            k = 0 if i == 0 else i + 1
-            space.borders[c].rest[i] = bearing.cage_mass / GAMMA * _weighed(slope[k], first[k], last[k])
+            off = _off(space.cages[c].y, 0 if i == 0 else i + 1)
+            space.borders[c].rest[i] = bearing.cage_mass / GAMMA * off
     size = 3 if bearing.translates else 1
     solve(assembly.places, size, space.blocks, space.borders)
-    for j in range(rollers.shape[1]):
+    for j in range(space.rollers.size):
         rest = space.blocks[j].rest
         worst = max(worst, abs(rest[0]) / allowed, abs(rest[1]) / allowed)
-    for c in range(cages.shape[1]):
+    for c in range(space.cages.size):
         for i in range(size):
             worst = max(worst, abs(space.borders[c].rest[i]) / allowed)
     return worst
@@ -443,7 +444,7 @@ def _refresh(assembly, limits, time, space, power_scale):
         one = rests[j]
         one.due = one.fresh or time - known[j].when >= one.rest
         one.marked = one.due and (not one.fresh or sheets[j].when != time)
-    done = evaluate_marked(assembly, time, moments, space.rollers[LAST], rests, sheets)
+    done = evaluate_marked(assembly, time, moments, space.rollers, LAST, rests, sheets)
     memory.evaluations += done
     memory.refreshed += done // 2
     inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
@@ -477,8 +478,9 @@ def _refresh(assembly, limits, time, space, power_scale):
 def _touch_ahead(pocket, space, h):
     """Part of `h` [s] after which the first roller meets a spar, if it is free now; 1 if none does."""
     part = 1.0
-    for j in range(space.rollers.shape[1]):
-        offset, speed = space.rollers[STATE, j, 2], space.rollers[SLOPE, j, 2]
+    for j in range(space.rollers.size):
+        y = space.rollers[j].y
+        offset, speed = y[STATE, 2], y[SLOPE, 2]
         if abs(offset) < pocket.half_gap and speed != 0.0:
             way = pocket.half_gap - offset if speed > 0.0 else pocket.half_gap + offset
             part = min(part, way / (abs(speed) * h))
@@ -493,8 +495,9 @@ def _impact_step(bearing, space):
     that.
     """
     pocket, shortest = bearing.pocket, math.inf
-    for j in range(space.rollers.shape[1]):
-        offset, speed = space.rollers[STATE, j, 2], space.rollers[SLOPE, j, 2]
+    for j in range(space.rollers.size):
+        y = space.rollers[j].y
+        offset, speed = y[STATE, 2], y[SLOPE, 2]
         depth = abs(offset) - pocket.half_gap
         if depth > 0.0 and offset * speed > 0.0:
             deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
@@ -524,7 +527,7 @@ def _cut(bearing, space, step, left):
 def _leaves_tables(assembly, limits, space):
     """Whether a roller ends the step in a state that its tables do not hold."""
     for j in range(space.rests.size):
-        at, body, own = space.moments[1, j], assembly.bodies[assembly.places[j].row], space.rollers[LAST, j]
+        at, body, own = space.moments[1, j], assembly.bodies[assembly.places[j].row], space.rollers[j].y[LAST]
         if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
             return True
         inner = math.sqrt(at.inner_speed * at.inner_speed + 0.25 * own[0] * own[0])
@@ -549,23 +552,23 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     for c in range(bearing.cages):
         whole.torque[c] = 0.0
         for i in range(6):
-            whole.cages[c, i] = space.cages[FIRST + last, c, i]
+            whole.cages[c, i] = space.cages[c].y[FIRST + last, i]
     for j in range(row.size):
         step, at = row[j], space.moments[last, j]
         step.start, step.end, step.stages, step.pure_speed = start.time, end.time, last + 1, pure_speed
         # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
         step.stretch, step.sampled = memory.steps, 1 if begins else 0
         for i in range(3):
-            step.power_before[i] = step.power[0, i] if begins else space.powers[j, i]
-            space.powers[j, i] = step.power[last, i]
-        offset[j] = space.rollers[FIRST + last, j, 2]
+            step.power_before[i] = step.power[0, i] if begins else space.rollers[j].power[i]
+            space.rollers[j].power[i] = step.power[last, i]
+        offset[j] = space.rollers[j].y[FIRST + last, 2]
         whole.torque[assembly.places[j].cage] -= bearing.pitch_radius * (at.push + bearing.lever * at.friction)
 
 
 @jit_inline
 def _advance(end, space, row):
     """Take over state, slopes and evaluations of an accepted step."""
-    memory, rollers, cages = space.memory[0], space.rollers, space.cages
+    memory = space.memory[0]
     memory.steps += 1
     for j in range(row.size):
         for k in range(2):
@@ -573,10 +576,13 @@ def _advance(end, space, row):
         if space.rests[j].due:
             for i in range(space.numbers.shape[2]):
                 space.numbers[1, j, i] = space.numbers[0, j, i]
-    _copy(rollers[STATE], rollers[LAST])
-    _copy(rollers[SLOPE], rollers[LAST_RATE])
-    _copy(cages[STATE], cages[LAST])
-    _copy(cages[SLOPE], cages[LAST_RATE])
+        y = space.rollers[j].y
+        for i in range(3):
+            y[STATE, i], y[SLOPE, i] = y[LAST, i], y[LAST_RATE, i]
+    for c in range(space.cages.size):
+        y = space.cages[c].y
+        for i in range(6):
+            y[STATE, i], y[SLOPE, i] = y[LAST, i], y[LAST_RATE, i]
     memory.time, memory.interval, memory.shaft_speed = end.time, end.interval, end.shaft_speed
 
 

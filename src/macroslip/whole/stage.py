@@ -33,6 +33,11 @@ from macroslip.whole.tractions import (
 GUIDE_SPEED = 1e-3
 #: Sets of unknowns or their rates: at the step's start, y*, at both stages.
 STATE, SLOPE, STAR, FIRST, LAST, FIRST_RATE, LAST_RATE = range(7)
+#: Unknowns or rates of a roller, by set: slips v_in, v_out [m/s] and pocket offset x [m]; and its frictional power at the step's
+#: start by interface [W].
+ROLLER = np.dtype([("y", "f8", (7, 3)), ("power", "f8", (3,))])
+#: Unknowns or rates of a cage, by set: lead w [m/s], lag ∫w dt [m], translation speeds p, q [m/s] and translations a, b [m].
+CAGE = np.dtype([("y", "f8", (7, 6))])
 #: When a roller's tractions are evaluated: time [s] for which those kept serve; error of the last predicted values over what is
 #: allowed; whether it is evaluated in every iteration, needs no further evaluation in this stage, is evaluated now, has new
 #: values to keep after the step.
@@ -60,10 +65,8 @@ class Space(NamedTuple):
 
     Attributes
     ----------
-    rollers : ndarray, shape (7, n, 3)
-        Slips v_in, v_out [m/s] and pocket offset x [m], or their rates; for the first axis see `STATE` and so on.
-    cages : ndarray, shape (7, c, 6)
-        Lead w [m/s], lag ∫w dt [m], translation speeds p, q [m/s] and translations a, b [m], or their rates.
+    rollers : ndarray of `ROLLER`, shape (n,)
+    cages : ndarray of `CAGE`, shape (c,)
     moments : ndarray of `MOMENT`, shape (2, n)
         At both stages.
     sheets : ndarray of `SHEETS`, shape (2, n)
@@ -73,8 +76,6 @@ class Space(NamedTuple):
     rests : ndarray of `REST`, shape (n,)
     blocks : ndarray of `BLOCK`, shape (n,)
     borders : ndarray of `BORDER`, shape (c,)
-    powers : ndarray, shape (n, 3)
-        Frictional power at the step's start [W].
     memory : ndarray of `macroslip.whole.sdirk.MEMORY`, shape (1,)
     """
 
@@ -86,7 +87,6 @@ class Space(NamedTuple):
     rests: np.ndarray
     blocks: np.ndarray
     borders: np.ndarray
-    powers: np.ndarray
     memory: np.ndarray
 
 
@@ -94,8 +94,8 @@ def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     """State and work space for a bearing; `memory` is the integrator's."""
     count, cages = assembly.places.size, int(assembly.bearing[0]["cages"])
     return Space(
-        np.zeros((7, count, 3)), np.zeros((7, cages, 6)), new_moments(count), *new_sheets(count), np.zeros(count, REST),
-        np.zeros(count, BLOCK), np.zeros(cages, BORDER), np.zeros((count, 3)), memory,
+        np.zeros(count, ROLLER), np.zeros(cages, CAGE), new_moments(count), *new_sheets(count), np.zeros(count, REST),
+        np.zeros(count, BLOCK), np.zeros(cages, BORDER), memory,
     )  # fmt: skip
 
 
@@ -313,16 +313,16 @@ def _begin_cage(bearing, stage, cage, star, border):
 
 
 @jit_inline
-def _raceway_forces(assembly, stage, moments, rollers, rests, sheets):
-    """Raceway forces at the present state, evaluated where slopes do not serve. Returns the evaluations."""
+def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
+    """Raceway forces at the present state of stage `k`, evaluated where slopes do not serve. Returns the evaluations."""
     for j in range(moments.size):
-        rest, at, sheet = rests[j], moments[j], sheets[j]
-        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, rollers[j, 0])
-        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, rollers[j, 1])
+        rest, at, sheet, own = rests[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
+        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, own[0])
+        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, own[1])
         if not rest.fresh and is_out_of_reach(sheet, at):
             rest.fresh = True
         rest.marked = rest.fresh and not rest.settled
-    evaluations = evaluate_marked(assembly, stage.time, moments, rollers, rests, sheets)
+    evaluations = evaluate_marked(assembly, stage.time, moments, rollers, FIRST + k, rests, sheets)
     for j in range(moments.size):
         if rests[j].marked:
             at, inner, outer = moments[j], sheets[j].inner, sheets[j].outer
@@ -335,45 +335,42 @@ def _raceway_forces(assembly, stage, moments, rollers, rests, sheets):
 
 
 @jit_inline
-def _place_cages(stage, cages, star):
-    """Lag and translations of the cages, which follow from their speeds."""
-    for c in range(cages.shape[0]):
-        cages[c, 1] = star[c, 1] + stage.step * cages[c, 0]
-        cages[c, 4] = star[c, 4] + stage.step * cages[c, 2]
-        cages[c, 5] = star[c, 5] + stage.step * cages[c, 3]
+def _place_cages(stage, k, cages):
+    """Lag and translations of the cages in stage `k`, which follow from their speeds."""
+    for c in range(cages.size):
+        own, star = cages[c].y[FIRST + k], cages[c].y[STAR]
+        own[1] = star[1] + stage.step * own[0]
+        own[4] = star[4] + stage.step * own[2]
+        own[5] = star[5] + stage.step * own[3]
 
 
 @jit_inline
 def _assemble(assembly, stage, k, size, space):
     """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
-    rollers, cages, moments, sheets = (
-        space.rollers[FIRST + k],
-        space.cages[FIRST + k],
-        space.moments[k],
-        space.sheets[0],
-    )
-    star, bearing = space.rollers[STAR], assembly.bearing[0]
-    _place_cages(stage, cages, space.cages[STAR])
-    for c in range(cages.shape[0]):
-        _begin_cage(bearing, stage, cages[c], space.cages[STAR, c], space.borders[c])
+    rollers, cages, moments, sheets = space.rollers, space.cages, space.moments[k], space.sheets[0]
+    bearing = assembly.bearing[0]
+    _place_cages(stage, k, cages)
+    for c in range(cages.size):
+        _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], space.borders[c])
     memory = space.memory[0]
-    memory.evaluations += _raceway_forces(assembly, stage, moments, rollers, space.rests, sheets)
+    memory.evaluations += _raceway_forces(assembly, stage, k, moments, rollers, space.rests, sheets)
     memory.iterations += 1
     inertia, worst, finite = bearing.roller_mass / stage.step, 0.0, True
     for j in range(moments.size):
         place, at, sheet, block = assembly.places[j], moments[j], sheets[j], space.blocks[j]
-        met = meet(assembly, stage, place, at, rollers[j], cages[place.cage], star[j], sheet)
+        own, star = rollers[j].y[FIRST + k], rollers[j].y[STAR]
+        met = meet(assembly, stage, place, at, own, cages[place.cage].y[FIRST + k], star, sheet)
         turning = 2.0 * (at.spin_inner + at.spin_outer + met.friction)
         driving = met.push - at.tangential - at.pull_inner + at.pull_outer
-        rest_in = inertia * (rollers[j, 0] - star[j, 0]) + turning - driving
-        rest_out = inertia * (rollers[j, 1] - star[j, 1]) + turning + driving
+        rest_in = inertia * (own[0] - star[0]) + turning - driving
+        rest_out = inertia * (own[1] - star[1]) + turning + driving
         block.rest[0], block.rest[1] = rest_in, rest_out
         worst = max(worst, abs(rest_in), abs(rest_out))
         # `max` may ignore a NaN.
         finite = finite and abs(rest_in) + abs(rest_out) < math.inf
         _write_block(inertia, at, sheet, met, block)
         _add_to_border(bearing, stage, at, met, block, space.borders[place.cage])
-    for c in range(cages.shape[0]):
+    for c in range(cages.size):
         for i in range(size):
             rest = abs(space.borders[c].rest[i])
             worst = max(worst, rest)
@@ -382,16 +379,18 @@ def _assemble(assembly, stage, k, size, space):
 
 
 @jit_inline
-def _update(rollers, cages, size, blocks, borders):
-    """Subtract a solution from the unknowns."""
-    for j in range(rollers.shape[0]):
-        rollers[j, 0] -= blocks[j].rest[0]
-        rollers[j, 1] -= blocks[j].rest[1]
-    for c in range(cages.shape[0]):
-        cages[c, 0] -= borders[c].rest[0]
+def _update(k, size, space):
+    """Subtract a solution from the unknowns of stage `k`."""
+    for j in range(space.rollers.size):
+        own, change = space.rollers[j].y[FIRST + k], space.blocks[j].rest
+        own[0] -= change[0]
+        own[1] -= change[1]
+    for c in range(space.cages.size):
+        cage, change = space.cages[c].y[FIRST + k], space.borders[c].rest
+        cage[0] -= change[0]
         if size == 3:
-            cages[c, 2] -= borders[c].rest[1]
-            cages[c, 3] -= borders[c].rest[2]
+            cage[2] -= change[1]
+            cage[3] -= change[2]
 
 
 @jit_inline
@@ -400,7 +399,7 @@ def _follow(assembly, stage, k, space):
     bearing = assembly.bearing[0]
     for j in range(space.blocks.size):
         c, at, sheet, block = assembly.places[j].cage, space.moments[k, j], space.sheets[0, j], space.blocks[j]
-        cage, border = space.cages[FIRST + k, c], space.borders[c].rest
+        cage, border = space.cages[c].y[FIRST + k], space.borders[c].rest
         v_in, v_out = -block.rest[0], -block.rest[1]
         if at.inner_load > 0.0:
             at.spin_inner += sheet.inner.spin_by_slip * v_in
@@ -418,7 +417,7 @@ def _follow(assembly, stage, k, space):
         at.friction += block.by_sliding * sliding + block.by_push * push
         at.sliding += sliding
         at.pocket_speed += speed
-        space.rollers[FIRST + k, j, 2] += stage.step * speed
+        space.rollers[j].y[FIRST + k, 2] += stage.step * speed
 
 
 @jit_inline
@@ -450,10 +449,10 @@ def solve_stage(assembly, stage, k, space):
         if worst <= stage.tolerance or not worst < math.inf:
             break
         solve(places, size, blocks, borders)
-        _update(space.rollers[FIRST + k], space.cages[FIRST + k], size, blocks, borders)
+        _update(k, size, space)
         predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_REST)
         if predicted <= stage.tolerance:
-            _place_cages(stage, space.cages[FIRST + k], space.cages[STAR])
+            _place_cages(stage, k, space.cages)
             _follow(assembly, stage, k, space)
             return predicted
         before = worst

@@ -97,17 +97,16 @@ def _film_load(body, tables, load, approach, outward, ring_speed, at):
 
 
 @jit_inline
-def locate(assembly, now, rollers, cages, moments, turn):
+def locate(assembly, now, which, rollers, cages, moments, turn):
     """Place all rollers at a time and a (predicted) state.
 
     Parameters
     ----------
     assembly : Assembly
     now : Instant
-    rollers : ndarray, shape (n, 3)
-        v_in, v_out [m/s] and pocket offset x [m].
-    cages : ndarray, shape (c, 6)
-        w [m/s], lag ∫w dt [m], translation speeds p, q [m/s] and translations a, b [m].
+    which : int
+        Set of unknowns in `rollers` and `cages`.
+    rollers, cages : ndarray of `macroslip.whole.stage.ROLLER` and `CAGE`, shape (n,) and (c,)
     moments : ndarray of `MOMENT`, shape (n,)
         Changed.
     turn : ndarray, shape (c,)
@@ -121,24 +120,25 @@ def locate(assembly, now, rollers, cages, moments, turn):
     bearing = assembly.bearing[0]
     pitch = bearing.pitch_radius
     for c in range(bearing.cages):
-        turn[c] = bearing.orbit_ratio * now.shaft_angle + cages[c, 1] / pitch
+        cage = cages[c].y[which]
+        turn[c] = bearing.orbit_ratio * now.shaft_angle + cage[1] / pitch
         turn_cosine, turn_sine = math.cos(turn[c]), math.sin(turn[c])
-        a, b = cages[c, 4], cages[c, 5]
+        a, b = cage[4], cage[5]
         for j in range(moments.size):
             place, at = assembly.places[j], moments[j]
             if place.cage != c:
                 continue
-            body = assembly.bodies[place.row]
+            body, own = assembly.bodies[place.row], rollers[j].y[which]
             cosine = place.cosine * turn_cosine - place.sine * turn_sine
             sine = place.sine * turn_cosine + place.cosine * turn_sine
             at.cosine, at.sine = cosine, sine
-            ahead = (rollers[j, 2] - a * sine + b * cosine) / pitch
+            ahead = (own[2] - a * sine + b * cosine) / pitch
             half = 1.0 - 0.5 * ahead * ahead
             x, y = cosine * half - sine * ahead, sine * half + cosine * ahead
             approach = interference(body, x, y, now)
             load = body.stiffness * approach * math.sqrt(approach) if approach > 0.0 else 0.0
             ring = now.shaft_speed * place.inner_radius
-            orbit = 0.5 * (rollers[j, 0] - rollers[j, 1] + ring) / pitch
+            orbit = 0.5 * (own[0] - own[1] + ring) / pitch
             outward = (body.centrifugal * orbit * orbit - body.weight_in_plane * y) * body.cos_contact_angle
             outward += body.weight_along_axis * body.sin_contact_angle
             outer_speed = -orbit * bearing.outer_radius
@@ -186,7 +186,7 @@ def _evaluate(body, law, tables, load, speed, slip, sheet):
 
 
 @jit
-def evaluate_marked(assembly, time, moments, rollers, rests, sheets):
+def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
     """Evaluate both raceway contacts of the rollers that are marked in `rests`. Returns the evaluations.
 
     Parameters
@@ -195,8 +195,9 @@ def evaluate_marked(assembly, time, moments, rollers, rests, sheets):
     time : float
         [s].
     moments : ndarray of `MOMENT`, shape (n,)
-    rollers : ndarray, shape (n, 3)
-        Slips v_in, v_out [m/s], and offsets.
+    rollers : ndarray of `macroslip.whole.stage.ROLLER`, shape (n,)
+    which : int
+        Set of their unknowns.
     rests : ndarray of `macroslip.whole.stage.REST`, shape (n,)
     sheets : ndarray of `SHEETS`, shape (n,)
         Changed.
@@ -205,8 +206,9 @@ def evaluate_marked(assembly, time, moments, rollers, rests, sheets):
     for j in range(rests.size):
         if rests[j].marked:
             body, at, sheet = assembly.bodies[assembly.places[j].row], moments[j], sheets[j]
-            _evaluate(body, body.inner, assembly.tables, at.inner_load, at.inner_speed, rollers[j, 0], sheet.inner)
-            _evaluate(body, body.outer, assembly.tables, at.outer_load, at.outer_speed, rollers[j, 1], sheet.outer)
+            own = rollers[j].y[which]
+            _evaluate(body, body.inner, assembly.tables, at.inner_load, at.inner_speed, own[0], sheet.inner)
+            _evaluate(body, body.outer, assembly.tables, at.outer_load, at.outer_speed, own[1], sheet.outer)
             sheet.when = time
             evaluations += 2
     return evaluations
