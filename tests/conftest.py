@@ -29,10 +29,10 @@ settings.load_profile("fixed")
 
 
 #: Tests of these files stay with one worker: they compile the same kernels of the whole bearing, of a minute each.
-TOGETHER = re.compile(r"tests/(whole_bearing/|torque/test_rings\.py|report/test_whole_section\.py)")
+TOGETHER = re.compile(r"tests/(whole/|torque/test_rings\.py|report/test_whole_section\.py)")
 #: What takes longest, or compiles what others need.
 FIRST = (
-    "tests/whole_bearing/",
+    "tests/whole/",
     "tests/docs/test_pages.py",
     "tests/torque/test_rings.py",
     "tests/study/test_cluster.py",

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit_inline
 from macroslip.whole.cage import guide_energy, guide_force
 from macroslip.whole.pocket import elastic_energy
 from macroslip.whole.stage import FIRST, GUIDE_SPEED
@@ -37,7 +37,7 @@ _ENERGY_SIGNS = {
 }  # fmt: skip
 
 
-@jit
+@jit_inline
 def add_flows(assembly, shaft_speed, k, span, space, flows):
     """Add what flows during `span` [s] in the state of the solved stage `k` to `flows`, shape (13,)."""
     bearing, rollers, cages = assembly.bearing[0], space.rollers[FIRST + k], space.cages[FIRST + k]

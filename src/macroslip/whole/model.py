@@ -161,6 +161,10 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
     The oil in a pocket is as wide as its play leaves it; without play roughness keeps surfaces apart.
     """
     pocket = bearing.pocket
+    # Rollers run through their play beside the motion of the rings: ahead as fast as they fall through it, and behind up to
+    # twice as fast, where oil brakes them too.
+    fall = math.sqrt(2.0 * GRAVITY * bearing.radial_play)
+    box = box._replace(slowest=max(box.slowest - 2.0 * fall, 0.0), fastest=box.fastest + fall)
     rollers, report = rollers_with_tables(bearing.models, box, max(pocket.half_gap, pocket.least_film))
     numbers = np.zeros(1, BEARING)
     for name in (*_NUMBERS, "cages", "translates"):

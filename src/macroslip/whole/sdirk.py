@@ -35,6 +35,7 @@ from macroslip.imposed.status import (
 )
 from macroslip.ring.orbit import Motion, instant, interval_of
 from macroslip.roller.step import STEP
+from macroslip.whole import tuning
 from macroslip.whole.books import FLOWS, add_flows
 from macroslip.whole.cage import Cage
 from macroslip.whole.model import Assembly, WholeBearing
@@ -46,38 +47,12 @@ from macroslip.whole.stage import (
     SLOPE,
     STAR,
     STATE,
-    Space,
     Stage,
-    meet,
     new_space,
-    predict_raceways,
     solve,
     solve_stage,
 )
 from macroslip.whole.tractions import cage_shear_from, evaluate_marked, locate, raceway_from, raceway_powers, shear_from
-from macroslip.whole.tuning import (
-    BEGUN,
-    CAGE_REACH,
-    FAR_OFF,
-    FIRST_STEP,
-    FORCE_SHARE,
-    GROWTH,
-    IMPACT_PART,
-    LEAST_PART,
-    LEAST_SPEED,
-    LOAD_CHANGE,
-    LONGEST_REST,
-    LONGEST_STEP,
-    PLACE_TIME,
-    POWER_SHARE,
-    REST_GROWTH,
-    REST_PART,
-    REST_SAFETY,
-    RINGING,
-    SAFETY,
-    SPEED_SHARE,
-    UNSOLVED_PART,
-)
 
 #: Node of the first stage.
 GAMMA = 1.0 - math.sqrt(0.5)
@@ -85,6 +60,8 @@ GAMMA = 1.0 - math.sqrt(0.5)
 _E1 = (0.5 - 1.0 / 3.0) / (GAMMA * (1.0 - GAMMA))
 _E2 = 0.5 - GAMMA * _E1
 _ERROR = (1.0 - _E1 - _E2, _E1 - (1.0 - GAMMA), _E2 - GAMMA)
+#: γh of the stage that evaluates the start [s].
+_INSTANT = 1e-12
 #: Size of the buffer of steps [bytes].
 _BUFFER = 6 * 2**20
 
@@ -232,6 +209,7 @@ def steps_of(
             raise InputError("it is not finite", where=f"start, {name}", allowed="finite numbers")
     stops = np.ascontiguousarray(stops, dtype=float)
     memory = np.zeros(1, MEMORY)
+    memory["time"], memory["shaft_speed"], memory["step"] = motion.time[0], motion.shaft_speed[0], tuning.FIRST_STEP
     space = new_space(assembly, memory)
     space.rollers[STATE] = np.column_stack([start.slip_inner, start.slip_outer, start.offset])
     space.cages[STATE, :, 0] = start.cage_lead
@@ -250,45 +228,66 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     """Bounds for a relative tolerance and the largest raceway speed of the history."""
     bearing, body = assembly.bearing[0], assembly.bodies[0]
     scale = float(np.abs(motion.shaft_speed).max()) * bearing["orbit_ratio"] * bearing["outer_radius"]
-    scale = max(float(scale), LEAST_SPEED)
+    scale = max(float(scale), tuning.LEAST_SPEED)
     dry = bearing["pocket"]["film"] == 0.0
     limits = np.zeros(1, LIMITS)
-    limits["allowed_speed"] = SPEED_SHARE * (RINGING if dry else 1.0) * tolerance * scale
-    limits["power"], limits["force"] = POWER_SHARE * tolerance, FORCE_SHARE * tolerance
+    limits["allowed_speed"] = tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
+    limits["power"], limits["force"] = tuning.POWER_SHARE * tolerance, tuning.FORCE_SHARE * tolerance
     limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
-    limits["longest_step"] = min(LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
-    limits["longest_rest"] = LONGEST_REST
-    limits["cage_reach"] = min(CAGE_REACH, CAGE_REACH * math.sqrt(tolerance / 2e-4))
+    limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
+    limits["longest_rest"] = tuning.LONGEST_REST
+    limits["cage_reach"] = min(tuning.CAGE_REACH, tuning.CAGE_REACH * math.sqrt(tolerance / 2e-4))
     limits["slowest"] = max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 2
     return limits
 
 
 @jit_inline
-def _clock_at(motion, time, start):
-    """The clock at `time` [s]; a sample's own time belongs to the interval that ends there, if `start` is before it."""
+def _interval_of(motion, time, start):
+    """Sample interval of `time` [s]; a sample's own time belongs to the interval that ends there, if `start` is before it."""
     k = interval_of(motion, time, start)
-    if k > start and time <= motion.time[k]:
-        k -= 1
-    return Clock(time, k, instant(motion, k, time).shaft_speed)
+    return k - 1 if k > start and time <= motion.time[k] else k
 
 
 @jit_inline
-def _set_star(assembly, span, change, space):
-    """y* from the state and the first stage's slope during `span` [s]; the shaft's change [rad/s] enters exactly."""
+def _clock_at(motion, time, start):
+    """The clock at `time` [s], searched from sample interval `start`."""
+    interval = _interval_of(motion, time, start)
+    return Clock(time, interval, instant(motion, interval, time).shaft_speed)
+
+
+@jit_inline
+def _copy(target, source):
+    """Copy an array of two dimensions."""
+    for j in range(target.shape[0]):
+        for i in range(target.shape[1]):
+            target[j, i] = source[j, i]
+
+
+@jit_inline
+def _guess(assembly, k, step, span, change, space):
+    """Write y* of stage `k`, from the state and the first stage's slope during `span` [s], and a first guess of its unknowns.
+
+    `step` is γh [s]; the change of the shaft's speed [rad/s] enters exactly.
+    """
     rollers, cages = space.rollers, space.cages
+    rate = SLOPE if k == 0 else FIRST_RATE
     for j in range(rollers.shape[1]):
         for i in range(3):
             rollers[STAR, j, i] = rollers[STATE, j, i] + span * rollers[FIRST_RATE, j, i]
         rollers[STAR, j, 0] -= assembly.places[j].inner_radius * change
+        for i in range(3):
+            rollers[FIRST + k, j, i] = rollers[STAR, j, i] + step * rollers[rate, j, i]
     for c in range(cages.shape[1]):
         for i in range(6):
             cages[STAR, c, i] = cages[STATE, c, i] + span * cages[FIRST_RATE, c, i]
         cages[STAR, c, 0] -= 0.5 * assembly.bearing[0].inner_radius * change
+        for i in range(6):
+            cages[FIRST + k, c, i] = cages[STAR, c, i] + step * cages[rate, c, i]
 
 
-@jit
-def _write_stage(assembly, k, clock, weight, space, row):
-    """Write the solved stage `k` of a step into the rollers' records, with its weight [s]."""
+@jit_inline
+def _write_stage(assembly, k, time, weight, space, row):
+    """Write the solved stage `k` of a step at `time` into the rollers' records, with its weight [s]."""
     bearing = assembly.bearing[0]
     inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
     for j in range(row.size):
@@ -298,7 +297,7 @@ def _write_stage(assembly, k, clock, weight, space, row):
         shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
         inner = raceway_powers(sheet.inner, inner_ratio, at.spin_inner, at.pull_inner, shear_in, *at_inner)
         outer = raceway_powers(sheet.outer, outer_ratio, at.spin_outer, at.pull_outer, shear_out, *at_outer)
-        step.time[k], step.weight[k] = clock.time, weight
+        step.time[k], step.weight[k] = time, weight
         step.inner_load[k], step.inner_speed[k], step.inner_slip[k] = at_inner
         step.outer_load[k], step.outer_speed[k], step.outer_slip[k] = at_outer
         step.elastic_load[k], step.cage_load[k], step.cage_speed[k] = at.elastic_load, at.push, -at.sliding
@@ -328,46 +327,40 @@ def _keep_rate(step, k, space):
             cages[FIRST_RATE + k, c, i] = (cages[FIRST + k, c, i] - cages[STAR, c, i]) / step
 
 
-@jit
-def _stage_at(assembly, motion, limits, k, h, clock, space, row, whole):
-    """Solve stage `k` of a step of `h` [s] from y*, and write it. Returns the largest residual [N] and whether it is solved."""
-    step = GAMMA * h
-    tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
-    rollers, cages = space.rollers, space.cages
-    rate = SLOPE if k == 0 else FIRST_RATE
-    for j in range(rollers.shape[1]):
-        for i in range(3):
-            rollers[FIRST + k, j, i] = rollers[STAR, j, i] + step * rollers[rate, j, i]
-    for c in range(cages.shape[1]):
-        for i in range(6):
-            cages[FIRST + k, c, i] = cages[STAR, c, i] + step * cages[rate, c, i]
-    now = instant(motion, clock.interval, clock.time)
-    locate(assembly, now, rollers[FIRST + k], cages[FIRST + k], space.moments[k], whole.turn[k])
-    stage = Stage(step, clock.time, clock.shaft_speed, tolerance, limits.cage_reach)
-    worst = solve_stage(assembly, stage, k, space)
-    if not worst <= tolerance:
-        return worst, False
-    _keep_rate(step, k, space)
-    whole.shaft_speed[k] = clock.shaft_speed
-    _write_stage(assembly, k, clock, h * (1.0 - GAMMA if k == 0 else GAMMA), space, row)
-    return worst, True
-
-
 @jit_inline
-def _take_step(assembly, motion, limits, start, end, space, row, whole):
-    """Solve both stages from the state. Returns the largest residual [N] and whether they are solved."""
-    h = end.time - start.time
-    space.numbers[0] = space.numbers[1]
+def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
+    """Solve the stages of a step, and write them; a step without length has one, which evaluates the state.
+
+    Returns
+    -------
+    worst : float
+        Largest residual [N].
+    solved : bool
+    """
+    h, tolerance = end.time - start.time, math.inf
+    stages, step = 2, GAMMA * h
+    if h == 0.0:
+        stages, step = 1, _INSTANT
+    else:
+        tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
+    _copy(space.numbers[0], space.numbers[1])
     for j in range(space.rests.size):
-        space.rests[j].fresh = limits.rests == 0 or space.rests[j].rest < h
-    middle = _clock_at(motion, start.time + GAMMA * h, start.interval)
+        space.rests[j].fresh = limits.rests == 0 or space.rests[j].rest < h or h == 0.0
     worst, solved = 0.0, True
-    for k in range(2):
+    for k in range(stages):
         if solved:
-            clock = middle if k == 0 else end
-            _set_star(assembly, 0.0 if k == 0 else (1.0 - GAMMA) * h, clock.shaft_speed - start.shaft_speed, space)
-            rest, solved = _stage_at(assembly, motion, limits, k, h, clock, space, row, whole)
+            time = start.time + GAMMA * h if k == 0 else end.time
+            interval = _interval_of(motion, time, start.interval)
+            now = instant(motion, interval, time)
+            _guess(assembly, k, step, k * (1.0 - GAMMA) * h, now.shaft_speed - start.shaft_speed, space)
+            locate(assembly, now, space.rollers[FIRST + k], space.cages[FIRST + k], space.moments[k], whole.turn[k])
+            rest = solve_stage(assembly, Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach), k, space)
+            solved = rest <= tolerance
             worst = max(worst, rest) if solved else rest
+            if solved:
+                _keep_rate(step, k, space)
+                whole.shaft_speed[k] = now.shaft_speed
+                _write_stage(assembly, k, time, h * (1.0 - GAMMA if k == 0 else GAMMA), space, row)
     return worst, solved
 
 
@@ -376,7 +369,7 @@ def _weighed(slope, first, last):
     return _ERROR[0] * slope + _ERROR[1] * first + _ERROR[2] * last
 
 
-@jit
+@jit_inline
 def _step_error(assembly, limits, h, space):
     """Error of a solved step of `h` [s] over what is allowed."""
     bearing, rollers, cages, allowed = assembly.bearing[0], space.rollers, space.cages, limits.allowed_speed
@@ -385,7 +378,7 @@ def _step_error(assembly, limits, h, space):
         slope, first, last = rollers[SLOPE, j], rollers[FIRST_RATE, j], rollers[LAST_RATE, j]
         for i in range(2):
             space.blocks[j].rest[i] = bearing.roller_mass / GAMMA * _weighed(slope[i], first[i], last[i])
-        worst = max(worst, abs(h * _weighed(slope[2], first[2], last[2])) / (allowed * PLACE_TIME))
+        worst = max(worst, abs(h * _weighed(slope[2], first[2], last[2])) / (allowed * tuning.PLACE_TIME))
     for c in range(cages.shape[1]):
         slope, first, last = cages[SLOPE, c], cages[FIRST_RATE, c], cages[LAST_RATE, c]
         for i in range(3):
@@ -402,7 +395,7 @@ def _step_error(assembly, limits, h, space):
     return worst
 
 
-@jit
+@jit_inline
 def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_scale):
     """Error of the spin force, pull and powers of a raceway contact that the `known` sheet predicted, over what is allowed.
 
@@ -420,12 +413,12 @@ def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_sca
     for k in range(4):
         wrong += predicted[k] - found[k]
         power += abs(found[k])
-    change = abs(load - known.load) / (LOAD_CHANGE * max(load, known.load) + 1e-9)
+    change = abs(load - known.load) / (tuning.LOAD_CHANGE * max(load, known.load) + 1e-9)
     worst = max(drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12))
     return max(worst, change * change)
 
 
-@jit
+@jit_inline
 def _refresh(assembly, limits, time, space, power_scale):
     """Evaluate the rollers that are due at the step's end `time` [s], and set the times to their next evaluations.
 
@@ -466,15 +459,17 @@ def _refresh(assembly, limits, time, space, power_scale):
                 old.outer, new.outer, outer_ratio, mass, limits, at.outer_load, at.outer_speed, span, power_scale
             )
             one.ratio = max(inner, outer)
-            if not one.fresh and one.ratio > FAR_OFF and span > 0.0:
+            if not one.fresh and one.ratio > tuning.FAR_OFF and span > 0.0:
                 one.rest = 0.0
                 good = False
     # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
     for j in range(rests.size):
         one = rests[j]
         if good and one.due:
-            factor = REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
-            one.rest = min(limits.longest_rest, (time - known[j].when) * max(REST_PART, min(factor, REST_GROWTH)))
+            factor = tuning.REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
+            one.rest = min(
+                limits.longest_rest, (time - known[j].when) * max(tuning.REST_PART, min(factor, tuning.REST_GROWTH))
+            )
     return good
 
 
@@ -503,12 +498,12 @@ def _impact_step(bearing, space):
         depth = abs(offset) - pocket.half_gap
         if depth > 0.0 and offset * speed > 0.0:
             deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
-            if depth < BEGUN * deepest:
-                shortest = min(shortest, IMPACT_PART * deepest / abs(speed))
+            if depth < tuning.BEGUN * deepest:
+                shortest = min(shortest, tuning.IMPACT_PART * deepest / abs(speed))
     return shortest
 
 
-@jit
+@jit_inline
 def _cut(bearing, space, step, left):
     """Step [s] to the next stop or half-way to it.
 
@@ -525,7 +520,7 @@ def _cut(bearing, space, step, left):
     return h
 
 
-@jit
+@jit_inline
 def _leaves_tables(assembly, limits, space):
     """Whether a roller ends the step in a state that its tables do not hold."""
     for j in range(space.rests.size):
@@ -540,74 +535,48 @@ def _leaves_tables(assembly, limits, space):
 
 
 @jit_inline
-def _write_end(assembly, start, end, stages, space, row, whole, offset):
-    """Write what records say of a whole step, and of its end."""
-    bearing, memory, last = assembly.bearing[0], space.memory[0], stages - 1
+def _write_end(assembly, start, end, space, row, whole, offset):
+    """Write the records' parts on a whole step and its end; a step without length is the start."""
+    bearing, memory = assembly.bearing[0], space.memory[0]
+    begins = end.time == start.time
+    last = 0 if begins else 1
     pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
-    whole.start, whole.end = start, end.time
+    whole.start, whole.end = start.time, end.time
+    for i in range(whole.flows.size):
+        whole.flows[i] = 0.0
+    for k in range(last + 1):
+        add_flows(assembly, whole.shaft_speed[k], k, row[0].weight[k], space, whole.flows)
     for c in range(bearing.cages):
         whole.torque[c] = 0.0
         for i in range(6):
             whole.cages[c, i] = space.cages[FIRST + last, c, i]
     for j in range(row.size):
         step, at = row[j], space.moments[last, j]
-        step.start, step.end, step.stages, step.pure_speed = start, end.time, stages, pure_speed
+        step.start, step.end, step.stages, step.pure_speed = start.time, end.time, last + 1, pure_speed
         # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
-        step.stretch, step.sampled = memory.steps, 0
+        step.stretch, step.sampled = memory.steps, 1 if begins else 0
         for i in range(3):
-            step.power_before[i] = space.powers[j, i]
+            step.power_before[i] = step.power[0, i] if begins else space.powers[j, i]
             space.powers[j, i] = step.power[last, i]
         offset[j] = space.rollers[FIRST + last, j, 2]
         whole.torque[assembly.places[j].cage] -= bearing.pitch_radius * (at.push + bearing.lever * at.friction)
 
 
-@jit
-def _begin(assembly, motion, limits, space, row, whole, offset):
-    """Evaluate the start and write it as a step without length, in the place of the first stage."""
-    memory, moments, rollers, cages = space.memory[0], space.moments[0], space.rollers, space.cages
-    rollers[FIRST], cages[FIRST], rollers[STAR] = rollers[STATE], cages[STATE], rollers[STATE]
-    now = instant(motion, 0, motion.time[0])
-    clock = Clock(motion.time[0], 0, now.shaft_speed)
-    locate(assembly, now, rollers[FIRST], cages[FIRST], moments, whole.turn[0])
-    for j in range(space.rests.size):
-        space.rests[j].marked = True
-    memory.evaluations += evaluate_marked(assembly, clock.time, moments, rollers[FIRST], space.rests, space.sheets[1])
-    space.numbers[0] = space.numbers[1]
-    predict_raceways(moments, rollers[FIRST], space.sheets[0])
-    stage = Stage(0.0, clock.time, clock.shaft_speed, 0.0, limits.cage_reach)
-    for j in range(moments.size):
-        place = assembly.places[j]
-        meet(assembly, stage, place, moments[j], rollers[FIRST, j], cages[FIRST, place.cage], rollers[STAR, j], space.sheets[0, j])
-    _write_stage(assembly, 0, clock, 0.0, space, row)
-    whole.shaft_speed[0] = clock.shaft_speed
-    for k in range(whole.flows.size):
-        whole.flows[k] = 0.0
-    _write_end(assembly, clock.time, clock, 1, space, row, whole, offset)
-    for j in range(row.size):
-        row[j].sampled = 1
-        for i in range(3):
-            row[j].power_before[i] = space.powers[j, i]
-    memory.begun, memory.time, memory.shaft_speed, memory.step = 1, clock.time, clock.shaft_speed, FIRST_STEP
-
-
-@jit
-def _accept(assembly, start, end, space, row, whole, offset):
-    """Write an accepted step, and take over its state, slopes and evaluations."""
+@jit_inline
+def _advance(end, space, row):
+    """Take over state, slopes and evaluations of an accepted step."""
     memory, rollers, cages = space.memory[0], space.rollers, space.cages
     memory.steps += 1
     for j in range(row.size):
         for k in range(2):
             memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
-    for i in range(whole.flows.size):
-        whole.flows[i] = 0.0
-    for k in range(2):
-        add_flows(assembly, whole.shaft_speed[k], k, row[0].weight[k], space, whole.flows)
-    _write_end(assembly, start.time, end, 2, space, row, whole, offset)
-    for j in range(row.size):
         if space.rests[j].due:
-            space.numbers[1, j] = space.numbers[0, j]
-    rollers[STATE], rollers[SLOPE] = rollers[LAST], rollers[LAST_RATE]
-    cages[STATE], cages[SLOPE] = cages[LAST], cages[LAST_RATE]
+            for i in range(space.numbers.shape[2]):
+                space.numbers[1, j, i] = space.numbers[0, j, i]
+    _copy(rollers[STATE], rollers[LAST])
+    _copy(rollers[SLOPE], rollers[LAST_RATE])
+    _copy(cages[STATE], cages[LAST])
+    _copy(cages[SLOPE], cages[LAST_RATE])
     memory.time, memory.interval, memory.shaft_speed = end.time, end.interval, end.shaft_speed
 
 
@@ -636,9 +605,6 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
     """
     limits, memory = bounds[0], space.memory[0]
     rows, status = 0, UNDER_WAY
-    if memory.begun == 0:
-        _begin(assembly, motion, limits, space, steps[0], wholes[0], offsets[0])
-        rows = 1
     while rows < wholes.size:
         while memory.next_stop < stops.size and stops[memory.next_stop] <= memory.time:
             memory.next_stop += 1
@@ -649,25 +615,31 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
             status = TOO_MANY_STEPS
             break
         stop = stops[memory.next_stop]
-        left = stop - memory.time
+        start, left = Clock(memory.time, memory.interval, memory.shaft_speed), stop - memory.time
         h = _cut(assembly.bearing[0], space, min(memory.step, limits.longest_step), left)
-        if h <= 4e-16 * abs(memory.time) + 1e-300:
+        if h <= 4e-16 * abs(start.time) + 1e-300:
             status = STEP_TOO_SMALL
             break
-        start = Clock(memory.time, memory.interval, memory.shaft_speed)
         end = _clock_at(motion, stop if h == left else start.time + h, start.interval)
+        if memory.begun == 0:
+            end = start
         row, whole = steps[rows], wholes[rows]
-        worst, solved = _take_step(assembly, motion, limits, start, end, space, row, whole)
+        worst, solved = _solve_stages(assembly, motion, limits, start, end, space, row, whole)
+        if memory.begun == 0:
+            _copy(space.numbers[1], space.numbers[0])
+            _write_end(assembly, start, end, space, row, whole, offsets[rows])
+            memory.begun, rows = 1, rows + 1
+            continue
         error = _step_error(assembly, limits, h, space) if solved else math.inf
         if np.isnan(error) or (not worst < math.inf and h < 1e-12):
             status = NOT_FINITE
             break
-        factor = SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
+        factor = tuning.SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
         if error > 1.0:
             memory.rejections += 1
             memory.inaccurate += 1 if solved else 0
             memory.unsolved += 0 if solved else 1
-            memory.step = h * (max(LEAST_PART, factor) if solved else UNSOLVED_PART)
+            memory.step = h * (max(tuning.LEAST_PART, factor) if solved else tuning.UNSOLVED_PART)
             memory.failed = 1
             continue
         power_scale = max(memory.spent, 0.0) / (end.time - motion.time[0]) / (2 * row.size)
@@ -680,7 +652,8 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
             status = OUTSIDE_TABLES
             break
         memory.unbalanced = max(memory.unbalanced, worst)
-        _accept(assembly, start, end, space, row, whole, offsets[rows])
-        memory.step, memory.failed = h * min(1.0 if memory.failed else GROWTH, factor), 0
+        _write_end(assembly, start, end, space, row, whole, offsets[rows])
+        _advance(end, space, row)
+        memory.step, memory.failed = h * min(1.0 if memory.failed else tuning.GROWTH, factor), 0
         rows += 1
     return status, rows

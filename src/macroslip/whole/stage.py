@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.whole import tuning
 from macroslip.whole.cage import guide_force
 from macroslip.whole.model import Assembly
 from macroslip.whole.pocket import pocket_force
@@ -27,7 +28,6 @@ from macroslip.whole.tractions import (
     new_sheets,
     raceway_from,
 )
-from macroslip.whole.tuning import ITERATIONS, PREDICTED, PREDICTED_REST
 
 #: Speed over which the guide's friction turns its sign [m/s].
 GUIDE_SPEED = 1e-3
@@ -222,7 +222,7 @@ def _add_to_border(bearing, stage, at, met, block, border):
             matrix[2, k] += cosine * by
 
 
-@jit
+@jit_inline
 def eliminate(places, size, blocks, borders):
     """Take the rollers out of the cages' borders, once for all right-hand sides of this matrix.
 
@@ -312,22 +312,14 @@ def _begin_cage(bearing, stage, cage, star, border):
         matrix[2, 2] += radial * n_y * n_y + turning_push * n_x * n_x
 
 
-@jit
-def predict_raceways(moments, rollers, sheets):
-    """Write the raceways' forces that follow from the sheets' slopes."""
-    for j in range(moments.size):
-        at, sheet = moments[j], sheets[j]
-        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, rollers[j, 0])
-        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, rollers[j, 1])
-
-
-@jit
+@jit_inline
 def _raceway_forces(assembly, stage, moments, rollers, rests, sheets):
     """Raceway forces at the present state, evaluated where slopes do not serve. Returns the evaluations."""
-    predict_raceways(moments, rollers, sheets)
     for j in range(moments.size):
-        rest = rests[j]
-        if not rest.fresh and is_out_of_reach(sheets[j], moments[j]):
+        rest, at, sheet = rests[j], moments[j], sheets[j]
+        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, rollers[j, 0])
+        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, rollers[j, 1])
+        if not rest.fresh and is_out_of_reach(sheet, at):
             rest.fresh = True
         rest.marked = rest.fresh and not rest.settled
     evaluations = evaluate_marked(assembly, stage.time, moments, rollers, rests, sheets)
@@ -337,7 +329,7 @@ def _raceway_forces(assembly, stage, moments, rollers, rests, sheets):
             off = abs(at.spin_inner - inner.spin) + abs(at.pull_inner - inner.pull)
             off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
             # Slopes that predicted the force well enough serve until the stage is solved.
-            rests[j].settled = off <= PREDICTED * stage.tolerance
+            rests[j].settled = off <= tuning.PREDICTED * stage.tolerance
             at.spin_inner, at.pull_inner, at.spin_outer, at.pull_outer = inner.spin, inner.pull, outer.spin, outer.pull
     return evaluations
 
@@ -351,10 +343,15 @@ def _place_cages(stage, cages, star):
         cages[c, 5] = star[c, 5] + stage.step * cages[c, 3]
 
 
-@jit
+@jit_inline
 def _assemble(assembly, stage, k, size, space):
     """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
-    rollers, cages, moments, sheets = space.rollers[FIRST + k], space.cages[FIRST + k], space.moments[k], space.sheets[0]
+    rollers, cages, moments, sheets = (
+        space.rollers[FIRST + k],
+        space.cages[FIRST + k],
+        space.moments[k],
+        space.sheets[0],
+    )
     star, bearing = space.rollers[STAR], assembly.bearing[0]
     _place_cages(stage, cages, space.cages[STAR])
     for c in range(cages.shape[0]):
@@ -397,7 +394,7 @@ def _update(rollers, cages, size, blocks, borders):
             cages[c, 3] -= borders[c].rest[2]
 
 
-@jit
+@jit_inline
 def _follow(assembly, stage, k, space):
     """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
     bearing = assembly.bearing[0]
@@ -424,7 +421,7 @@ def _follow(assembly, stage, k, space):
         space.rollers[FIRST + k, j, 2] += stage.step * speed
 
 
-@jit
+@jit_inline
 def solve_stage(assembly, stage, k, space):
     """Solve stage `k` (0 or 1) from the guess in its unknowns, which it replaces.
 
@@ -447,14 +444,14 @@ def solve_stage(assembly, stage, k, space):
     worst, before = math.inf, math.inf
     for j in range(blocks.size):
         space.rests[j].settled = False
-    for _ in range(ITERATIONS):
+    for _ in range(tuning.ITERATIONS):
         worst = _assemble(assembly, stage, k, size, space)
         eliminate(places, size, blocks, borders)
         if worst <= stage.tolerance or not worst < math.inf:
             break
         solve(places, size, blocks, borders)
         _update(space.rollers[FIRST + k], space.cages[FIRST + k], size, blocks, borders)
-        predicted = worst * max((worst / before) ** 2, PREDICTED_REST)
+        predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_REST)
         if predicted <= stage.tolerance:
             _place_cages(stage, space.cages[FIRST + k], space.cages[STAR])
             _follow(assembly, stage, k, space)

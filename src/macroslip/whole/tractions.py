@@ -14,7 +14,7 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.look_up import log_load, log_speed
 from macroslip.roller.forces import cage_contact, film_load, interference, raceway_oil, raceway_traction
-from macroslip.whole.tuning import FILM_REACH, FLOATING, LIGHT, LOAD_REACH
+from macroslip.whole import tuning
 
 #: Tractions of a raceway contact at the load [N], ring speed and slip [m/s] of their evaluation: forces that turn (`spin`) and
 #: move the roller (`pull`) [N], with their slopes by slip, load and ring speed; the skew moment's power [W]; rolling resistance
@@ -83,7 +83,7 @@ def new_moments(count: int) -> np.ndarray:
 @jit_inline
 def _is_near(value, known):
     """Whether a place is as good as another; never where that is NaN. Rounding is far smaller than what changes."""
-    return abs(value - known) <= FILM_REACH * abs(known)
+    return abs(value - known) <= tuning.FILM_REACH * abs(known)
 
 
 @jit_inline
@@ -96,7 +96,7 @@ def _film_load(body, tables, load, approach, outward, ring_speed, at):
     return at.film_load
 
 
-@jit
+@jit_inline
 def locate(assembly, now, rollers, cages, moments, turn):
     """Place all rollers at a time and a (predicted) state.
 
@@ -156,7 +156,9 @@ def _evaluate(body, law, tables, load, speed, slip, sheet):
     """Evaluate a raceway contact at its load [N], ring speed and slip [m/s] into its sheet."""
     sheet.slip, sheet.load, sheet.speed = slip, load, speed
     if load <= 0.0:
-        sheet.spin = sheet.pull = sheet.spin_by_slip = sheet.pull_by_slip = sheet.spin_by_load = sheet.pull_by_load = 0.0
+        sheet.spin = sheet.pull = sheet.spin_by_slip = sheet.pull_by_slip = sheet.spin_by_load = sheet.pull_by_load = (
+            0.0
+        )
         sheet.spin_by_speed = sheet.pull_by_speed = sheet.skew = sheet.rough = 0.0
         sheet.shear = sheet.shear_by_slip = sheet.shear_by_load = sheet.shear_by_speed = 0.0
         return
@@ -234,7 +236,9 @@ def shear_from(sheet, load, speed, slip):
 def is_out_of_reach(sheet, at):
     """Whether a raceway load has changed too much for the slopes."""
     inner, outer = sheet.inner.load, sheet.outer.load
-    return abs(at.inner_load - inner) > LOAD_REACH * inner or abs(at.outer_load - outer) > LOAD_REACH * outer
+    return (
+        abs(at.inner_load - inner) > tuning.LOAD_REACH * inner or abs(at.outer_load - outer) > tuning.LOAD_REACH * outer
+    )
 
 
 @jit_inline
@@ -258,7 +262,7 @@ def raceway_powers(sheet, ratio, spin, pull, shear, load, speed, slip):
     )
 
 
-@jit
+@jit_inline
 def cage_from(body, tables, sheet, push, sliding, part):
     """Friction of the cage F_c [N], its slope by slip [N s/m] and its slope by the push N [-].
 
@@ -266,9 +270,9 @@ def cage_from(body, tables, sheet, push, sliding, part):
     same in both rows. A pocket full of oil brakes its roller without load too.
     """
     load = abs(push)
-    if not body.oily and load <= LIGHT:
+    if not body.oily and load <= tuning.LIGHT:
         return 0.0, 0.0, 0.0
-    reach = part * sheet.load + (FLOATING if body.oily else 0.0)
+    reach = part * sheet.load + (tuning.FLOATING if body.oily else 0.0)
     if not (abs(load - sheet.load) <= reach and abs(sliding - sheet.slip) <= part * abs(sheet.slip)):
         found = cage_contact(body, tables, load, -sliding, log_speed(sliding))
         sheet.force = found.friction + found.resistance

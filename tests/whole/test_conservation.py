@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, Cage, Case, Laws, Radau, simulate
-from macroslip.ring.motion import ring_motion
-from macroslip.roller.model import highest_load, ring_geometry
-from macroslip.whole_bearing.books import energy_residual, momentum_residual, pocket_loss
-from macroslip.whole_bearing.ledger import FLOWS
-from macroslip.whole_bearing.model import whole_bearing
-from macroslip.whole_bearing.pocket import restitution
-from macroslip.whole_bearing.run import Times, pure_rolling, run_whole_bearing
+from macroslip.result.prepared import prepare
+from macroslip.roller.model import with_tables as rollers_with_tables
+from macroslip.whole.books import FLOWS
+from macroslip.whole.model import whole_bearing, with_tables
+from macroslip.whole.pocket import restitution
+from macroslip.whole.sdirk import pure_rolling
+from tests.whole.conftest import gather
 
 pytestmark = pytest.mark.slow
 
@@ -23,17 +23,21 @@ THRUST = (0.0, 0.0, 8.0e-4)
 FREE = (0.0, 0.0, 0.0)
 
 
+def assert_momentum_closes(found):
+    impulses = np.abs(found.books.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
+    assert np.abs(found.books.momentum_residual()).max() < 1e-6 * impulses
+
+
 @pytest.mark.parametrize("impact", ["squeeze-film", "dry"])
 @pytest.mark.parametrize("arrangement", ["one", "per-row"])
 def test_books_close(run, impact, arrangement):
     cage = Cage(impact=impact, arrangement=arrangement, guide_friction=5.0, offsets="random")
-    status, record, _ = run(cage, RADIAL, 2.143, 0.4)
-    assert status == 0
-    impulses = np.abs(record.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
-    assert np.abs(momentum_residual(record)).max() < 1e-6 * impulses
-    turned_over = np.abs(record.flows[-1, FLOWS.index("friction_loss")]) + np.abs(pocket_loss(record)[-1])
+    found = run(cage, RADIAL, 2.143, 0.4)
+    assert found.status == 0
+    assert_momentum_closes(found)
+    turned_over = np.abs(found.flow("friction_loss")[-1]) + np.abs(found.books.pocket_loss()[-1])
     assert turned_over > 0.0
-    assert np.abs(energy_residual(record)).max() < 0.02 * turned_over
+    assert np.abs(found.books.energy_residual()).max() < 0.02 * turned_over
 
 
 ROLLING = Laws.paper().but(rolling="whole-film")
@@ -42,18 +46,17 @@ ROLLING = Laws.paper().but(rolling="whole-film")
 def test_books_close_with_rolling_resistance(run):
     """Shear and push of the inlets act on roller and ring with equal and opposite torques, and cost 2 F_R u."""
     cage = Cage(guide_friction=5.0, offsets="random")
-    status, record, _ = run(cage, RADIAL, 2.143, 0.4, tolerance=2e-5, laws=ROLLING)
-    assert status == 0
-    impulses = np.abs(record.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("impulse")]]).max()
-    assert np.abs(momentum_residual(record)).max() < 1e-6 * impulses
-    lost = record.flows[-1, [FLOWS.index("raceway_loss"), FLOWS.index("friction_loss")]]
-    assert np.abs(energy_residual(record)).max() < 2e-4 * lost.sum()
+    found = run(cage, RADIAL, 2.143, 0.4, tolerance=2e-5, laws=ROLLING)
+    assert found.status == 0
+    assert_momentum_closes(found)
+    lost = np.array([found.flow("raceway_loss")[-1], found.flow("friction_loss")[-1]])
+    assert np.abs(found.books.energy_residual()).max() < 2e-4 * lost.sum()
+    rolling = found.energy("rolling")
+    booked = found.energy().sum(axis=0) + rolling.sum(axis=0)
     # The couple that keeps rollers from skewing is an outside one: its power is no part of the books.
-    booked = (
-        record.energy.sum(axis=0) + record.rolling_energy.sum(axis=0) - record.mechanism_energy[:, :, 2].sum(axis=0)
-    )
+    booked[:2] -= found.energy("skew_power").sum(axis=0)
     assert [booked[:2].sum(), booked[2]] == pytest.approx(lost, rel=1e-6)
-    assert (record.rolling_energy > 0.0).all()
+    assert (rolling > 0.0).all()
 
 
 def test_rolling_resistance_of_gripped_rollers_is_that_of_an_imposed_orbit():
@@ -65,18 +68,18 @@ def test_rolling_resistance_of_gripped_rollers_is_that_of_an_imposed_orbit():
 
 
 def test_residual_of_energy_falls_with_tolerance(run):
-    found = []
+    residuals = []
     for tolerance in (1e-3, 1e-5):
-        _, record, _ = run(Cage(), RADIAL, 2.143, 0.5, tolerance=tolerance)
-        found.append(np.abs(energy_residual(record)).max())
-    assert found[1] < 0.2 * found[0]
+        found = run(Cage(), RADIAL, 2.143, 0.5, tolerance=tolerance)
+        residuals.append(np.abs(found.books.energy_residual()).max())
+    assert residuals[1] < 0.2 * residuals[0]
 
 
 def test_energies_spin_and_force_converge(run):
     def figures(tolerance):
-        _, record, _ = run(Cage(), RADIAL, 2.143, 1.0, tolerance=tolerance)
+        found = run(Cage(), RADIAL, 2.143, 1.0, tolerance=tolerance)
         return np.array(
-            [*record.energy.sum(axis=0), record.trace[-1, :28, 0].mean(), np.abs(record.trace[-1, :, 11]).mean()]
+            [*found.energy().sum(axis=0), found.at_end("outer_slip")[-1, :28].mean(), np.abs(found.offset[-1]).mean()]
         )
 
     coarse, fine, finest = figures(2e-5), figures(2e-6), figures(2e-7)
@@ -87,74 +90,76 @@ def test_energies_spin_and_force_converge(run):
 
 def test_tractions_that_rest_change_nothing(run):
     """Between evaluations tractions follow from slopes; evaluated in every iteration they give the same."""
-    _, record, _ = run(Cage(), RADIAL, 2.143, 0.2)
-    _, other, _ = run(Cage(), RADIAL, 2.143, 0.2, rests=False)
-    assert record.count[2] < 0.5 * other.count[2]
-    assert record.energy.sum(axis=0) == pytest.approx(other.energy.sum(axis=0), rel=2e-3, abs=1e-6)
+    found = run(Cage(), RADIAL, 2.143, 0.2)
+    other = run(Cage(), RADIAL, 2.143, 0.2, rests=False)
+    assert found.memory["evaluations"] < 0.5 * other.memory["evaluations"]
+    assert found.energy().sum(axis=0) == pytest.approx(other.energy().sum(axis=0), rel=2e-3, abs=1e-6)
 
 
 def test_free_coast_only_loses_energy(run):
     """No gravity, no drag, rings at rest: friction never gives energy, and nothing but the rings takes momentum."""
-    _, record, _ = run(
+    found = run(
         Cage(weight=False), FREE, 0.0, 0.5, gravity=False, drag=False,
         start=lambda begin: begin._replace(cage_lead=np.full(1, 0.05)),
     )  # fmt: skip
-    energy = record.held[:, 1]
+    energy = found.books.stocks[:, 1]
     assert energy[0] > 0.0
     assert (np.diff(energy) <= 1e-12).all()
-    assert np.abs(record.flows[:, FLOWS.index("body_impulse")]).max() == 0.0
-    assert np.abs(momentum_residual(record)).max() < 1e-6 * record.held[0, 0]
+    assert np.abs(found.flow("body_impulse")).max() == 0.0
+    assert np.abs(found.books.momentum_residual()).max() < 1e-6 * found.books.stocks[0, 0]
 
 
 def test_a_released_cage_is_caught_by_the_rollers(run):
     """A cage at rest among gripped rollers is carried along within its gap, and the rollers do not notice."""
     nominal = 2.143 * 0.5 * 0.338367
-    status, record, _ = run(
+    found = run(
         Cage(), THRUST, 2.143, 0.3, start=lambda begin: begin._replace(cage_lead=np.full(1, -nominal)), outputs=31
     )
-    assert status == 0
-    assert record.cage_trace[0, 0, 0] == pytest.approx(0.0, abs=1e-5)
-    assert record.cage_trace[-1, 0, 0] == pytest.approx(nominal / 0.3727, rel=0.02)
-    assert np.abs(record.trace[-1, :28, 12]).max() < 1e-5  # gripped rollers keep their orbit's speed
+    assert found.status == 0
+    assert found.cage_speed()[0] == pytest.approx(0.0, abs=1e-5)
+    assert found.cage_speed()[-1] == pytest.approx(nominal / 0.3727, rel=0.02)
+    # Gripped rollers keep their orbit's speed.
+    assert np.abs(found.at_end("inner_slip") - found.at_end("outer_slip"))[-1, :28].max() < 1e-5
 
 
 def test_an_impact_in_the_bearing_gives_back_what_the_equation_says(run):
     """A cage runs into gripped rollers, all at once: it leaves with e times its speed of approach."""
     speed = 0.02
     cage = Cage(weight=False, impact="dry", gap=2e-4, arrangement="per-row")
-    _, record, _ = run(
+    found = run(
         cage, THRUST, 0.0, 8e-3, gravity=False, drag=False, tolerance=1e-6,
         start=lambda begin: begin._replace(cage_lead=np.full(2, speed)), outputs=401,
     )  # fmt: skip
-    lead = record.cage_trace[:, 0, 0] * 0.3727
+    lead = found.cage_speed() * 0.3727
     assert lead[0] == pytest.approx(speed, rel=1e-3)
     assert -lead.min() / speed == pytest.approx(restitution(cage.damping, speed), rel=0.02)
 
 
 def test_pitch_symmetry(run):
     """Under pure thrust without weight all rollers of a row do the same."""
-    _, record, _ = run(Cage(weight=False), THRUST, ([0.0, 0.25, 0.5], [2.0, 2.5, 1.5]), 0.5, gravity=False)
+    found = run(Cage(weight=False), THRUST, ([0.0, 0.25, 0.5], [2.0, 2.5, 1.5]), 0.5, gravity=False)
     for row in (slice(0, 28), slice(28, 56)):
-        energy = record.energy[row].sum(axis=1)
+        energy = found.energy()[row].sum(axis=1)
         assert energy == pytest.approx(energy[0], rel=1e-6, abs=1e-12)
 
 
 def test_mirrored_thrust_swaps_the_rows(run):
-    _, record, _ = run(Cage(weight=False), THRUST, 2.143, 0.5, gravity=False)
-    _, mirrored, _ = run(Cage(weight=False), (0.0, 0.0, -THRUST[2]), 2.143, 0.5, gravity=False)
-    assert record.energy[:28].sum(axis=0) == pytest.approx(mirrored.energy[28:].sum(axis=0), rel=1e-6, abs=1e-12)
-    assert record.energy[28:].sum(axis=0) == pytest.approx(mirrored.energy[:28].sum(axis=0), rel=1e-6, abs=1e-12)
+    found = run(Cage(weight=False), THRUST, 2.143, 0.5, gravity=False)
+    mirrored = run(Cage(weight=False), (0.0, 0.0, -THRUST[2]), 2.143, 0.5, gravity=False)
+    energy, other = found.energy(), mirrored.energy()
+    assert energy[:28].sum(axis=0) == pytest.approx(other[28:].sum(axis=0), rel=1e-6, abs=1e-12)
+    assert energy[28:].sum(axis=0) == pytest.approx(other[:28].sum(axis=0), rel=1e-6, abs=1e-12)
 
 
 def test_renumbering_changes_nothing(run):
     order = np.concatenate([np.arange(27, -1, -1), np.arange(55, 27, -1)])
 
     def renumber(prepared):
-        return prepared._replace(rollers=type(prepared.rollers)(*(values[order] for values in prepared.rollers)))
+        return replace(prepared, places=prepared.places[order])
 
-    _, record, _ = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5)
-    _, other, _ = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5, change=renumber)
-    assert other.energy == pytest.approx(record.energy[order], rel=1e-3, abs=1e-6)
+    found = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5)
+    other = run(Cage(), RADIAL, 2.143, 0.3, tolerance=1e-5, change=renumber)
+    assert other.energy() == pytest.approx(found.energy()[order], rel=1e-3, abs=1e-6)
 
 
 def test_one_roller_model_is_the_limit_of_rigid_bilateral_spars():
@@ -175,20 +180,24 @@ def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
     case = Case(loads=loads, laws=ROLLING, integrator=Radau(tolerance=2e-5))
     imposed = simulate(case)
     cage = Cage(gap=0.0, impact="dry", weight=False)
-    held = whole_bearing(case.bearing, case.oil, cage, tilt=case.drivetrain.tilt, laws=ROLLING)
     # The oil of an imposed orbit's pockets has play, which spars in this limit have not; its cage cannot be slowed.
-    held = held._replace(films=held.models[0].films, cage_mass=1e8)
-    ring = ring_geometry(case.bearing, held.models[0])
-    motion, _ = ring_motion(loads, case.bearing, ring, highest_load(case.bearing, case.oil, ROLLING))
+    ready = prepare(case)
+    held = whole_bearing(case.bearing, case.oil, cage, tilt=case.drivetrain.tilt, laws=ROLLING)
+    held = replace(held, cage_mass=1e8)
+    assembly, _ = with_tables(held, ready.box)
+    bodies = rollers_with_tables(held.models, ready.box)[0]
+    for k, row in enumerate(held.models):
+        assembly.bodies[k]["cage"] = bodies[row].body[0]["cage"]
+    assembly = assembly._replace(tables=bodies["downwind"].tables)
     window = np.array([imposed.attrs["window_start"], imposed.attrs["window_end"]])
-    status, record = run_whole_bearing(
-        held, motion, pure_rolling(held, cage), Times(window, window, window[1]), tolerance=2e-5
-    )
-    assert status == 0
+    times = np.union1d(ready.motion.time[:1], window)
+    found = gather(held, assembly, ready.motion, pure_rolling(held, cage), times, tolerance=2e-5)
+    assert found.status == 0
+    within = found._replace(steps=found.steps[found.whole["start"] >= window[0]])
     rolling, friction = (each.values.reshape(56, 3) for each in (imposed.rolling_energy, imposed.energy))
     assert (rolling > 0.0).all()
-    assert record.rolling_energy == pytest.approx(rolling, rel=1e-3)
-    assert record.energy == pytest.approx(friction, rel=1e-3)
+    assert within.energy("rolling") == pytest.approx(rolling, rel=1e-3)
+    assert within.energy() == pytest.approx(friction, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -204,18 +213,18 @@ def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
     ids=["start", "stop", "reversal", "idling", "emergency stop", "standstill"],
 )
 def test_every_operation_runs(run, shaft):
-    status, record, _ = run(Cage(), RADIAL, shaft, 1.0)
-    assert status == 0
-    assert np.isfinite(record.energy).all()
-    assert (record.energy > -1e-9).all()
+    found = run(Cage(), RADIAL, shaft, 1.0)
+    assert found.status == 0
+    assert np.isfinite(found.energy()).all()
+    assert (found.energy() > -1e-9).all()
 
 
 def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
     """δΩ/Ω = −0.11 δr/r in pure rolling; gripped rollers' places drift apart by it."""
     cage = Cage(diameter_scatter=1.5e-6, weight=False, gap=5e-4)
-    _, record, prepared = run(cage, THRUST, 2.143, 1.0)
-    nominal = 2.143 * 0.5 * prepared.inner_radius
-    expected = 0.5 * 2.143 * (prepared.rollers.inner_radius[:28] - prepared.inner_radius)
-    drift = record.trace[-1, :28, 11] - record.trace[-1, :28, 11].mean()
+    found = run(cage, THRUST, 2.143, 1.0)
+    nominal = 2.143 * 0.5 * found.bearing.inner_radius
+    expected = 0.5 * 2.143 * (found.bearing.places["inner_radius"][:28] - found.bearing.inner_radius)
+    drift = found.offset[-1, :28] - found.offset[-1, :28].mean()
     assert np.abs(expected).max() > 1e-6 * nominal
     assert drift == pytest.approx(expected - expected.mean(), abs=0.05 * np.abs(expected).max())

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from macroslip.whole_bearing.pocket import Pocket, elastic_energy, pocket_force, restitution, squeeze_coefficient
+from macroslip.whole.pocket import Pocket, elastic_energy, pocket_force, restitution, squeeze_coefficient
 
 DRY = Pocket(half_gap=2.5e-4, stiffness=4.2e11, damping=50.0, film=0.0, least_film=9e-7)
 FILM = DRY._replace(damping=0.0, film=squeeze_coefficient(0.54, 0.106, 0.035))

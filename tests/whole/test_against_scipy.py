@@ -13,27 +13,46 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from macroslip.bearing.frames import initial_angles
+from macroslip.compiled import jit
+from macroslip.contact.look_up import log_load, log_speed
 from macroslip.mechanisms import Laws
-from macroslip.roller.contact import cage_contact, raceway_contact
-from macroslip.roller.films import Films
-from macroslip.roller.play import film_load
-from macroslip.rolling.light_contact import light_contact, pocket_contact
-from macroslip.whole_bearing.cage import Cage
-from macroslip.whole_bearing.guidance import guide_force
-from macroslip.whole_bearing.pocket import pocket_force
+from macroslip.roller.forces import cage_contact, film_load, raceway_oil, raceway_traction
+from macroslip.whole.cage import Cage, guide_force
+from macroslip.whole.pocket import pocket_force
 
 pytestmark = pytest.mark.slow
 
 ROLLERS = 3
 
 
-def oil_forces(found):
-    """Spin force, pull and power of the oil of a contact, from its forces on the roller."""
-    shear, push = found.rolling.shear, found.rolling.push_1
-    return found.sliding + shear, found.sliding + shear + push, found.sliding_power + found.rolling.power
+@jit
+def raceway(body, law, tables, load, speed, slip):
+    """Spin force, pull [N] and power [W] of a raceway contact with its oil."""
+    if load <= 0.0:
+        return 0.0, 0.0, 0.0
+    found = raceway_traction(law, tables, body.closed_form, load, log_load(load), speed, slip)
+    spin, pull = found.pull - found.lag, found.pull
+    power = spin * slip + speed * (law.curvature * found.lag - law.spin * found.skew)
+    if body.oily:
+        mean = speed - 0.5 * slip
+        oil = raceway_oil(law, tables, load, log_load(load), mean, log_speed(mean), slip)
+        spin += oil.sliding + oil.shear
+        pull += oil.sliding + law.push * oil.shear
+        power += oil.sliding * slip + oil.power
+    return spin, pull, power
 
 
-def plain_equations(prepared, bearing, displacement, shaft_speed, gap=5e-4):
+@jit
+def roller_contacts(body, tables, load, depth, outward, inner, outer, push, sliding):
+    """Spin force, pull [N] and power [W] of both raceways, given ring speeds and slips, and friction of the cage [N]."""
+    load += film_load(body, tables, load, depth, outward, outer[0])
+    at_inner = raceway(body, body.inner, tables, load + max(-outward, 0.0), inner[0], inner[1])
+    at_outer = raceway(body, body.outer, tables, load + max(outward, 0.0), outer[0], outer[1])
+    cage = cage_contact(body, tables, abs(push), -sliding, log_speed(sliding))
+    return at_inner, at_outer, cage.friction + cage.resistance
+
+
+def plain_equations(prepared, assembly, bearing, displacement, shaft_speed):
     """dy/dt for y = (φ, Ω, ω of all rollers; θ_c, Ω_c, a, b, p, q; energies of inner, outer and cage contacts)."""
     start = np.concatenate([initial_angles(row, ROLLERS) for row in ("downwind", "upwind")])
     r, pitch, alpha = bearing.roller_diameter / 2, bearing.pitch_radius, bearing.contact_angle
@@ -50,7 +69,8 @@ def plain_equations(prepared, bearing, displacement, shaft_speed, gap=5e-4):
         force_x -= push * n_x
         force_y -= push * n_y
         for j in range(n):
-            model = prepared.models[0 if j < ROLLERS else 1]
+            row = 0 if j < ROLLERS else 1
+            model = prepared.models["upwind" if row else "downwind"]
             theta = start[j] + cage_angle
             cosine, sine = math.cos(theta), math.sin(theta)
             offset = pitch * (phi[j] - theta) + a * sine - b * cosine
@@ -59,36 +79,24 @@ def plain_equations(prepared, bearing, displacement, shaft_speed, gap=5e-4):
             radial = displacement[0] * math.cos(phi[j]) + displacement[1] * math.sin(phi[j]) - model.radial_play
             depth = radial * model.cos_contact_angle + displacement[2] * model.sin_contact_angle
             load = model.stiffness * max(depth, 0.0) ** 1.5
-            films = prepared.films
             outward = mass * pitch * orbit[j] ** 2 - model.weight_in_plane * math.sin(phi[j])
             outward = outward * model.cos_contact_angle + model.weight_along_axis * model.sin_contact_angle
             relative = spin[j] - orbit[j] * math.cos(alpha)
             ring_in, ring_out = -(shaft_speed - orbit[j]) * inner, -orbit[j] * outer
             slip_in, slip_out = ring_in - relative * r, ring_out - relative * r
-            load += film_load(films, load, depth, outward, ring_out)
-            inner_load, outer_load = load + max(-outward, 0.0), load + max(outward, 0.0)
-            at_inner = raceway_contact(model.inner, inner_load, ring_in, slip_in)
-            at_outer = raceway_contact(model.outer, outer_load, ring_out, slip_out)
             sliding = -r * (spin[j] - cage_speed * math.cos(alpha))
-            at_cage = cage_contact(model.cage, abs(spar), sliding)
-            inner_oil = outer_oil = cage_oil = (0.0, 0.0, 0.0)
-            if isinstance(films, Films):
-                inner_oil = oil_forces(light_contact(films.inner, inner_load, relative * r, ring_in))
-                outer_oil = oil_forces(light_contact(films.outer, outer_load, relative * r, ring_out))
-                cage_oil = oil_forces(pocket_contact(films.cage, abs(spar), -sliding, 0.0, 0.5 * gap))
+            at_inner, at_outer, friction = roller_contacts(
+                assembly.bodies[row], assembly.tables, load, depth, outward, (ring_in, slip_in), (ring_out, slip_out),
+                spar, sliding,
+            )  # fmt: skip
             against = model.weight_in_plane * math.cos(phi[j]) + model.drag * orbit[j] * abs(orbit[j])
             found[j] = orbit[j]
-            along = at_inner.pull + inner_oil[1] - at_outer.pull - outer_oil[1]
-            found[n + j] = (spar - against - along) / (mass * pitch)
-            friction = at_cage.force + cage_oil[0]
-            turning = at_inner.spin + inner_oil[0] + at_outer.spin + outer_oil[0] + friction
-            found[2 * n + j] = turning / (0.5 * mass * r)
+            found[n + j] = (spar - against - at_inner[1] + at_outer[1]) / (mass * pitch)
+            found[2 * n + j] = (at_inner[0] + at_outer[0] + friction) / (0.5 * mass * r)
             torque -= spar * (pitch - a * cosine - b * sine) + r * math.cos(alpha) * friction
             force_x += spar * sine
             force_y -= spar * cosine
-            found[3 * n + 6 :] += [
-                at_inner.power + inner_oil[2], at_outer.power + outer_oil[2], at_cage.power + cage_oil[2]
-            ]  # fmt: skip
+            found[3 * n + 6 :] += [at_inner[2], at_outer[2], friction * sliding]
         found[3 * n : 3 * n + 6] = [
             cage_speed, torque / (prepared.cage_mass * pitch**2), p, q,
             force_x / prepared.cage_mass, force_y / prepared.cage_mass,
@@ -113,13 +121,11 @@ def test_speeds_places_and_energies(run, bearing, displacement, cage, span, laws
     speed = 2.143
     # Errors of dry impacts grow from one to the next: the finer the tolerance, the longer solutions agree.
     tolerance = 1e-9 if cage.impact == "dry" else 1e-8
-    status, record, prepared = run(
-        cage, displacement, speed, span, rollers=ROLLERS, tolerance=tolerance, outputs=5, laws=laws
-    )
-    assert status == 0
-    assert np.abs(record.largest_push).max() > 1.0
-    small = bearing.replace(rollers_per_row=ROLLERS)
-    rate, start = plain_equations(prepared, small, displacement, speed, cage.gap)
+    result = run(cage, displacement, speed, span, rollers=ROLLERS, tolerance=tolerance, outputs=5, laws=laws)
+    assert result.status == 0
+    assert np.abs(result.steps["cage_load"]).max() > 1.0
+    small, prepared = bearing.replace(rollers_per_row=ROLLERS), result.bearing
+    rate, start = plain_equations(prepared, result.assembly, small, displacement, speed)
     orbit = speed * prepared.inner_radius / (2.0 * prepared.pitch_radius)
     spin = -orbit * prepared.pitch_radius / prepared.radius
     n = 2 * ROLLERS
@@ -128,17 +134,19 @@ def test_speeds_places_and_energies(run, bearing, displacement, cage, span, laws
     # Energies act on nothing; SciPy enlarges their differences until they overflow.
     with np.errstate(over="ignore"):
         found = solve_ivp(
-            rate, (0.0, span), begin, method="Radau", t_eval=record.out_time, rtol=1e-8, atol=1e-11, max_step=2e-3
+            rate, (0.0, span), begin, method="Radau", t_eval=result.books.times, rtol=1e-8, atol=1e-11, max_step=2e-3
         )
     assert found.success
     relative = found.y[2 * n : 3 * n] - found.y[n : 2 * n] * math.cos(bearing.contact_angle)
     scale = np.abs(relative).max()
-    assert np.transpose(record.trace[:, :, 0]) == pytest.approx(relative, abs=3e-5 * scale)
-    assert record.cage_trace[:, 0, 0] == pytest.approx(found.y[3 * n + 1], rel=3e-5)
-    assert record.cage_trace[:, 0, 3] == pytest.approx(found.y[3 * n + 3], abs=2e-8)
+    surface = result.at_end("outer_speed") - result.at_end("outer_slip")
+    assert surface.T / prepared.radius == pytest.approx(relative, abs=3e-5 * scale)
+    assert result.cage_speed() == pytest.approx(found.y[3 * n + 1], rel=3e-5)
+    outputs = result.at_outputs()
+    assert result.whole["cages"][outputs, 0, 5] == pytest.approx(found.y[3 * n + 3], abs=2e-8)
     theta = start[:, None] + found.y[3 * n]
     offset = prepared.pitch_radius * (found.y[:n] - theta)
     offset += found.y[3 * n + 2] * np.sin(theta) - found.y[3 * n + 3] * np.cos(theta)
-    assert np.transpose(record.trace[:, :, 11]) == pytest.approx(offset, abs=5e-8)
-    dissipated = record.energy.sum(axis=0) + record.rolling_energy.sum(axis=0)
+    np.testing.assert_allclose(result.offset[outputs].T, offset, rtol=0.0, atol=5e-8)
+    dissipated = result.energy().sum(axis=0) + result.energy("rolling").sum(axis=0)
     assert dissipated == pytest.approx(found.y[3 * n + 6 :, -1], rel=2e-3, abs=1e-7)
