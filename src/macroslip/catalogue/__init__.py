@@ -1,6 +1,4 @@
-"""Catalogue files: every quantity with its value, unit, provenance tag and note, checked once on reading."""
-
-from macroslip.catalogue.entry import TAGS, Provenance
-from macroslip.catalogue.record import Record
-
-__all__ = ["TAGS", "Provenance", "Record"]
+# shim
+from macroslip.input.record import Provenance as Provenance
+from macroslip.input.record import Record as Record
+from macroslip.input.record import TAGS as TAGS

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry, inertia
+from macroslip.bearing import geometry
 from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import effective_modulus, elliptical_contact, series_stiffness
@@ -204,7 +204,7 @@ def roller_model(
     The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
     """
     radius = geometry.roller_radius(bearing)
-    mass = inertia.roller_mass(bearing.density, radius, bearing.roller_length)
+    mass = geometry.roller_mass(bearing.density, radius, bearing.roller_length)
     found = interfaces(bearing, lubricant)
     inner_radius = geometry.inner_contact_radius(bearing)
     outer_radius = geometry.outer_contact_radius(bearing)
@@ -214,7 +214,7 @@ def roller_model(
     contacts = [prepare_contact(laws, bearing, lubricant, one, axial_sign) for one in found]
     return RollerModel(
         radius=radius,
-        mobility=radius**2 / inertia.spin_inertia(mass, radius),
+        mobility=radius**2 / geometry.spin_inertia(mass, radius),
         stiffness=series_stiffness(found[0].hertz, found[1].hertz),
         cos_contact_angle=math.cos(bearing.contact_angle),
         sin_contact_angle=axial_sign * math.sin(bearing.contact_angle),

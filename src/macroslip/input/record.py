@@ -1,0 +1,516 @@
+"""Records of catalogue files: named sets of quantities, frozen in SI, each with its provenance."""
+
+from __future__ import annotations
+
+import functools
+import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import resources
+from importlib.resources.abc import Traversable
+from numbers import Integral
+from os import PathLike, fspath
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, ClassVar, Self
+
+from pydantic import BaseModel, ConfigDict, PrivateAttr, ValidationError
+
+from macroslip.errors import InputError
+from macroslip.input.fields import Quantity, Reading, form_of
+from macroslip.input.files import Source, parse, read_text, yaml_text
+from macroslip.input.messages import shown, together, unknown_key
+from macroslip.input.units import NUMBER, Dimension, is_finite_number, parse_quantity, quantity_pattern, with_unit
+from macroslip.overview import html_overview
+
+#: Provenance tags and their meaning.
+TAGS: Mapping[str, str] = MappingProxyType(
+    {
+        "P": "paper",
+        "V": "catalogue or public model",
+        "D": "derived",
+        "R": "literature, from memory",
+        "E": "engineering estimate",
+        "U": "user",
+    }
+)
+#: Characters that a name, a title or a note may have.
+LONGEST_TEXT = 2000
+_ENTRY_KEYS = ("value", "unit", "tag", "note", "range")
+_HEADER = (
+    "A {} file of macroslip. Every quantity has a value and its unit; where it comes from (tag), a note and the range of "
+    f"values it may have are optional. Tags: {', '.join(f'{tag} {meaning}' for tag, meaning in TAGS.items())}. Short "
+    "form: width, say, as 272 mm."
+)
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a value comes from, and how it was written.
+
+    Parameters
+    ----------
+    value : float
+        Number as written [unit].
+    unit : str
+        Unit as written.
+    tag : str
+        One of `TAGS`.
+    note : str
+        Free text.
+    range : tuple[float, float] | None
+        Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
+        nothing is known of its scatter.
+    """
+
+    value: float
+    unit: str
+    tag: str = "U"
+    note: str = ""
+    range: tuple[float, float] | None = None
+
+    def as_entry(self) -> dict[str, Any]:
+        """The entry of a catalogue file for a quantity of this origin."""
+        entry = {"value": self.value, "unit": self.unit, "tag": self.tag, "note": self.note}
+        return entry if self.range is None else entry | {"range": list(self.range)}
+
+    @property
+    def written(self) -> str:
+        """Value and unit as written."""
+        return with_unit(self.value, self.unit)
+
+
+def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tuple[float, Provenance]:
+    """Check the form of an entry `{value: 70, unit: mm, tag: E, note: "...", range: [66, 74]}`, or just `70 mm`.
+
+    Parameters
+    ----------
+    key : str
+        Key of the entry.
+    entry : Any
+        Text of number and unit, a plain number where the quantity has no unit, or a mapping with value, unit and
+        optionally tag, note and range.
+    dimension : Dimension
+        Units the quantity may have.
+    source : Source
+        Where the entry was written, for messages.
+
+    Returns
+    -------
+    tuple[float, Provenance]
+        Value [SI] and provenance. Whether the value is in its range is checked later.
+
+    Raises
+    ------
+    InputError
+        If the entry is none of these, has an unknown key, or a wrong value, unit, tag, note or range.
+    """
+
+    def refuse(what: str, allowed: str, remedy: str, *inner: str) -> None:
+        raise InputError(f"{key} {what}", where=source.where(key, *inner), allowed=allowed, remedy=remedy)
+
+    if isinstance(entry, str):
+        value, unit = parse_quantity(entry, dimension, key, source.where(key))
+        return dimension.to_si(value, unit), Provenance(value, unit)
+    if dimension is NUMBER and is_finite_number(entry):
+        entry = {"value": entry, "unit": "1"}
+    units = dimension.choices
+    form = (
+        f"{key}: {{value: a number, unit: {units}, tag: {' or '.join(TAGS)}, note: text, range: [lowest, highest]}}; tag, "
+        f"note and range are optional. Short form: {key}: {with_unit(1, dimension.si_unit)}"
+    )
+    if not isinstance(entry, Mapping):
+        lacks = "does not give its unit" if is_finite_number(entry) else "is no quantity"
+        refuse(f"is {shown(entry)}, which {lacks}", form, "Give the value with its unit.")
+    for inner in entry:
+        if inner not in _ENTRY_KEYS:
+            raise unknown_key(inner, _ENTRY_KEYS, where=source.where(key, inner), inside=key)
+    for inner in ("value", "unit"):
+        if inner not in entry:
+            refuse(f"has no {inner}", form, f"Add the {inner}.")
+    value, unit, tag, note = entry["value"], entry["unit"], entry.get("tag", "U"), entry.get("note", "")
+    if not is_finite_number(value):
+        remedy = f"The unit goes into its own key: {units}."
+        refuse(f"has the value {shown(value)}", "a finite number, without its unit", remedy, "value")
+    if not isinstance(unit, str) or unit not in dimension.units:
+        remedy = "Write it with its quotes." if dimension is NUMBER else "Convert the value to one of these units."
+        refuse(f"has the unit {shown(unit)} (with the value {shown(value)})", units, remedy, "unit")
+    if not isinstance(tag, str) or tag not in TAGS:
+        tags = ", ".join(f"{name} ({meaning})" for name, meaning in TAGS.items())
+        refuse(f"has the tag {shown(tag)}", tags, "Leave the tag out for a value of your own.", "tag")
+    if not isinstance(note, str):
+        refuse(f"has the note {shown(note)}", "text", "Put it in quotes.", "note")
+    limits = entry.get("range") if "range" in entry else (value, value)
+    pair: Any = limits if isinstance(limits, Sequence) and not isinstance(limits, str) and len(limits) == 2 else ()
+    if not pair or not all(map(is_finite_number, pair)) or not pair[0] <= value <= pair[1]:
+        what = f"has the range {shown(limits)} (with the value {shown(value)})"
+        allowed = "two numbers in the unit of the value, [lowest, highest], with the value between them"
+        refuse(what, allowed, "Leave it out if nothing is known of the scatter.", "range")
+    value, low, high = (int(one) if isinstance(one, Integral) else float(one) for one in (value, *pair))
+    return dimension.to_si(value, unit), Provenance(value, unit, tag, note, (low, high) if "range" in entry else None)
+
+
+class Record(BaseModel):
+    """A named set of quantities that can be read from a catalogue file or built from SI numbers.
+
+    A subclass declares every quantity as `Annotated[float, Quantity(...)]` with its range in SI, and keeps its shipped
+    files in the folder `catalogue` of its own package.
+
+    Raises
+    ------
+    InputError
+        If a value is missing, unknown, no finite number, out of its range, or inconsistent with the others. All such
+        problems are reported together.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+    noun: ClassVar[str] = "record"
+    # Quantities that may be left out of a file because they follow from others that it gives.
+    derivable: ClassVar[frozenset[str]] = frozenset()
+    # Pairs instead of a mapping keep the record hashable and picklable.
+    _provenance: tuple[tuple[str, Provenance], ...] = PrivateAttr(default=())
+    _derived: frozenset[str] = PrivateAttr(default=frozenset())
+
+    def __init__(self, **values: Any):
+        self._fill(values, {}, Source())
+
+    def _fill(
+        self,
+        values: Mapping[str, Any],
+        provenance: Mapping[str, Provenance],
+        source: Source,
+        derived: frozenset[str] = frozenset(),
+    ) -> None:
+        """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
+        written = {key: (origin.written, origin.unit) for key, origin in provenance.items()}
+        kinds = dimensions(type(self))
+        written = {
+            key: written.get(key) or (with_unit(values[key], kind.si_unit), kind.si_unit)
+            for key, kind in kinds.items()
+            if is_finite_number(values.get(key))
+        }
+        try:
+            self.__pydantic_validator__.validate_python(
+                dict(values), self_instance=self, context=Reading(written=written)
+            )
+        except ValidationError as failure:
+            raise together(self._wrong(failure, source)) from None
+        found = {key: getattr(self, key) for key in kinds if getattr(self, key) is not None}
+        origins = {key: provenance.get(key) or Provenance(found[key], kinds[key].si_unit) for key in found}
+        self._provenance, self._derived = tuple(origins.items()), derived
+        problems = [*self._texts(source), *self._wide_ranges(source), *self._inconsistencies(source)]
+        if problems:
+            raise together(problems)
+
+    def _wrong(self, failure: ValidationError, source: Source) -> Iterator[InputError]:
+        """Yield what pydantic has found: keys that are missing in one error, then the others."""
+        details = failure.errors(include_url=False)
+        missing = [str(detail["loc"][0]) for detail in details if detail["type"] == "missing"]
+        if missing:
+            yield self._missing(missing, source)
+        for detail in details:
+            key, problem = detail["loc"][0], detail.get("ctx", {}).get("error")
+            if detail["type"] == "extra_forbidden":
+                yield unknown_key(key, type(self).model_fields, where=source.where(key))
+            elif isinstance(problem, InputError):
+                where = source.where(key, "value")
+                yield InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy)
+
+    @classmethod
+    def _missing(cls, keys: list[str], source: Source) -> InputError:
+        """The error for missing keys; a subclass adds other ways to give them."""
+        first, dimension = keys[0], dimensions(cls).get(keys[0])
+        if source.file:
+            form = f"{first}: {{value: ..., unit: {dimension.choices}}}" if dimension else f"{first}: ..."
+        else:
+            form = f"{first}=... [{dimension.si_unit}]" if dimension else f"{first}=..."
+        remedy = f"Add what is missing, in the form {form}"
+        return InputError(f"the {cls.noun} has no {', no '.join(keys)}", where=source.file, remedy=remedy)
+
+    def _texts(self, source: Source) -> Iterator[InputError]:
+        """Yield text that results could not hold: a NUL ends it there, half a surrogate pair has no UTF-8."""
+        texts = {(key,): getattr(self, key) for key in type(self).model_fields.keys() - dimensions(type(self)).keys()}
+        notes = {(key, "note"): origin.note for key, origin in self._provenance}
+        for keys, text in (texts | notes).items():
+            if len(text) > LONGEST_TEXT or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in text):
+                yield InputError(
+                    f"{' of '.join(reversed(keys))} is {shown(text)}",
+                    where=source.where(*keys),
+                    allowed=f"at most {LONGEST_TEXT} characters on one line, without control characters",
+                    remedy="Write it as one line of plain text.",
+                )
+
+    def _wide_ranges(self, source: Source) -> Iterator[InputError]:
+        """Yield ranges of values that go beyond what the quantity may be."""
+        for key, origin in self._provenance:
+            quantity = quantities(type(self))[key]
+            for limit in origin.range or ():
+                if not quantity.holds(quantity.dimension.to_si(limit, origin.unit)):
+                    yield InputError(
+                        f"the range of {key} goes to {shown(limit)}",
+                        where=source.where(key, "range"),
+                        allowed=quantity.range_text(origin.unit),
+                        remedy="Give a range in which every value is possible.",
+                    )
+
+    def _inconsistencies(self, source: Source) -> Iterator[InputError]:
+        """Yield what is wrong with values that are each within their range."""
+        yield from ()
+
+    def __setattr__(self, key: str, value: Any) -> None:
+        if not key.startswith("_"):
+            raise InputError(
+                f"{key} cannot be set, because a {self.noun} stays as it was checked",
+                remedy=f"Make another one: new = old.replace({key}=...).",
+            )
+        super().__setattr__(key, value)
+
+    def written(self, key: str, si_value: float | None = None) -> str:
+        """Write a quantity, or another value for it, in the unit in which the quantity was given."""
+        value = getattr(self, key) if si_value is None else si_value
+        return dimensions(type(self))[key].text(value, self.provenance[key].unit)
+
+    def __repr__(self) -> str:
+        title = f": {self.title}" if self.title else ""
+        return f"<{type(self).__name__} {self.name}{title}>"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        rows = [[key, origin.written, TAGS[origin.tag], origin.note] for key, origin in self._provenance]
+        return html_overview(repr(self)[1:-1], ["quantity", "value", "where it comes from", "note"], rows)
+
+    @property
+    def provenance(self) -> Mapping[str, Provenance]:
+        """Origin of every quantity that has a value, by key: value and unit as written, tag and note."""
+        return MappingProxyType(dict(self._provenance))
+
+    @classmethod
+    def _shipped(cls) -> Traversable:
+        return resources.files(cls.__module__.rpartition(".")[0]) / "catalogue"
+
+    @classmethod
+    def catalogue(cls) -> list[str]:
+        """Names that `read` accepts beside the path of a file."""
+        files = (item.name for item in cls._shipped().iterdir())
+        return sorted(name.removesuffix(".yaml") for name in files if name.endswith(".yaml"))
+
+    @classmethod
+    def read(cls, source: str | PathLike[str]) -> Self:
+        """Read a shipped record or a file of the user's.
+
+        Parameters
+        ----------
+        source : str | PathLike
+            A name from `catalogue()`, or the path of a YAML file. A name wins over a file of the same name.
+
+        Returns
+        -------
+        Self
+            The record in SI units.
+
+        Raises
+        ------
+        InputError
+            If there is no such file or name, or the content is wrong; the message names file, line and key.
+        """
+        name, names = fspath(source), cls.catalogue()
+        if name in names:
+            return _shipped_record(cls, name)
+        text = read_text(
+            Path(name),
+            f"no {cls.noun} can be read from {shown(name)}",
+            allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
+            remedy=f"Relative paths start at {Path.cwd()}.",
+        )
+        return cls.from_dict(*parse(text, name))
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
+        """Build a record from the content of a catalogue file, as `as_dict` gives it.
+
+        Parameters
+        ----------
+        entries : Mapping[str, Any]
+            Text fields as text, quantities as mappings with value, unit and optionally tag and note.
+        source : Source, optional
+            Where they were written, for messages.
+
+        Raises
+        ------
+        InputError
+            As `read`.
+        """
+        source = source or Source()
+        values: dict[str, Any] = {}
+        provenance: dict[str, Provenance] = {}
+        problems: list[InputError] = []
+        if entries and not entries.keys() & cls.model_fields.keys():
+            # Another kind of file: its keys may be private and are left out of the message.
+            what, remedy = f"none of its keys is one of a {cls.noun}", f"Name a {cls.noun} file."
+            raise InputError(what, where=source.file, allowed=", ".join(cls.model_fields), remedy=remedy)
+        for key, entry in entries.items():
+            try:
+                if key not in cls.model_fields:
+                    raise unknown_key(key, cls.model_fields, where=source.where(key))
+                if key in dimensions(cls):
+                    values[key], provenance[key] = read_entry(key, entry, dimensions(cls)[key], source)
+                else:
+                    values[key] = entry
+            except InputError as problem:
+                problems.append(problem)
+        if problems:
+            raise together(problems)
+        record = cls.__new__(cls)
+        record._fill(values, provenance, source)
+        return record
+
+    def require(self, *keys: str, purpose: str) -> None:
+        """Refuse a record that lacks optional quantities something needs.
+
+        Parameters
+        ----------
+        *keys : str
+            Names of the quantities.
+        purpose : str
+            What needs them, for the message, for example "the physical model".
+
+        Raises
+        ------
+        InputError
+            If a quantity has no value; the message names all that are missing, and the form to add them in.
+
+        Examples
+        --------
+        >>> from macroslip.bearing import Bearing
+        >>> bearing = Bearing.read("skf-240-600-bc").replace(name="mine", mass=None)
+        >>> bearing.require("mass", purpose="the cage")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+            ...
+        macroslip.errors.InputError: bearing mine: it has no mass, which the cage needs. Allowed: ...
+        """
+        missing = [key for key in keys if getattr(self, key) is None]
+        if missing:
+            known = quantities(type(self))
+            raise InputError(
+                f"it has no {', no '.join(missing)}, which {purpose} needs",
+                where=f"{self.noun} {self.name}",
+                allowed="; ".join(f"{key}: {known[key].range_text()}" for key in missing),
+                remedy="Add to its file: "
+                + ", ".join(f"{key}: {{value: ..., unit: {known[key].dimension.choices}}}" for key in missing),
+            )
+
+    def as_dict(self) -> dict[str, Any]:
+        """Give the record in the form of a catalogue file, with plain numbers and text only.
+
+        Returns
+        -------
+        dict
+            Text fields as text, quantities as value and unit as written, tag, note and, where it is known, range.
+            Quantities without a value, and those that follow from others, are left out. `from_dict` makes an equal
+            record of it.
+        """
+        origins, kinds = self.provenance, dimensions(type(self))
+        return {
+            key: origins[key].as_entry() if key in origins else getattr(self, key)
+            for key in type(self).model_fields
+            if key not in self._derived and (key in origins or key not in kinds)
+        }
+
+    def as_yaml(self) -> str:
+        """Give the record as the text of a catalogue file, every key explained; `read` gives it back as it is."""
+        forms = {key: form_of(field) for key, field in type(self).model_fields.items()}
+        explained = {key: form.about if form else key for key, form in forms.items()}
+        return yaml_text(self.as_dict(), _HEADER.format(self.noun), explained)
+
+    def replace(self, **values: Any) -> Self:
+        """Copy the record with other values, checked as any other input.
+
+        Parameters
+        ----------
+        **values : Any
+            New values [SI] by key. They get the tag U; the others keep their provenance.
+
+        Raises
+        ------
+        InputError
+            As the constructor.
+        """
+        kept = {key: origin for key, origin in self._provenance if key not in values}
+        given = {key: getattr(self, key) for key in type(self).model_fields if key not in self._derived}
+        record = type(self).__new__(type(self))
+        record._fill(given | values, kept, Source())
+        return record
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy the record; with `update` as `replace`, which checks the new values.
+
+        Raises
+        ------
+        InputError
+            As the constructor.
+        """
+        return self.replace(**update) if update else super().model_copy(deep=deep)
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
+        properties = {key: form_of(field) for key, field in cls.model_fields.items()}
+        required = [key for key, field in cls.model_fields.items() if field.is_required() and key not in cls.derivable]
+        return {
+            "$schema": "https://json-schema.org/draft/2020-12/schema",
+            "title": f"{cls.noun} of macroslip",
+            "type": "object",
+            "properties": {
+                key: _entry_schema(form) if isinstance(form, Quantity) else form.json() | {"description": form.about}
+                for key, form in properties.items()
+                if form
+            },
+            "required": required,
+            "additionalProperties": False,
+        }
+
+
+def _entry_schema(quantity: Quantity) -> dict[str, Any]:
+    """JSON Schema of the entry of a quantity: a mapping, text, or a plain number where it has no unit."""
+    dimension, tags = quantity.dimension, ", ".join(f"{tag}: {meaning}" for tag, meaning in TAGS.items())
+    number = {"type": "integer" if quantity.whole else "number"}
+    about = "lowest and highest value; four out of five lie between them"
+    limits = {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2, "description": about}
+    entry = {
+        "type": "object",
+        "properties": {
+            "value": number,
+            "unit": {"enum": list(dimension.units)},
+            "tag": {"enum": list(TAGS), "default": "U", "description": tags},
+            "note": {"type": "string"},
+            "range": limits,
+        },
+        "required": ["value", "unit"],
+        "additionalProperties": False,
+    }
+    plain = [number] if dimension is NUMBER else []
+    return {
+        "description": f"{quantity.about}: {quantity.range_text()}",
+        "anyOf": [entry, {"type": "string", "pattern": quantity_pattern(dimension)}, *plain],
+    }
+
+
+@functools.cache
+def quantities(record: type[Record]) -> Mapping[str, Quantity]:
+    """Quantities of a record class by key; fields of plain text have none."""
+    forms = {key: form_of(field) for key, field in record.model_fields.items()}
+    return MappingProxyType({key: form for key, form in forms.items() if isinstance(form, Quantity)})
+
+
+@functools.cache
+def dimensions(record: type[Record]) -> Mapping[str, Dimension]:
+    """Dimensions of the quantities of a record class, by key."""
+    return MappingProxyType({key: quantity.dimension for key, quantity in quantities(record).items()})
+
+
+@functools.cache
+def _shipped_record(kind: type[Record], name: str) -> Any:
+    """Read a shipped record. No record ever changes, so all users of one share it."""
+    file = f"{name}.yaml"
+    return kind.from_dict(*parse((kind._shipped() / file).read_text(encoding="utf-8"), file))
