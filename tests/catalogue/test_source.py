@@ -159,6 +159,6 @@ def test_a_range_beyond_what_the_quantity_may_be():
     entries = Bearing.read("skf-240-600-bc").as_dict()
     entries["osculation_inner"]["range"] = [0.97, 1.01]
     with pytest.raises(
-        InputError, match="^the range of osculation_inner goes to 1.01. Allowed: above 0.9 and below 1"
+        InputError, match="^osculation_inner.range: it goes to 1.01. Allowed: above 0.9 and below 1"
     ):
         Bearing.from_dict(entries)

@@ -12,10 +12,10 @@ from macroslip.bearing import Bearing
 from macroslip.case.load_source import LoadSource
 from macroslip.case.parts import INTEGRATORS, BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
 from macroslip.errors import InputError
-from macroslip.input.fields import Choice, Flag, Form, Made, OrWord, Quantity, Text, Variants, in_file
+from macroslip.input.fields import Choice, Flag, Form, Given, Quantity, Text
 from macroslip.input.files import Place, Source
 from macroslip.input.messages import shown, together
-from macroslip.input.section import input_section
+from macroslip.input.section import Made, OrWord, Variants, form_from, input_section
 from macroslip.input.units import TEMPERATURE
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.loads.source_file import without_folders
@@ -37,13 +37,13 @@ class RollerNumbers(Form):
 
     form = "all, or a list of whole numbers such as [0, 7]"
 
-    def read(self, value: Any, info: Any) -> str | tuple[int, ...]:
+    def read(self, value: Any, given: Given) -> str | tuple[int, ...]:
         """Check that each is a whole number; NumPy's are welcome."""
         if isinstance(value, str) and value == "all":
             return "all"
         numbers = () if isinstance(value, str) or not isinstance(value, Iterable) else tuple(value)
         if not numbers or not all(isinstance(one, Integral) and not isinstance(one, bool) for one in numbers):
-            raise self._wrong(value, info)
+            raise self.wrong(value)
         return tuple(int(number) for number in numbers)
 
     def json(self) -> dict[str, Any]:
@@ -58,14 +58,14 @@ class InletTemperature(Quantity):
 
     words: tuple[str, ...] = (BALANCE,)
 
-    def read(self, value: Any, info: Any) -> float | str | None:
+    def read(self, value: Any, given: Given) -> float | str | None:
         """The word, or the temperature [K]."""
         if isinstance(value, str) and value == BALANCE:
             return BALANCE
-        if isinstance(value, str) and not in_file(info):
+        if isinstance(value, str) and not given.in_file:
             allowed = "a temperature [K], 'balance', or None for the lubricant's own"
             raise InputError(f"it is {shown(value)}", allowed=allowed)
-        return super().read(value, info)
+        return super().read(value, given)
 
 
 @input_section(
@@ -120,12 +120,12 @@ class Case:
     (28, 0.0002)
     """
 
-    bearing: Annotated[
-        Bearing, Made((Bearing,), Text("bearing: a name of the catalogue, or the path of a bearing file"))
-    ] = field(default_factory=lambda: Bearing.read("skf-240-600-bc"))
-    lubricant: Annotated[
-        Lubricant, Made((Lubricant,), Text("lubricant: a name of the catalogue, or the path of a lubricant file"))
-    ] = field(default_factory=lambda: Lubricant.read("vg460-pao"))
+    bearing: Annotated[Bearing, Made((Bearing,), Text("name in the catalogue, or path of a bearing file"))] = field(
+        default_factory=lambda: Bearing.read("skf-240-600-bc")
+    )
+    lubricant: Annotated[Lubricant, Made((Lubricant,), Text("name in the catalogue, or path of a lubricant file"))] = (
+        field(default_factory=lambda: Lubricant.read("vg460-pao"))
+    )
     temperature: Annotated[
         float | str | None,
         InletTemperature(
@@ -133,7 +133,7 @@ class Case:
         ),
     ] = None
     heat: Heat | None = None
-    loads: Annotated[HubLoads | BearingLoads, Made((HubLoads, BearingLoads), LoadSource)]
+    loads: Annotated[HubLoads | BearingLoads, Made((HubLoads, BearingLoads), form_from(LoadSource))]
     drivetrain: Drivetrain = field(default_factory=Drivetrain)
     gravity: Annotated[bool, Flag("weight of the rollers")] = True
     drag: Annotated[bool, Flag("drag of the lubricant")] = True

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -105,7 +104,7 @@ def build_case(
             elif isinstance(value, LoadSource):
                 parts[key] = series(value) if series else value.series(folder)
             elif key == "forces":  # a section in files only
-                parts |= asdict(value)
+                parts |= value
             else:
                 parts[key] = value
         except InputError as problem:

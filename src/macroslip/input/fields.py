@@ -8,17 +8,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
-from typing import Annotated, Any, ClassVar, get_args
-
-from pydantic import TypeAdapter, ValidationError, ValidationInfo
-from pydantic.fields import FieldInfo
-from pydantic_core import PydanticCustomError, core_schema
+from typing import Any, ClassVar
 
 from macroslip.errors import InputError
 from macroslip.files import check_no_zero_byte
+from macroslip.input.files import Place, Source
 from macroslip.input.messages import shown, unknown_name
 from macroslip.input.units import (
     ANGLE,
@@ -30,55 +26,53 @@ from macroslip.input.units import (
     is_finite_number,
     parse_quantity,
     quantity_pattern,
-    with_unit,
 )
 
 #: Largest whole number of a field.
 _MOST = 10**15
 _REMINDERS = {
-    LENGTH: "Lengths are in metres.",
-    ANGLE: "Angles are in radians: math.radians(5.0) for 5 degrees.",
-    MASS: "The mass is in kilograms.",
-    TIME: "Times are in seconds.",
+    LENGTH: " Lengths are in metres.",
+    ANGLE: " Angles are in radians: math.radians(5.0) for 5 degrees.",
+    MASS: " The mass is in kilograms.",
+    TIME: " Times are in seconds.",
 }
 
 
 @dataclass(frozen=True)
-class Reading:
-    """How values are given, the context of a validation.
+class Given:
+    """How a value is given.
 
     Parameters
     ----------
+    place : Place
+        Where.
     in_file : bool
-        Whether they are written as in a file; otherwise they are numbers in SI units.
+        Whether it is written as in a file; otherwise a quantity is a number in SI units.
     ranges : bool
-        Whether their ranges are checked, beside their form.
-    written : mapping, optional
-        For the fields of a record, which are in SI whatever was written: number with unit, and unit, as written.
+        Whether ranges are checked, beside the form.
+    before : mapping
+        Values of the fields before it in the same section.
+    written : tuple of str, optional
+        A value of a record, which is in SI whatever was written: number with unit, and unit, as written.
     """
 
+    place: Place = field(default_factory=lambda: Place(Source()))
     in_file: bool = False
     ranges: bool = True
-    written: Mapping[str, tuple[str, str]] | None = None
+    before: Mapping[str, Any] = field(default_factory=dict)
+    written: tuple[str, str] | None = None
+
+    def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Given:
+        """The same of a value further in."""
+        return replace(self, place=self.place.inside(key), before=before or {})
 
 
-PYTHON, IN_FILE, FORM_ONLY = Reading(), Reading(in_file=True), Reading(in_file=True, ranges=False)
-
-
-def in_file(info: ValidationInfo) -> bool:
-    """Whether a value comes from a file."""
-    return (info.context or PYTHON).in_file
-
-
-def _subject(info: ValidationInfo) -> str:
-    """How messages call the value: those about a section have its key in front."""
-    reading = info.context or PYTHON
-    return "it" if reading.written is None else info.field_name or "it"
+PYTHON, IN_FILE, FORM_ONLY = Given(), Given(in_file=True), Given(in_file=True, ranges=False)
 
 
 @dataclass(frozen=True)
 class Form:
-    """What a value has to be; a form reads a value or raises `InputError` without place.
+    """What a value has to be; a form reads a value or raises `InputError`, with or without its place.
 
     Parameters
     ----------
@@ -89,7 +83,7 @@ class Form:
     about: str
     form: ClassVar[str] = ""
 
-    def read(self, value: Any, info: ValidationInfo) -> Any:
+    def read(self, value: Any, given: Given) -> Any:
         """The value as the program uses it."""
         raise NotImplementedError
 
@@ -97,17 +91,9 @@ class Form:
         """JSON Schema of what a file may have."""
         return {"type": "object"}
 
-    def _wrong(self, value: Any, info: ValidationInfo, remedy: str = "") -> InputError:
-        return InputError(f"{_subject(info)} is {shown(value)}", allowed=self.form, remedy=remedy)
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        """Validation by `read`; in Python, None is a value that is left open."""
-        optional = type(None) in get_args(source)
-
-        def validate(value: Any, info: ValidationInfo) -> Any:
-            return None if value is None and optional and not in_file(info) else self.read(value, info)
-
-        return core_schema.with_info_plain_validator_function(validate)
+    def wrong(self, value: Any, remedy: str = "", allowed: str = "") -> InputError:
+        """The error for a value that is none of the form."""
+        return InputError(f"it is {shown(value)}", allowed=allowed or self.form, remedy=remedy)
 
 
 @dataclass(frozen=True)
@@ -149,48 +135,48 @@ class Quantity(Form):
             return self.range_text() if self.whole else "a number without unit"
         return " or ".join([*self.words, f"a number with its unit, {self.dimension.choices}"])
 
-    def read(self, value: Any, info: ValidationInfo) -> float | None:
+    def read(self, value: Any, given: Given) -> float | None:
         """Read text with a unit, or a number, to SI, and check its range."""
-        reading, unit = info.context or PYTHON, self.dimension.si_unit
-        if reading.in_file and self.dimension is not NUMBER:
+        unit = self.dimension.si_unit
+        if given.in_file and self.dimension is not NUMBER:
             if isinstance(value, str) and value in self.words:
                 return None
             if isinstance(value, bool) or not isinstance(value, str | int | float):
-                raise self._wrong(value, info, f"Write 1 {unit}, for example.")
+                raise self.wrong(value, f"Write 1 {unit}, for example.")
             try:
                 number, unit = parse_quantity(value, self.dimension)
             except InputError as problem:
                 raise InputError(problem.what, allowed=self.form, remedy=problem.remedy) from None
             si_value, written = self.dimension.to_si(float(number), unit), str(value)
         else:
-            si_value = self._number(value, info)
-            written, unit = (reading.written or {}).get(info.field_name or "", (f"{si_value!r}", unit))
-        if reading.ranges:
-            self._check_range(si_value, info, written, unit)
+            si_value = self._number(value, given)
+            written, unit = given.written or (f"{si_value!r}", unit)
+        if given.ranges:
+            self._check_range(si_value, given, written, unit)
         return si_value
 
-    def _number(self, value: Any, info: ValidationInfo) -> float:
+    def _number(self, value: Any, given: Given) -> float:
         """A finite number as Python's own, so that NumPy's are welcome."""
         finite = is_finite_number(value)
         if finite and not self.whole:
             return float(value)
         if finite and (hasattr(value, "__index__") or (abs(value) <= _MOST and float(value).is_integer())):
             return int(value)
-        quotes = "Write it without quotes and units." if in_file(info) and isinstance(value, str) else ""
-        allowed = self.form if self.whole or in_file(info) else "a finite number"
-        raise InputError(f"{_subject(info)} is {shown(value)}", allowed=allowed, remedy=quotes)
+        quotes = "Write it without quotes and units." if given.in_file and isinstance(value, str) else ""
+        raise self.wrong(value, quotes, self.form if self.whole or given.in_file else "a finite number")
 
-    def _check_range(self, value: float, info: ValidationInfo, written: str, unit: str) -> None:
-        try:
-            highest = self.highest(info.data) if callable(self.highest) else self.highest
-        except KeyError:  # a value that it depends on is wrong itself
-            return
-        known = replace(self, highest=highest) if callable(self.highest) else self
+    def _check_range(self, value: float, given: Given, written: str, unit: str) -> None:
+        known = self
+        if callable(self.highest):
+            try:
+                known = replace(self, highest=self.highest(given.before))
+            except KeyError:  # a value that it depends on is wrong itself
+                return
         if not known.holds(value):
             check = "" if self.dimension is NUMBER else "; check value and unit"
-            reminder = "" if in_file(info) or info.context else _REMINDERS.get(self.dimension, "")
-            remedy = f"{self.remedy or f'It is the {self.about}{check}.'} {reminder}".strip()
-            raise InputError(f"{_subject(info)} is {written}", allowed=known.range_text(unit), remedy=remedy)
+            reminder = "" if given.in_file or given.written else _REMINDERS.get(self.dimension, "")
+            remedy = f"{self.remedy or f'It is the {self.about}{check}.'}{reminder}"
+            raise InputError(f"it is {written}", allowed=known.range_text(unit), remedy=remedy)
 
     def holds(self, value: float) -> bool:
         """Whether a value [SI] is in the range, whose ends are numbers."""
@@ -246,11 +232,11 @@ class Vector(Form):
         zero = f"0 {self.dimension.si_unit}"
         return f"a list of three quantities, such as [{zero}, {zero}, {zero}]"
 
-    def read(self, value: Any, info: ValidationInfo) -> list[float | None]:
+    def read(self, value: Any, given: Given) -> list[float | None]:
         """Read three texts to SI."""
         if not isinstance(value, list) or len(value) != 3:
-            raise self._wrong(value, info, f"It is the {self.about}.")
-        return [Quantity("component", self.dimension).read(item, info) for item in value]
+            raise self.wrong(value, f"It is the {self.about}.")
+        return [Quantity("component", self.dimension).read(item, given) for item in value]
 
     def json(self) -> dict[str, Any]:
         """A list of three texts."""
@@ -264,10 +250,10 @@ class Flag(Form):
 
     form: ClassVar[str] = "true or false"
 
-    def read(self, value: Any, info: ValidationInfo) -> bool:
+    def read(self, value: Any, given: Given) -> bool:
         """Check the type; NumPy's truth values are welcome."""
         if type(value).__name__ not in ("bool", "bool_"):
-            raise self._wrong(value, info)
+            raise self.wrong(value)
         return bool(value)
 
     def json(self) -> dict[str, Any]:
@@ -286,10 +272,10 @@ class Text(Form):
         """What is accepted, in words."""
         return "text" if self.may_be_empty else "non-empty text"
 
-    def read(self, value: Any, info: ValidationInfo) -> str:
+    def read(self, value: Any, given: Given) -> str:
         """Check the type."""
         if not isinstance(value, str) or not (value or self.may_be_empty):
-            raise self._wrong(value, info)
+            raise self.wrong(value)
         check_no_zero_byte(value)
         return value
 
@@ -304,11 +290,11 @@ class Texts(Form):
 
     form: ClassVar[str] = "text, or a list of different texts"
 
-    def read(self, value: Any, info: ValidationInfo) -> list[str]:
+    def read(self, value: Any, given: Given) -> list[str]:
         """Check every text."""
         texts = value if isinstance(value, list) else [value]
         if not texts or not all(isinstance(text, str) and text for text in texts) or len(set(texts)) != len(texts):
-            raise self._wrong(value, info, f"It is the {self.about}.")
+            raise self.wrong(value, f"It is the {self.about}.")
         for text in texts:
             check_no_zero_byte(text)
         return texts
@@ -334,7 +320,7 @@ class Choice(Form):
         """What is accepted, in words."""
         return ", ".join(self.names())
 
-    def read(self, value: Any, info: ValidationInfo) -> str:
+    def read(self, value: Any, given: Given) -> str:
         """Check that the name exists."""
         names = self.names()
         if not isinstance(value, str) or value not in names:
@@ -344,178 +330,3 @@ class Choice(Form):
     def json(self) -> dict[str, Any]:
         """The names."""
         return {"enum": list(self.names())}
-
-
-@dataclass(frozen=True, eq=False)
-class MappingOf(Form):
-    """A mapping of names of the user's own to values of one kind, each of which is checked with its name.
-
-    Parameters
-    ----------
-    about : str
-        What it is.
-    form : str
-        What is accepted, in words.
-    item : type
-        Section or type of a value; Any leaves it to `each`.
-    each : callable, optional
-        Makes what the program uses of a name and its value, or raises `InputError`.
-    """
-
-    form: str = "a section whose keys are names of your own"  # pyright: ignore[reportIncompatibleVariableOverride]
-    item: Any = Any
-    each: Callable[[str, Any], Any] | None = None
-    may_be_empty: bool = False
-
-    def read(self, value: Any, info: ValidationInfo) -> dict[str, Any]:
-        """Read every value; all that is wrong is raised together."""
-        names = isinstance(value, Mapping) and all(isinstance(name, str) and name for name in value)
-        if not names or not (value or self.may_be_empty):
-            raise self._wrong(value, info)
-        found, problems = {}, []
-        for key, item in value.items():
-            try:
-                check_no_zero_byte(key)
-                checked = adapter(self.item).validate_python(item, context=info.context)
-                found[key] = self.each(key, checked) if self.each else checked
-            except InputError as problem:
-                problems.append(detail_of((key,), problem))
-            except ValidationError as failure:
-                problems += details_inside(key, failure)
-        if problems:
-            raise ValidationError.from_exception_data("section", problems)
-        return found
-
-
-def detail_of(loc: tuple[str | int, ...], problem: InputError) -> Any:
-    """A problem as pydantic keeps it, for a form that reads several values by itself."""
-    return {"type": PydanticCustomError("form", "{error}", {"error": problem}), "loc": loc, "input": None}
-
-
-def details_inside(key: str | int, failure: ValidationError) -> list[Any]:
-    """The problems of one value, with its key in front."""
-    found = []
-    for detail in failure.errors(include_url=False):
-        loc, context = (key, *detail["loc"]), detail.get("ctx", {})
-        if isinstance(context.get("error"), InputError):
-            found.append(detail_of(loc, context["error"]))
-        else:
-            found.append({"type": detail["type"], "loc": loc, "input": detail["input"], "ctx": context})
-    return found
-
-
-@dataclass(frozen=True)
-class OrWord:
-    """Annotates a section that a word in the file switches off."""
-
-    word: str
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        """None for the word, the section otherwise."""
-        (section,) = (kind for kind in get_args(source) if kind is not type(None))
-
-        def validate(value: Any, check: Any, info: ValidationInfo) -> Any:
-            return None if value is None or (isinstance(value, str) and value == self.word) else check(value)
-
-        return core_schema.with_info_wrap_validator_function(validate, handler.generate_schema(section))
-
-
-@dataclass(frozen=True, eq=False)
-class Variants:
-    """Annotates a union of sections, one of which a file chooses by the name under a key.
-
-    Parameters
-    ----------
-    about : str
-        What it is.
-    key, default : str
-        The key, and the name that holds without it.
-    sections : mapping
-        Section class by name.
-    presets : mapping
-        Values that a name gives the keys that the file leaves out.
-    """
-
-    about: str
-    key: str
-    default: str
-    sections: Mapping[str, type]
-    presets: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        """The section of that name; in Python, an instance of one of them."""
-        choices = {
-            name: core_schema.no_info_before_validator_function(self._given, handler.generate_schema(kind))
-            for name, kind in self.sections.items()
-        }
-        return core_schema.tagged_union_schema(choices, self._name)
-
-    def _name(self, value: Any) -> Any:
-        if not isinstance(value, Mapping):
-            return next((name for name, kind in self.sections.items() if isinstance(value, kind)), self.default)
-        name = value.get(self.key, self.default)
-        name = name if isinstance(name, str) else repr(name)
-        return self.default if self.presets and name not in self.sections else name  # then the key itself is wrong
-
-    def _given(self, value: Any) -> Any:
-        if not isinstance(value, Mapping):
-            return value
-        given = {**self.presets.get(self._name(value), {}), **value}
-        if isinstance(given.get(self.key), str) and given[self.key] in self.sections:
-            del given[self.key]
-        return given
-
-
-@dataclass(frozen=True)
-class Made:
-    """Annotates an object of the program, which a builder makes from what the file has in its place.
-
-    Parameters
-    ----------
-    kinds : tuple of type
-        Classes of the object.
-    written : Form or section class
-        What the file has.
-    """
-
-    kinds: tuple[type, ...]
-    written: Any
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        """In a file by the form or the section, in Python by its class."""
-        kind = Annotated[Any, self.written] if isinstance(self.written, Form) else self.written
-
-        def validate(value: Any, check: Any, info: ValidationInfo) -> Any:
-            if in_file(info):
-                return check(value)
-            if not isinstance(value, self.kinds):
-                allowed = " or ".join(kind.__name__ for kind in self.kinds)
-                raise InputError(f"it is {type(value).__name__}", allowed=allowed)
-            return value
-
-        return core_schema.with_info_wrap_validator_function(validate, handler.generate_schema(kind))
-
-
-def annotation_of(field: FieldInfo, kind: type) -> Any:
-    """The annotation of a field that is of a kind: its form, its variants, or None."""
-    found: Iterator[Any] = (item for item in field.metadata if isinstance(item, kind))
-    return next(found, None)
-
-
-def form_of(field: FieldInfo) -> Form | None:
-    """The form of a plain value."""
-    made = annotation_of(field, Made)
-    written = made.written if made else annotation_of(field, Form)
-    return written if isinstance(written, Form) else None
-
-
-def word_of(field: FieldInfo) -> str:
-    """The word that switches a section off; empty if there is none."""
-    found = annotation_of(field, OrWord)
-    return found.word if found else ""
-
-
-@cache
-def adapter(kind: Any) -> TypeAdapter:
-    """The reader of a section or a value, made once."""
-    return TypeAdapter(kind)

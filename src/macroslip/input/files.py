@@ -65,10 +65,14 @@ class Place:
 
     def problem(self, what: str, allowed: str = "", remedy: str = "") -> InputError:
         """An error at this place."""
-        return InputError(what, where=self.where, allowed=allowed, remedy=remedy)
+        found = InputError(what, where=self.where, allowed=allowed, remedy=remedy)
+        found.is_placed = bool(found.where)
+        return found
 
     def blamed(self, problem: InputError) -> InputError:
-        """The same error, raised by a reader that did not know the place, with this place in front."""
+        """The same error with this place in front, unless it has one: from a reader that did not know the place."""
+        if problem.is_placed:
+            return problem
         # A reader that was given the value without its file can name the key only.
         inner = "" if problem.where == self.key else problem.where
         what = f"{inner}: {problem.what}" if inner else problem.what

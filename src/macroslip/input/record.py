@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from importlib.resources.abc import Traversable
-from numbers import Integral
 from os import PathLike, fspath
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, ClassVar, Self
-
-from pydantic import BaseModel, ConfigDict, PrivateAttr, ValidationError
+from typing import Any, ClassVar, Self, get_type_hints
 
 from macroslip.errors import InputError
-from macroslip.input.fields import Quantity, Reading, form_of
-from macroslip.input.files import Source, parse, read_text, yaml_text
-from macroslip.input.messages import shown, together, unknown_key
+from macroslip.input.fields import Choice, Form, Given, Quantity, Text
+from macroslip.input.files import Place, Source, parse, read_text, yaml_text
+from macroslip.input.messages import parts_of, shown, together, unknown_key
+from macroslip.input.section import Field, Fields, Group, form_from, read_keys
 from macroslip.input.units import NUMBER, Dimension, is_finite_number, parse_quantity, quantity_pattern, with_unit
 from macroslip.overview import html_overview
 
@@ -36,7 +35,6 @@ TAGS: Mapping[str, str] = MappingProxyType(
 )
 #: Characters that a name, a title or a note may have.
 LONGEST_TEXT = 2000
-_ENTRY_KEYS = ("value", "unit", "tag", "note", "range")
 _HEADER = (
     "A {} file of macroslip. Every quantity has a value and its unit; where it comes from (tag), a note and the range of "
     f"values it may have are optional. Tags: {', '.join(f'{tag} {meaning}' for tag, meaning in TAGS.items())}. Short "
@@ -80,8 +78,67 @@ class Provenance:
         return with_unit(self.value, self.unit)
 
 
+@dataclass(frozen=True)
+class _Number(Form):
+    """The number of an entry as it is written."""
+
+    form = "a finite number, without its unit"
+    whole: bool = False
+
+    def read(self, value: Any, given: Given) -> float:
+        if not is_finite_number(value):
+            raise self.wrong(value, "The unit goes into its own key.")
+        return int(value) if hasattr(value, "__index__") else float(value)
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "integer" if self.whole else "number"}
+
+
+@dataclass(frozen=True)
+class _Range(Form):
+    """The range of an entry."""
+
+    form = "two numbers in the unit of the value, [lowest, highest], with the value between them"
+
+    def read(self, value: Any, given: Given) -> tuple[float, float]:
+        pair: Any = value if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2 else ()
+        middle = given.before.get("value")
+        good = pair and all(map(is_finite_number, pair))
+        if not good or not (middle is None or pair[0] <= middle <= pair[1]):
+            raise self.wrong(value, "Leave it out if nothing is known of the scatter.")
+        return tuple(int(one) if hasattr(one, "__index__") else float(one) for one in pair)  # pyright: ignore[reportReturnType]
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+
+
+@dataclass(frozen=True)
+class _Unit(Choice):
+    """The unit of an entry; without quotes the unit of a pure number would be a number."""
+
+    def read(self, value: Any, given: Given) -> str:
+        if self.names() == ["1"] and value != "1":
+            what, remedy = f"{shown(value)} does not exist", "Write it with its quotes."
+            raise InputError(what, allowed='"1"', remedy=remedy)
+        return super().read(value, given)
+
+
+@functools.cache
+def _entry(dimension: Dimension, whole: bool = False) -> Group:
+    """The section of an entry, `{value: 70, unit: mm, tag: E, note: "...", range: [66, 74]}`."""
+    tags = f"{'; '.join(f'{tag}: {meaning}' for tag, meaning in TAGS.items())}. Leave it out for a value of your own."
+    forms = {
+        "value": _Number("number, without its unit", whole),
+        "unit": _Unit("unit of the value", lambda: list(dimension.units)),
+        "tag": Choice("where it comes from", lambda: list(TAGS), tags),
+        "note": Text("free text", may_be_empty=True),
+        "range": _Range("lowest and highest value; four out of five lie between them"),
+    }
+    return Group("", {key: Field(form, key in ("value", "unit"), False) for key, form in forms.items()})
+
+
 def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tuple[float, Provenance]:
-    """Check the form of an entry `{value: 70, unit: mm, tag: E, note: "...", range: [66, 74]}`, or just `70 mm`.
+    """Check the form of an entry.
 
     Parameters
     ----------
@@ -105,52 +162,30 @@ def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tu
     InputError
         If the entry is none of these, has an unknown key, or a wrong value, unit, tag, note or range.
     """
-
-    def refuse(what: str, allowed: str, remedy: str, *inner: str) -> None:
-        raise InputError(f"{key} {what}", where=source.where(key, *inner), allowed=allowed, remedy=remedy)
-
+    place, si_unit = Place(source, (key,)), dimension.si_unit
     if isinstance(entry, str):
-        value, unit = parse_quantity(entry, dimension, key, source.where(key))
+        try:
+            value, unit = parse_quantity(entry, dimension)
+        except InputError as problem:
+            raise place.blamed(problem) from None
         return dimension.to_si(value, unit), Provenance(value, unit)
     if dimension is NUMBER and is_finite_number(entry):
         entry = {"value": entry, "unit": "1"}
-    units = dimension.choices
-    form = (
-        f"{key}: {{value: a number, unit: {units}, tag: {' or '.join(TAGS)}, note: text, range: [lowest, highest]}}; tag, "
-        f"note and range are optional. Short form: {key}: {with_unit(1, dimension.si_unit)}"
-    )
     if not isinstance(entry, Mapping):
         lacks = "does not give its unit" if is_finite_number(entry) else "is no quantity"
-        refuse(f"is {shown(entry)}, which {lacks}", form, "Give the value with its unit.")
-    for inner in entry:
-        if inner not in _ENTRY_KEYS:
-            raise unknown_key(inner, _ENTRY_KEYS, where=source.where(key, inner), inside=key)
-    for inner in ("value", "unit"):
-        if inner not in entry:
-            refuse(f"has no {inner}", form, f"Add the {inner}.")
-    value, unit, tag, note = entry["value"], entry["unit"], entry.get("tag", "U"), entry.get("note", "")
-    if not is_finite_number(value):
-        remedy = f"The unit goes into its own key: {units}."
-        refuse(f"has the value {shown(value)}", "a finite number, without its unit", remedy, "value")
-    if not isinstance(unit, str) or unit not in dimension.units:
-        remedy = "Write it with its quotes." if dimension is NUMBER else "Convert the value to one of these units."
-        refuse(f"has the unit {shown(unit)} (with the value {shown(value)})", units, remedy, "unit")
-    if not isinstance(tag, str) or tag not in TAGS:
-        tags = ", ".join(f"{name} ({meaning})" for name, meaning in TAGS.items())
-        refuse(f"has the tag {shown(tag)}", tags, "Leave the tag out for a value of your own.", "tag")
-    if not isinstance(note, str):
-        refuse(f"has the note {shown(note)}", "text", "Put it in quotes.", "note")
-    limits = entry.get("range") if "range" in entry else (value, value)
-    pair: Any = limits if isinstance(limits, Sequence) and not isinstance(limits, str) and len(limits) == 2 else ()
-    if not pair or not all(map(is_finite_number, pair)) or not pair[0] <= value <= pair[1]:
-        what = f"has the range {shown(limits)} (with the value {shown(value)})"
-        allowed = "two numbers in the unit of the value, [lowest, highest], with the value between them"
-        refuse(what, allowed, "Leave it out if nothing is known of the scatter.", "range")
-    value, low, high = (int(one) if isinstance(one, Integral) else float(one) for one in (value, *pair))
-    return dimension.to_si(value, unit), Provenance(value, unit, tag, note, (low, high) if "range" in entry else None)
+        raise place.problem(
+            f"it is {shown(entry)}, which {lacks}",
+            f"{key}: {with_unit(1, si_unit)}; or {key}: {{value: a number, unit: {dimension.choices}, tag: "
+            f"{' or '.join(TAGS)}, note: text, range: [lowest, highest]}}, of which tag, note and range are optional",
+            "Give the value with its unit.",
+        )
+    found, problems = read_keys(_entry(dimension).fields, entry, Given(place, in_file=True))
+    if problems:
+        raise together(problems)
+    return dimension.to_si(found["value"], found["unit"]), Provenance(**found)
 
 
-class Record(BaseModel):
+class Record:
     """A named set of quantities that can be read from a catalogue file or built from SI numbers.
 
     A subclass declares every quantity as `Annotated[float, Quantity(...)]` with its range in SI, and keeps its shipped
@@ -163,13 +198,14 @@ class Record(BaseModel):
         problems are reported together.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
     noun: ClassVar[str] = "record"
     # Quantities that may be left out of a file because they follow from others that it gives.
     derivable: ClassVar[frozenset[str]] = frozenset()
-    # Pairs instead of a mapping keep the record hashable and picklable.
-    _provenance: tuple[tuple[str, Provenance], ...] = PrivateAttr(default=())
-    _derived: frozenset[str] = PrivateAttr(default=frozenset())
+    name: str
+    title: str
+    # Pairs instead of a mapping keep the record hashable.
+    _provenance: tuple[tuple[str, Provenance], ...]
+    _derived: frozenset[str]
 
     def __init__(self, **values: Any):
         self._fill(values, {}, Source())
@@ -182,39 +218,36 @@ class Record(BaseModel):
         derived: frozenset[str] = frozenset(),
     ) -> None:
         """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
-        written = {key: (origin.written, origin.unit) for key, origin in provenance.items()}
-        kinds = dimensions(type(self))
-        written = {
-            key: written.get(key) or (with_unit(values[key], kind.si_unit), kind.si_unit)
-            for key, kind in kinds.items()
-            if is_finite_number(values.get(key))
+        fields, kinds = fields_of(type(self)), dimensions(type(self))
+        problems, found = [], {key: getattr(type(self), key, None) for key in fields}
+        missing = [key for key, one in fields.items() if one.is_required and key not in values]
+        if missing:
+            problems.append(self._missing(missing, source))
+        for key, value in values.items():
+            place = Place(source, (key,))
+            if key not in fields:
+                problems.append(unknown_key(key, fields, where=source.where(key)))
+            elif value is not None or fields[key].is_required:
+                try:
+                    unit = kinds[key].si_unit if key in kinds else "1"
+                    origin = provenance.get(key) or Provenance(value, unit)
+                    found[key] = fields[key].form.read(value, Given(place, written=(origin.written, origin.unit)))
+                except InputError as problem:
+                    where = ", ".join(part for part in (source.where(key, "value"), key) if part)
+                    problems.append(
+                        InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy)
+                    )
+        if problems:
+            raise together(problems)
+        origins = {
+            key: provenance.get(key) or Provenance(found[key], kinds[key].si_unit)
+            for key in kinds
+            if found[key] is not None
         }
-        try:
-            self.__pydantic_validator__.validate_python(
-                dict(values), self_instance=self, context=Reading(written=written)
-            )
-        except ValidationError as failure:
-            raise together(self._wrong(failure, source)) from None
-        found = {key: getattr(self, key) for key in kinds if getattr(self, key) is not None}
-        origins = {key: provenance.get(key) or Provenance(found[key], kinds[key].si_unit) for key in found}
-        self._provenance, self._derived = tuple(origins.items()), derived
+        vars(self).update(found, _provenance=tuple(origins.items()), _derived=derived)
         problems = [*self._texts(source), *self._wide_ranges(source), *self._inconsistencies(source)]
         if problems:
             raise together(problems)
-
-    def _wrong(self, failure: ValidationError, source: Source) -> Iterator[InputError]:
-        """Yield what pydantic has found: keys that are missing in one error, then the others."""
-        details = failure.errors(include_url=False)
-        missing = [str(detail["loc"][0]) for detail in details if detail["type"] == "missing"]
-        if missing:
-            yield self._missing(missing, source)
-        for detail in details:
-            key, problem = detail["loc"][0], detail.get("ctx", {}).get("error")
-            if detail["type"] == "extra_forbidden":
-                yield unknown_key(key, type(self).model_fields, where=source.where(key))
-            elif isinstance(problem, InputError):
-                where = source.where(key, "value")
-                yield InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy)
 
     @classmethod
     def _missing(cls, keys: list[str], source: Source) -> InputError:
@@ -229,15 +262,14 @@ class Record(BaseModel):
 
     def _texts(self, source: Source) -> Iterator[InputError]:
         """Yield text that results could not hold: a NUL ends it there, half a surrogate pair has no UTF-8."""
-        texts = {(key,): getattr(self, key) for key in type(self).model_fields.keys() - dimensions(type(self)).keys()}
+        texts = {(key,): getattr(self, key) for key in fields_of(type(self)).keys() - dimensions(type(self)).keys()}
         notes = {(key, "note"): origin.note for key, origin in self._provenance}
         for keys, text in (texts | notes).items():
             if len(text) > LONGEST_TEXT or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in text):
-                yield InputError(
-                    f"{' of '.join(reversed(keys))} is {shown(text)}",
-                    where=source.where(*keys),
-                    allowed=f"at most {LONGEST_TEXT} characters on one line, without control characters",
-                    remedy="Write it as one line of plain text.",
+                yield Place(source, keys).problem(
+                    f"it is {shown(text)}",
+                    f"at most {LONGEST_TEXT} characters on one line, without control characters",
+                    "Write it as one line of plain text.",
                 )
 
     def _wide_ranges(self, source: Source) -> Iterator[InputError]:
@@ -246,11 +278,10 @@ class Record(BaseModel):
             quantity = quantities(type(self))[key]
             for limit in origin.range or ():
                 if not quantity.holds(quantity.dimension.to_si(limit, origin.unit)):
-                    yield InputError(
-                        f"the range of {key} goes to {shown(limit)}",
-                        where=source.where(key, "range"),
-                        allowed=quantity.range_text(origin.unit),
-                        remedy="Give a range in which every value is possible.",
+                    yield Place(source, (key, "range")).problem(
+                        f"it goes to {shown(limit)}",
+                        quantity.range_text(origin.unit),
+                        "Give a range in which every value is possible.",
                     )
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
@@ -258,12 +289,16 @@ class Record(BaseModel):
         yield from ()
 
     def __setattr__(self, key: str, value: Any) -> None:
-        if not key.startswith("_"):
-            raise InputError(
-                f"{key} cannot be set, because a {self.noun} stays as it was checked",
-                remedy=f"Make another one: new = old.replace({key}=...).",
-            )
-        super().__setattr__(key, value)
+        raise InputError(
+            f"{key} cannot be set, because a {self.noun} stays as it was checked",
+            remedy=f"Make another one: new = old.replace({key}=...).",
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and vars(other) == vars(self)
+
+    def __hash__(self) -> int:
+        return hash(tuple(vars(self).values()))
 
     def written(self, key: str, si_value: float | None = None) -> str:
         """Write a quantity, or another value for it, in the unit in which the quantity was given."""
@@ -345,20 +380,21 @@ class Record(BaseModel):
         values: dict[str, Any] = {}
         provenance: dict[str, Provenance] = {}
         problems: list[InputError] = []
-        if entries and not entries.keys() & cls.model_fields.keys():
+        fields, kinds = fields_of(cls), dimensions(cls)
+        if entries and not entries.keys() & fields.keys():
             # Another kind of file: its keys may be private and are left out of the message.
             what, remedy = f"none of its keys is one of a {cls.noun}", f"Name a {cls.noun} file."
-            raise InputError(what, where=source.file, allowed=", ".join(cls.model_fields), remedy=remedy)
+            raise InputError(what, where=source.file, allowed=", ".join(fields), remedy=remedy)
         for key, entry in entries.items():
             try:
-                if key not in cls.model_fields:
-                    raise unknown_key(key, cls.model_fields, where=source.where(key))
-                if key in dimensions(cls):
-                    values[key], provenance[key] = read_entry(key, entry, dimensions(cls)[key], source)
+                if key not in fields:
+                    raise unknown_key(key, fields, where=source.where(key))
+                if key in kinds:
+                    values[key], provenance[key] = read_entry(key, entry, kinds[key], source)
                 else:
                     values[key] = entry
             except InputError as problem:
-                problems.append(problem)
+                problems += parts_of(problem)
         if problems:
             raise together(problems)
         record = cls.__new__(cls)
@@ -413,14 +449,13 @@ class Record(BaseModel):
         origins, kinds = self.provenance, dimensions(type(self))
         return {
             key: origins[key].as_entry() if key in origins else getattr(self, key)
-            for key in type(self).model_fields
+            for key in fields_of(type(self))
             if key not in self._derived and (key in origins or key not in kinds)
         }
 
     def as_yaml(self) -> str:
         """Give the record as the text of a catalogue file, every key explained; `read` gives it back as it is."""
-        forms = {key: form_of(field) for key, field in type(self).model_fields.items()}
-        explained = {key: form.about if form else key for key, form in forms.items()}
+        explained = {key: one.form.about for key, one in fields_of(type(self)).items()}
         return yaml_text(self.as_dict(), _HEADER.format(self.noun), explained)
 
     def replace(self, **values: Any) -> Self:
@@ -437,70 +472,57 @@ class Record(BaseModel):
             As the constructor.
         """
         kept = {key: origin for key, origin in self._provenance if key not in values}
-        given = {key: getattr(self, key) for key in type(self).model_fields if key not in self._derived}
+        given = {key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived}
         record = type(self).__new__(type(self))
         record._fill(given | values, kept, Source())
         return record
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """Copy the record; with `update` as `replace`, which checks the new values.
+        """Copy the record; with `update` as `replace`."""
+        return self.replace(**update) if update else copy.copy(self)
 
-        Raises
-        ------
-        InputError
-            As the constructor.
-        """
-        return self.replace(**update) if update else super().model_copy(deep=deep)
+    def model_dump(self) -> dict[str, Any]:
+        """Values [SI] by key."""
+        return {key: getattr(self, key) for key in fields_of(type(self))}
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
-        properties = {key: form_of(field) for key, field in cls.model_fields.items()}
-        required = [key for key, field in cls.model_fields.items() if field.is_required() and key not in cls.derivable]
+        fields = fields_of(cls)
         return {
             "$schema": "https://json-schema.org/draft/2020-12/schema",
             "title": f"{cls.noun} of macroslip",
             "type": "object",
-            "properties": {
-                key: _entry_schema(form) if isinstance(form, Quantity) else form.json() | {"description": form.about}
-                for key, form in properties.items()
-                if form
-            },
-            "required": required,
+            "properties": {key: _schema(one.form) for key, one in fields.items()},
+            "required": [key for key, one in fields.items() if one.is_required and key not in cls.derivable],
             "additionalProperties": False,
         }
 
 
-def _entry_schema(quantity: Quantity) -> dict[str, Any]:
-    """JSON Schema of the entry of a quantity: a mapping, text, or a plain number where it has no unit."""
-    dimension, tags = quantity.dimension, ", ".join(f"{tag}: {meaning}" for tag, meaning in TAGS.items())
-    number = {"type": "integer" if quantity.whole else "number"}
-    about = "lowest and highest value; four out of five lie between them"
-    limits = {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2, "description": about}
-    entry = {
-        "type": "object",
-        "properties": {
-            "value": number,
-            "unit": {"enum": list(dimension.units)},
-            "tag": {"enum": list(TAGS), "default": "U", "description": tags},
-            "note": {"type": "string"},
-            "range": limits,
-        },
-        "required": ["value", "unit"],
-        "additionalProperties": False,
+def _schema(form: Form) -> dict[str, Any]:
+    """JSON Schema of a key: of a quantity an entry, text, or a plain number where it has no unit."""
+    if not isinstance(form, Quantity):
+        return form.json() | {"description": form.about}
+    text = {"type": "string", "pattern": quantity_pattern(form.dimension)}
+    plain = [form.json()] if form.dimension is NUMBER else []
+    about = f"{form.about}: {form.range_text()}"
+    return {"description": about, "anyOf": [_entry(form.dimension, form.whole).json(), text, *plain]}
+
+
+@functools.cache
+def fields_of(record: type[Record]) -> Fields:
+    """Fields of a record class by key."""
+    hints = {
+        key: hint for key, hint in get_type_hints(record, include_extras=True).items() if hasattr(hint, "__metadata__")
     }
-    plain = [number] if dimension is NUMBER else []
-    return {
-        "description": f"{quantity.about}: {quantity.range_text()}",
-        "anyOf": [entry, {"type": "string", "pattern": quantity_pattern(dimension)}, *plain],
-    }
+    return {key: Field(form_from(hint), not hasattr(record, key), True) for key, hint in hints.items()}
 
 
 @functools.cache
 def quantities(record: type[Record]) -> Mapping[str, Quantity]:
     """Quantities of a record class by key; fields of plain text have none."""
-    forms = {key: form_of(field) for key, field in record.model_fields.items()}
-    return MappingProxyType({key: form for key, form in forms.items() if isinstance(form, Quantity)})
+    forms = {key: one.form for key, one in fields_of(record).items()}
+    return {key: form for key, form in forms.items() if isinstance(form, Quantity)}
 
 
 @functools.cache

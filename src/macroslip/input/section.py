@@ -1,4 +1,4 @@
-"""Sections of an input file as pydantic classes: the same class checks a section of a file and a call in Python.
+"""Sections of an input file as classes: the same class checks a section of a file and a call in Python.
 
 `@input_section` makes a frozen dataclass whose fields carry a form of `macroslip.input.fields` or are sections
 themselves. To add a key to a file is to add such a field: reader, messages and JSON Schema follow from it.
@@ -6,43 +6,45 @@ themselves. To add a key to a file is to add such a field: reader, messages and 
 
 from __future__ import annotations
 
+import dataclasses
 import functools
-from collections.abc import Callable, Iterator, Mapping
-from typing import Annotated, Any, TypeVar, dataclass_transform, get_args, get_origin
-
-import pydantic
-from pydantic import ConfigDict, ValidationError
-from pydantic.fields import FieldInfo
+import sys
+import types
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, NamedTuple, TypeVar, Union, dataclass_transform, get_args, get_origin, get_type_hints
 
 from macroslip.errors import InputError
-from macroslip.input.fields import (
-    IN_FILE,
-    Choice,
-    Made,
-    OrWord,
-    Reading,
-    Variants,
-    adapter,
-    annotation_of,
-    form_of,
-    word_of,
-)
+from macroslip.files import check_no_zero_byte
+from macroslip.input.fields import IN_FILE, PYTHON, Choice, Form, Given
 from macroslip.input.files import Place, Source
-from macroslip.input.messages import nearest, parts_of, shown, together, unknown_key, unknown_name
+from macroslip.input.messages import nearest, parts_of, together, unknown_key
 
 Kind = TypeVar("Kind")
-_MISSING = ("missing", "missing_keyword_only_argument")
-_UNKNOWN = ("unexpected_keyword_argument", "extra_forbidden")
+Fields = Mapping[str, "Field"]
 
 
-class _About:
-    """What there is to know of a section class beside its fields."""
+class Field(NamedTuple):
+    """A key of a section: its form, whether it has to be given, whether None leaves it open in Python, its default."""
 
-    def __init__(self, about: str, one_of: tuple[str, ...], gone: Mapping[str, str], fields: Mapping[str, FieldInfo]):
-        self.about, self.one_of, self.gone, self.fields = about, one_of, gone, fields
+    form: Form
+    is_required: bool
+    is_optional: bool
+    default: Any = None
 
 
-_SECTIONS: dict[type, _About] = {}
+class _Section(NamedTuple):
+    """What there is to know of a section class."""
+
+    about: str
+    fields: Fields
+    in_file: Fields
+    one_of: tuple[str, ...]
+    gone: Mapping[str, str]
+    fill: Callable[..., None]
+
+
+_SECTIONS: dict[type, _Section] = {}
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
@@ -72,119 +74,106 @@ def input_section(
     groups : mapping
         Sections that only files have: by name what the section is, and the fields in it.
     """
-    place = Place(Source(), tuple(noun.split(".")) if noun else ())
+    given = dataclasses.replace(PYTHON, place=Place(Source(), tuple(noun.split(".")) if noun else ()))
 
     def decorate(kind: type[Kind]) -> type[Kind]:
-        if one_of:
-            kind.__post_init__ = lambda self: _check_one_of(self, one_of)
-        config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
-        made: Any = pydantic.dataclasses.dataclass(frozen=True, slots=True, kw_only=not positional, config=config)(kind)
-        check = made.__init__
+        made: Any = dataclass(frozen=True, slots=True, kw_only=not positional)(kind)
+        fields = _fields(made)
+        _SECTIONS[made] = _Section(about, fields, _grouped(fields, groups or {}), one_of, gone or {}, made.__init__)
 
-        @functools.wraps(check)
+        @functools.wraps(made.__init__)
         def initialise(self: Any, *first: Any, **values: Any) -> None:
-            try:
-                check(self, *first, **values)
-            except ValidationError as failure:
-                raise together(problems_of(failure, made, place)) from None
+            _fill(self, dict(zip(fields, first, strict=False)) | values, given)
 
         made.__init__ = initialise
-        _SECTIONS[made] = _About(about, one_of, gone or {}, _grouped(made.__pydantic_fields__, groups or {}))
         return made
 
     return decorate
 
 
-def _check_one_of(section: Any, keys: tuple[str, ...]) -> None:
-    """Refuse a section in which not exactly one of several keys is given."""
-    chosen = [key for key in keys if getattr(section, key) is not None]
-    if len(chosen) != 1:
-        what = f"{' and '.join(chosen)} stand together" if chosen else "none of the keys it needs is there"
-        remedy = "Remove or comment out the others." if chosen else "Add one of them."
-        raise InputError(what, allowed=f"exactly one of {', '.join(keys)}", remedy=remedy)
+def _fields(kind: type) -> Fields:
+    hints = get_type_hints(kind, vars(sys.modules[kind.__module__]), include_extras=True)
+    return {
+        one.name: Field(
+            form_from(hints[one.name]),
+            one.default is dataclasses.MISSING and one.default_factory is dataclasses.MISSING,
+            type(None) in _kinds(hints[one.name]),
+            None if one.default is dataclasses.MISSING else one.default,
+        )
+        for one in dataclasses.fields(kind)
+    }
 
 
-def _grouped(
-    fields: Mapping[str, FieldInfo], groups: Mapping[str, tuple[str, tuple[str, ...]]]
-) -> Mapping[str, FieldInfo]:
-    """The fields as a file has them: those of a group in a section of their own."""
-    found: dict[str, FieldInfo] = {}
-    for key, field in fields.items():
-        name = next((name for name, (_, keys) in groups.items() if key in keys), key)
-        if name == key:
-            found[key] = field
-        elif name not in found:
-            about, keys = groups[name]
-            annotations = {one: Annotated[fields[one].annotation, *fields[one].metadata] for one in keys}
-            values = {one: fields[one].default for one in keys}
-            section = input_section(name, about)(type(name.title(), (), {"__annotations__": annotations, **values}))
-            found[name] = FieldInfo.from_annotated_attribute(section, section())
+def _kinds(annotation: Any) -> tuple[Any, ...]:
+    """The alternatives of an annotation."""
+    kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+    return get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
+
+
+def form_from(annotation: Any) -> Form:
+    """The form in an annotation: the form that it carries, or the section that it is."""
+    form = next((item for item in getattr(annotation, "__metadata__", ()) if isinstance(item, Form)), None)
+    if form and not isinstance(form, OrWord):
+        return form
+    (kind,) = (kind for kind in _kinds(annotation) if kind is not type(None))
+    section = Section(_SECTIONS[kind].about, _SECTIONS[kind].in_file, kind)
+    return OrWord(form.word, section) if form else section
+
+
+def _grouped(fields: Fields, groups: Mapping[str, tuple[str, tuple[str, ...]]]) -> Fields:
+    """The fields as a file has them: those of a group in a section of their own, which is read as a mapping."""
+    found: dict[str, Field] = {}
+    for key, one in fields.items():
+        name = next((name for name, (_, keys) in groups.items() if key in keys), "")
+        if name and name not in found:
+            found[name] = Field(
+                Group(groups[name][0], {inner: fields[inner] for inner in groups[name][1]}), False, False
+            )
+        elif not name:
+            found[key] = one
     return found
 
 
-def fields_of(kind: Any) -> Mapping[str, FieldInfo]:
-    """Fields of a section class by key; nothing for other classes."""
-    return _SECTIONS[kind].fields if isinstance(kind, type) and kind in _SECTIONS else {}
-
-
-def sections_of(field: FieldInfo) -> list[type]:
-    """Section classes that a field may hold: none for a plain value, several for variants."""
-    made = annotation_of(field, Made)
-    return [kind for kind in _inside(made.written if made else field.annotation) if fields_of(kind)]
-
-
-def _inside(annotation: Any) -> Iterator[Any]:
-    """Yield an annotation and all that it is made of, such as the section of `dict[str, Section | None]`."""
-    yield annotation
-    for part in get_args(annotation):
-        yield from _inside(part)
-
-
-def variants_of(field: FieldInfo) -> Variants | None:
-    """The variants among which a file chooses under a field."""
-    return annotation_of(field, Variants)
-
-
-def keys_of(kind: type, prefix: str = "") -> Iterator[tuple[str, FieldInfo]]:
-    """Yield the full name, `loads.hub.force`, and the field of every key of a section and of those inside."""
-    for key, field in fields_of(kind).items():
-        yield prefix + key, field
-        variants = variants_of(field)
-        if variants:
-            names = Annotated[str, Choice(variants.about, functools.partial(list, variants.sections))]
-            yield f"{prefix}{key}.{variants.key}", FieldInfo.from_annotation(names)
-        if get_origin(field.annotation) is not dict:  # there the names inside are the user's own
-            for section in sections_of(field):
-                yield from keys_of(section, f"{prefix}{key}.")
-
-
-def read_value(field: FieldInfo, value: Any, place: Place, context: Reading = IN_FILE) -> Any:
-    """Read what a file has under the key of a field; with the context FORM_ONLY without looking at its range.
-
-    Raises
-    ------
-    InputError
-        With all that is wrong inside, each with its place.
-    """
-    if value is None and sections_of(field) and not word_of(field):  # every key of the section is commented out
-        value = {}
+def _fill(made: Any, values: Mapping[str, Any], given: Given) -> None:
+    """Check the values of a section, and fill it."""
+    known = _SECTIONS[type(made)]
+    found, problems = read_keys(known.in_file if given.in_file else known.fields, values, given, known.gone)
+    if problems:
+        raise together(problems)
     try:
-        kind = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
-        return adapter(kind).validate_python(value, context=context)
-    except ValidationError as failure:
-        raise together(problems_of(failure, field, place)) from None
+        chosen = [key for key in known.one_of if found.get(key) is not None]
+        if known.one_of and len(chosen) != 1:
+            what = f"{' and '.join(chosen)} stand together" if chosen else "none of the keys it needs is there"
+            remedy = "Remove or comment out the others." if chosen else "Add one of them."
+            raise InputError(what, allowed=f"exactly one of {', '.join(known.one_of)}", remedy=remedy)
+        known.fill(made, **found)
+    except InputError as problem:
+        if not given.place.keys:  # a class without a place names the places itself
+            raise
+        raise together(given.place.blamed(part) for part in parts_of(problem)) from None
 
 
-def read_fields(kind: type, data: Mapping[str, Any], place: Place) -> tuple[dict[str, Any], list[InputError]]:
-    """Read the keys of a file as far as they are right.
+def read_keys(
+    fields: Fields,
+    data: Mapping[str, Any],
+    given: Given,
+    gone: Mapping[str, str] | None = None,
+    more: tuple[str, ...] = (),
+) -> tuple[dict[str, Any], list[InputError]]:
+    """Read the values under the keys of a section as far as they are right.
 
     Parameters
     ----------
-    kind : type
-        Section class of the whole file.
+    fields : mapping
+        The keys that there are.
     data : mapping
-        Content of the file.
-    place : Place
+        The section as it is given.
+    given : Given
+        How it is given.
+    gone : mapping
+        Keys that there were, with a sentence on each.
+    more : tuple of str
+        Other keys that the section may have, for messages.
 
     Returns
     -------
@@ -193,120 +182,325 @@ def read_fields(kind: type, data: Mapping[str, Any], place: Place) -> tuple[dict
     list of InputError
         Everything that is wrong.
     """
-    fields, found = fields_of(kind), {}
+    place, found, problems = given.place, {}, []
     unknown = [key for key in data if key not in fields]
-    problems = [
-        unknown_key(key, fields, where=place.source.where(*place.keys, key), inside=place.key) for key in unknown
-    ]
+    for key in unknown:
+        where = place.source.where(*place.keys, key)
+        if key in (gone or {}):
+            problem = InputError(f"the key '{key}' inside {place.key} is gone", where=where, remedy=gone[key])
+        else:
+            problem = unknown_key(key, [*more, *fields], where=where, inside=place.key)
+        problem.is_placed = True
+        problems.append(problem)
     meant = {nearest(key, fields) for key in unknown}  # a misspelled key is not missing as well
-    for key, field in fields.items():
+    for key, one in fields.items():
         if key in data:
+            if data[key] is None and one.is_optional and not given.in_file:
+                found[key] = None
+                continue
             try:
-                found[key] = read_value(field, data[key], place.inside(key))
+                before = {other: field.default for other, field in fields.items() if other not in data} | found
+                found[key] = read_value(one, data[key], given.inside(key, before))
             except InputError as problem:
                 problems += parts_of(problem)
-        elif field.is_required() and key not in meant:
-            problems.append(_missing_key(key, field, place))
+        elif one.is_required and key not in meant:
+            what = f"'{key}' is missing ({one.form.about})"
+            problems.append(given.place.problem(what, one.form.form, "Add it."))
     return found, problems
 
 
-def problems_of(failure: ValidationError, kind: Any, place: Place) -> list[InputError]:
-    """The problems that pydantic found, in paragraphs: unknown keys first, then the others in the order of the fields."""
-    details = failure.errors(include_url=False)
-    details.sort(key=lambda detail: detail["type"] not in _UNKNOWN)
-    meant = {
-        (*detail["loc"][:-1], nearest(detail["loc"][-1], _walk(kind, detail["loc"][:-1])[2]))
-        for detail in details
-        if detail["type"] in _UNKNOWN
-    }
-    kept = [detail for detail in details if detail["type"] not in _MISSING or detail["loc"] not in meant]
-    return [problem for detail in kept for problem in _problems(detail, kind, place)]
+def read_value(one: Field, value: Any, given: Given) -> Any:
+    """Read the value of a key.
+
+    Raises
+    ------
+    InputError
+        With all that is wrong inside, each with its place.
+    """
+    try:
+        return one.form.read(value, given)
+    except InputError as problem:
+        raise together(given.place.blamed(part) for part in parts_of(problem)) from None
 
 
-def _walk(kind: Any, loc: tuple[Any, ...]) -> tuple[list[str], FieldInfo | None, list[str], dict[str, str]]:
-    """Keys as the file has them, the field at their end if it is one, and the keys that it may have, or had, inside."""
-    field = kind if isinstance(kind, FieldInfo) else None
-    sections = sections_of(field) if field else [kind]
-    keys: list[str] = []
-    names: list[str] = []
-    for step in loc:
-        variants = variants_of(field) if field else None
-        if variants and step in variants.sections:
-            sections, names, field = [variants.sections[step]], [variants.key], None
-            continue
-        keys.append(str(step))
-        if field and get_origin(field.annotation) is dict:
-            field = None
-            continue
-        field = next((fields_of(section)[step] for section in sections if step in fields_of(section)), None)
-        sections, names = sections_of(field) if field else [], []
-    inside = [*names, *(key for section in sections for key in fields_of(section))]
-    return keys, field, inside, {key: why for section in sections for key, why in _SECTIONS[section].gone.items()}
+def read_fields(kind: type, data: Mapping[str, Any], place: Place) -> tuple[dict[str, Any], list[InputError]]:
+    """Read a whole file as far as it is right, as `read_keys` does; `kind` is its section class."""
+    return read_keys(fields_of(kind), data, dataclasses.replace(IN_FILE, place=place), _SECTIONS[kind].gone)
 
 
-def _problems(detail: Mapping[str, Any], kind: Any, place: Place) -> list[InputError]:
-    """One problem that pydantic found, or those of an error that a class raised, in a paragraph each."""
-    loc, problem = detail["loc"], detail.get("ctx", {}).get("error")
-    keys, field, inside, _ = _walk(kind, loc)
-    here = place.inside(*keys)
-    if isinstance(problem, InputError):  # a class without a place names the places itself
-        return [here.blamed(part) for part in parts_of(problem)] if here.keys else parts_of(problem)
-    if detail["type"] in _UNKNOWN:
-        (*_, siblings, gone), around = _walk(kind, loc[:-1]), place.inside(*keys[:-1]).key
-        where = here.source.where(*here.keys)
-        if loc[-1] in gone:
-            return [InputError(f"the key '{loc[-1]}' inside {around} is gone", where=where, remedy=gone[loc[-1]])]
-        chosen = variants_of(parent) if (parent := _walk(kind, loc[:-2])[1]) else None
-        if chosen and loc[-1] == chosen.key:
-            return [here.blamed(unknown_name(detail["input"], list(chosen.sections)))]
-        return [unknown_key(loc[-1], siblings, where=where, inside=around)]
-    if detail["type"] in _MISSING:
-        return [_missing_key(str(loc[-1]), field, place.inside(*keys[:-1]) if keys[-1:] == [loc[-1]] else here)]
-    variants = variants_of(field) if field else None
-    if variants and detail["type"].startswith("union_tag"):
-        name = detail["input"].get(variants.key) if isinstance(detail["input"], Mapping) else detail["input"]
-        return [here.inside(variants.key).blamed(unknown_name(name, list(variants.sections)))]
-    return [here.problem(f"it is {shown(detail['input'])}", _form_text(field, inside))]
+@dataclass(frozen=True)
+class Group(Form):
+    """A section that only files have, read as a mapping."""
+
+    fields: Fields = field(default_factory=dict)
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """What is accepted, in words."""
+        return f"a section with the keys {', '.join(self.fields)}"
+
+    def read(self, value: Any, given: Given) -> Any:
+        """Read every key; none is there if all are commented out."""
+        found, problems = read_keys(self.fields, self._keys(value), given)
+        if problems:
+            raise together(problems)
+        return found
+
+    def _keys(self, value: Any) -> Mapping[str, Any]:
+        if value is not None and not isinstance(value, Mapping):
+            raise self.wrong(value)
+        return value or {}
+
+    def json(self) -> dict[str, Any]:
+        """An object with the keys."""
+        return {
+            "type": "object",
+            "properties": {key: one.form.json() | {"description": one.form.about} for key, one in self.fields.items()},
+            "required": [key for key, one in self.fields.items() if one.is_required],
+            "additionalProperties": False,
+        }
 
 
-def _form_text(field: FieldInfo | None, inside: list[str]) -> str:
-    form = form_of(field) if field else None
-    if form is not None:
-        return form.form
-    word = word_of(field) if field else ""
-    return f"{f'{word} or ' if word else ''}a section with the keys {', '.join(inside)}"
+@dataclass(frozen=True)
+class Section(Group):
+    """A section of a class; in Python an object of it."""
+
+    kind: type = object
+
+    def read(self, value: Any, given: Given) -> Any:
+        """Read every key and make the object."""
+        if not given.in_file:
+            if not isinstance(value, self.kind):
+                raise self.wrong(value, allowed=self.kind.__name__)
+            return value
+        made = self.kind.__new__(self.kind)
+        _fill(made, self._keys(value), given)
+        return made
+
+    def json(self) -> dict[str, Any]:
+        """An object with the keys, of some exactly one."""
+        one_of = _SECTIONS[self.kind].one_of
+        return super().json() | ({"oneOf": [{"required": [key]} for key in one_of]} if one_of else {})
 
 
-def _missing_key(key: str, field: FieldInfo | None, place: Place) -> InputError:
-    """The error of a key that is needed and not there."""
-    sections, form = (sections_of(field), form_of(field)) if field else ([], None)
-    about = form.about if form else next((_SECTIONS[section].about for section in sections), "")
-    allowed = _form_text(field, [inner for section in sections for inner in fields_of(section)])
-    return place.problem(f"'{key}' is missing" + (f" ({about})" if about else ""), allowed, "Add it.")
+@dataclass(frozen=True, init=False)
+class OrWord(Form):
+    """A section that a word in the file switches off."""
+
+    word: str
+    section: Form | None
+
+    def __init__(self, word: str, section: Form | None = None):
+        super().__init__(section.about if section else "")
+        object.__setattr__(self, "word", word)
+        object.__setattr__(self, "section", section)
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """What is accepted, in words."""
+        return f"{self.word} or {self.section.form if self.section else ''}"
+
+    def read(self, value: Any, given: Given) -> Any:
+        """None for the word, the section otherwise."""
+        if value is None or self.section is None or (isinstance(value, str) and value == self.word):
+            return None
+        if given.in_file and not isinstance(value, Mapping):
+            raise self.wrong(value)
+        return self.section.read(value, given)
+
+    def json(self) -> dict[str, Any]:
+        """The word, or the section."""
+        return {"anyOf": [{"const": self.word}, self.section.json() if self.section else {}]}
+
+
+@dataclass(frozen=True)
+class Variants(Form):
+    """One of several sections, which a file chooses by the name under a key.
+
+    Parameters
+    ----------
+    about : str
+        What it is.
+    key, default : str
+        The key, and the name that holds without it.
+    sections : mapping
+        Section class by name.
+    presets : mapping
+        Where all names have one class: values that a name gives the keys that the file leaves out.
+    """
+
+    key: str = ""
+    default: str = ""
+    sections: Mapping[str, type] = field(default_factory=dict)
+    presets: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """What is accepted, in words."""
+        keys = fields_of(self.sections[self.default])
+        return f"a section with the keys {', '.join([self.key, *keys])}"
+
+    def read(self, value: Any, given: Given) -> Any:
+        """The section of that name; in Python, an object of one of them."""
+        kinds = dict.fromkeys(self.sections.values())
+        if not given.in_file:
+            if not isinstance(value, tuple(kinds)):
+                raise self.wrong(value, allowed=" or ".join(kind.__name__ for kind in kinds))
+            return value
+        if value is not None and not isinstance(value, Mapping):
+            raise self.wrong(value)
+        data = dict(value or {})
+        name, problems = data.pop(self.key, self.default), []
+        try:
+            Choice(self.about, lambda: list(self.sections)).read(name, given)
+        except InputError as problem:
+            problems.append(given.place.inside(self.key).blamed(problem))
+            if len(kinds) > 1:
+                raise problems[0] from None
+            name = self.default
+        kind = self.sections[name]
+        data = {**self.presets.get(name, {}), **data}
+        found, others = read_keys(fields_of(kind), data, given, _SECTIONS[kind].gone, (self.key,))
+        if problems or others:
+            raise together(problems + others)
+        made = kind.__new__(kind)
+        _SECTIONS[kind].fill(made, **found)
+        return made
+
+    def json(self) -> dict[str, Any]:
+        """One object a name."""
+        found = []
+        for name, kind in self.sections.items():
+            schema = form_from(kind).json()
+            schema["properties"] = {self.key: {"const": name}, **schema["properties"]}
+            schema["required"] += [] if name == self.default else [self.key]
+            found.append(schema)
+        return {"oneOf": found}
+
+
+@dataclass(frozen=True, init=False)
+class Made(Form):
+    """An object of the program, which a builder makes from what the file has in its place.
+
+    Parameters
+    ----------
+    kinds : tuple of type
+        Classes of the object.
+    written : Form
+        What the file has.
+    """
+
+    kinds: tuple[type, ...]
+    written: Form
+
+    def __init__(self, kinds: tuple[type, ...], written: Form):
+        super().__init__(written.about)
+        object.__setattr__(self, "kinds", kinds)
+        object.__setattr__(self, "written", written)
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """What a file has, in words."""
+        return self.written.form
+
+    def read(self, value: Any, given: Given) -> Any:
+        """In a file by the form, in Python by its class."""
+        if given.in_file:
+            return self.written.read(value, given)
+        if not isinstance(value, self.kinds):
+            allowed = " or ".join(kind.__name__ for kind in self.kinds)
+            raise InputError(f"it is {type(value).__name__}", allowed=allowed)
+        return value
+
+    def json(self) -> dict[str, Any]:
+        """The schema of what the file has."""
+        return self.written.json()
+
+
+@dataclass(frozen=True)
+class MappingOf(Form):
+    """A mapping of names of the user's own to values of one kind, each of which is checked with its name.
+
+    Parameters
+    ----------
+    about : str
+        What it is.
+    form : str
+        What is accepted, in words.
+    item : annotation
+        Form or section of a value; Any leaves it to `each`.
+    each : callable, optional
+        Makes what the program uses of a name and its value, or raises `InputError`.
+    """
+
+    form: str = "a section whose keys are names of your own"  # pyright: ignore[reportIncompatibleVariableOverride]
+    item: Any = Any
+    each: Callable[[str, Any], Any] | None = None
+    may_be_empty: bool = False
+
+    def read(self, value: Any, given: Given) -> dict[str, Any]:
+        """Read every value; all that is wrong is raised together."""
+        names = isinstance(value, Mapping) and all(isinstance(name, str) and name for name in value)
+        if not names or not (value or self.may_be_empty):
+            raise self.wrong(value)
+
+        def one(key: str, item: Any, given: Given) -> Any:
+            check_no_zero_byte(key)
+            optional = item is None and type(None) in _kinds(self.item)  # as a call in Python may leave it open
+            checked = item if self.item is Any or optional else form_from(self.item).read(item, given)
+            return self.each(key, checked) if self.each else checked
+
+        return dict(zip(value, read_all(value.items(), one, given), strict=True))
+
+
+def read_all(items: Iterable[tuple[str, Any]], read: Callable[[str, Any, Given], Any], given: Given) -> list[Any]:
+    """Read values by their keys; all that is wrong is raised together, each problem with its place."""
+    found, problems = [], []
+    for key, item in items:
+        inner = given.inside(key)
+        try:
+            found.append(read(key, item, inner))
+        except InputError as problem:
+            problems += [inner.place.blamed(part) for part in parts_of(problem)]
+    if problems:
+        raise together(problems)
+    return found
+
+
+def fields_of(kind: type) -> Fields:
+    """Keys of a section class in a file."""
+    return _SECTIONS[kind].in_file
+
+
+def form_of(one: Field) -> Form | None:
+    """The form of a plain value; None for a section."""
+    form = one.form.written if isinstance(one.form, Made) else one.form
+    return None if isinstance(form, Group | OrWord | Variants) else form
+
+
+def word_of(one: Field) -> str:
+    """The word that switches a section off; empty if there is none."""
+    return one.form.word if isinstance(one.form, OrWord) else ""
+
+
+def keys_of(kind: type, prefix: str = "") -> Iterator[tuple[str, Field]]:
+    """Yield the full name, `loads.hub.force`, and the field of every key of a section and of those inside."""
+    yield from _keys_inside(fields_of(kind), prefix)
+
+
+def _keys_inside(fields: Fields, prefix: str) -> Iterator[tuple[str, Field]]:
+    for key, one in fields.items():
+        yield prefix + key, one
+        form, name = one.form.written if isinstance(one.form, Made) else one.form, f"{prefix}{key}."
+        form = form.section if isinstance(form, OrWord) else form
+        if isinstance(form, Variants):
+            yield name + form.key, Field(Choice(form.about, functools.partial(list, form.sections)), False, False)
+            for section in dict.fromkeys(form.sections.values()):
+                yield from keys_of(section, name)
+        elif isinstance(form, Group):
+            yield from _keys_inside(form.fields, name)
 
 
 def json_schema(kind: type) -> dict[str, Any]:
     """JSON Schema (2020-12) of a section class."""
-    known = _SECTIONS[kind]
-    schema: dict[str, Any] = {
-        "type": "object",
-        "properties": {key: _field_schema(field) for key, field in known.fields.items()},
-        "required": [key for key, field in known.fields.items() if field.is_required()],
-        "additionalProperties": False,
-        "description": known.about,
-    }
-    return schema | ({"oneOf": [{"required": [key]} for key in known.one_of]} if known.one_of else {})
-
-
-def _field_schema(field: FieldInfo) -> dict[str, Any]:
-    form, variants, word = form_of(field), variants_of(field), annotation_of(field, OrWord)
-    if form:
-        return form.json() | {"description": form.about}
-    schemas = [json_schema(kind) for kind in (variants.sections.values() if variants else sections_of(field))]
-    if variants:
-        for name, schema in zip(variants.sections, schemas, strict=True):
-            schema["properties"] = {variants.key: {"const": name}, **schema["properties"]}
-            schema["required"] += [] if name == variants.default else [variants.key]
-        return {"oneOf": schemas, "description": variants.about}
-    (schema,) = schemas
-    return {"anyOf": [{"const": word.word}, schema], "description": schema["description"]} if word else schema
+    return form_from(kind).json() | {"description": _SECTIONS[kind].about}

@@ -9,7 +9,7 @@ from macroslip.errors import InputError
 from macroslip.input.fields import Quantity, Text
 from macroslip.input.files import Source
 from macroslip.input.messages import shown
-from macroslip.input.record import Provenance, Record
+from macroslip.input.record import Provenance, Record, fields_of
 from macroslip.input.units import (
     CONDUCTIVITY,
     DENSITY,
@@ -206,7 +206,7 @@ class Lubricant(Record):
         """The lubricant by its values at the inlet alone, some of them changed; their origins are in SI."""
         sources = {source for those in _SOURCES.values() for source in those}
         kept = {key: origin for key, origin in self.provenance.items() if key not in sources}
-        values = {key: getattr(self, key) for key in type(self).model_fields if key not in sources}
+        values = {key: getattr(self, key) for key in fields_of(type(self)) if key not in sources}
         record = type(self).__new__(type(self))
         record._fill(values | {key: origin.value for key, origin in changes.items()}, kept | changes, Source())
         return record

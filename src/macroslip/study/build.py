@@ -54,7 +54,7 @@ def template(
     """
     cut: dict[str, float] = {}
 
-    def keep(given: LoadSource) -> BearingLoads:
+    def unread(given: LoadSource) -> BearingLoads:
         cut.update(given.cut)
         return _ANY_LOADS
 
@@ -62,7 +62,7 @@ def template(
     # The source is named only because a case has to have one; it is not read.
     content = {**with_settings(mapping, settings), **names}
     content["loads"] = (content.get("loads") or {}) | {"file": "-"}
-    case = build_case(content, source or Source(), folder or Path(), records=records, series=keep)
+    case = build_case(content, source or Source(), folder or Path(), records=records, series=unread)
     changed = {noun: replaced(getattr(case, noun), settings) for noun in ("bearing", "lubricant")}
     details = case.contact_details and (keep is None or not set(CONTACT_DETAILS).isdisjoint(keep))
     return replace(case, **changed, contact_details=details), cut
