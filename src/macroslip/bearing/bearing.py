@@ -50,8 +50,8 @@ class Bearing(Record):
 
     noun: ClassVar[str] = "bearing"
 
-    name: Annotated[str, Text("short name of the bearing, used in results")]
-    title: Annotated[str, Text("one line that describes the bearing", may_be_empty=True)] = ""
+    name: Annotated[str, Text("short name of the bearing, used in results", line=True)]
+    title: Annotated[str, Text("one line that describes the bearing", may_be_empty=True, line=True)] = ""
 
     bore_diameter: Annotated[_Optional, Quantity("bore diameter of the inner ring", LENGTH, 0, 10, above=True)] = None
     outside_diameter: Annotated[

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
@@ -30,6 +31,8 @@ from macroslip.input.units import (
 
 #: Largest whole number of a field.
 _MOST = 10**15
+#: Characters that a line may have.
+_LONGEST = 2000
 _REMINDERS = {
     LENGTH: " Lengths are in metres.",
     ANGLE: " Angles are in radians: math.radians(5.0) for 5 degrees.",
@@ -40,27 +43,17 @@ _REMINDERS = {
 
 @dataclass(frozen=True)
 class Given:
-    """How a value is given.
-
-    Parameters
-    ----------
-    place : Place
-        Where.
-    in_file : bool
-        Whether it is written as in a file; otherwise a quantity is a number in SI units.
-    ranges : bool
-        Whether ranges are checked, beside the form.
-    before : mapping
-        Values of the fields before it in the same section.
-    written : tuple of str, optional
-        A value of a record, which is in SI whatever was written: number with unit, and unit, as written.
-    """
+    """How a value is given."""
 
     place: Place = field(default_factory=lambda: Place(Source()))
+    #: Whether it is written as in a file; otherwise a quantity is a number in SI units.
     in_file: bool = False
+    #: Whether ranges are checked, beside the form.
     ranges: bool = True
+    #: Values of the fields before it in the same section.
     before: Mapping[str, Any] = field(default_factory=dict)
-    written: tuple[str, str] | None = None
+    #: For a record, whose values are in SI whatever was written: number with unit, and unit, as written, by key.
+    written: Mapping[str, tuple[str, str]] | None = None
 
     def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Given:
         """The same of a value further in."""
@@ -72,13 +65,7 @@ PYTHON, IN_FILE, FORM_ONLY = Given(), Given(in_file=True), Given(in_file=True, r
 
 @dataclass(frozen=True)
 class Form:
-    """What a value has to be; a form reads a value or raises `InputError`, with or without its place.
-
-    Parameters
-    ----------
-    about : str
-        What the value is.
-    """
+    """What a value has to be, and in `about` what it is; a form reads it or raises `InputError`."""
 
     about: str
     form: ClassVar[str] = ""
@@ -150,7 +137,7 @@ class Quantity(Form):
             si_value, written = self.dimension.to_si(float(number), unit), str(value)
         else:
             si_value = self._number(value, given)
-            written, unit = given.written or (f"{si_value!r}", unit)
+            written, unit = (given.written or {}).get(given.place.key, (f"{si_value!r}", unit))
         if given.ranges:
             self._check_range(si_value, given, written, unit)
         return si_value
@@ -263,9 +250,10 @@ class Flag(Form):
 
 @dataclass(frozen=True)
 class Text(Form):
-    """Text, which is not empty unless it may be."""
+    """Text, which is not empty unless it may be; a line is one that results can hold."""
 
     may_be_empty: bool = False
+    line: bool = False
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -276,6 +264,11 @@ class Text(Form):
         """Check the type."""
         if not isinstance(value, str) or not (value or self.may_be_empty):
             raise self.wrong(value)
+        # A NUL ends text in a result, and half a surrogate pair has no UTF-8.
+        unfit = any(unicodedata.category(letter) in ("Cc", "Cs") for letter in value)
+        if self.line and (unfit or len(value) > _LONGEST):
+            allowed = f"at most {_LONGEST} characters on one line, without control characters"
+            raise self.wrong(value, "Write it as one line of plain text.", allowed)
         check_no_zero_byte(value)
         return value
 

@@ -80,26 +80,13 @@ class Place:
 
 
 def read_text(path: Path, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> str:
-    """Read a text file that a user has named, whatever the name leads to.
-
-    Parameters
-    ----------
-    path : Path
-        The file. Only a regular file is opened: a pipe or a device would wait or never end.
-    what : str
-        Begin of the message if it cannot be read: for example "the case file cannot be read".
-    where, allowed, remedy : str
-        The rest of that message.
-
-    Returns
-    -------
-    str
-        Its text, at most `MOST_BYTES` long.
+    """Read a text file that a user has named, whatever the name leads to: a pipe or a device would never end.
 
     Raises
     ------
     InputError
-        If it cannot be read, is no regular file, is too long, or is not UTF-8.
+        If it cannot be read, in the words given, such as "the case file cannot be read"; if it is no regular file, is
+        longer than `MOST_BYTES`, or is not UTF-8.
     """
 
     def unreadable(reason: str) -> InputError:
@@ -233,22 +220,7 @@ def _plain(value: Any) -> Any:
 
 
 def yaml_text(entries: Mapping[str, Any], header: str, explained: Mapping[str, str]) -> str:
-    """Write a file of one line an entry, with the meaning of every key in the line above it.
-
-    Parameters
-    ----------
-    entries : Mapping[str, Any]
-        Text, or a mapping of numbers and text, by key.
-    header : str
-        What the file is.
-    explained : Mapping[str, str]
-        Meaning of each key.
-
-    Returns
-    -------
-    str
-        YAML 1.2.
-    """
+    """Write YAML 1.2 of one line an entry, with the meaning of every key in the line above it."""
     lines = [*_comment(header), ""]
     for key, entry in entries.items():
         lines += _comment(f"{explained[key][0].upper()}{explained[key][1:]}.")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import functools
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -33,8 +32,6 @@ TAGS: Mapping[str, str] = MappingProxyType(
         "U": "user",
     }
 )
-#: Characters that a name, a title or a note may have.
-LONGEST_TEXT = 2000
 _HEADER = (
     "A {} file of macroslip. Every quantity has a value and its unit; where it comes from (tag), a note and the range of "
     f"values it may have are optional. Tags: {', '.join(f'{tag} {meaning}' for tag, meaning in TAGS.items())}. Short "
@@ -131,36 +128,17 @@ def _entry(dimension: Dimension, whole: bool = False) -> Group:
         "value": _Number("number, without its unit", whole),
         "unit": _Unit("unit of the value", lambda: list(dimension.units)),
         "tag": Choice("where it comes from", lambda: list(TAGS), tags),
-        "note": Text("free text", may_be_empty=True),
+        "note": Text("free text", may_be_empty=True, line=True),
         "range": _Range("lowest and highest value; four out of five lie between them"),
     }
     return Group("", {key: Field(form, key in ("value", "unit"), False) for key, form in forms.items()})
 
 
 def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tuple[float, Provenance]:
-    """Check the form of an entry.
+    """Value [SI] and provenance of an entry of a catalogue file; whether the value is in its range is checked later.
 
-    Parameters
-    ----------
-    key : str
-        Key of the entry.
-    entry : Any
-        Text of number and unit, a plain number where the quantity has no unit, or a mapping with value, unit and
-        optionally tag, note and range.
-    dimension : Dimension
-        Units the quantity may have.
-    source : Source
-        Where the entry was written, for messages.
-
-    Returns
-    -------
-    tuple[float, Provenance]
-        Value [SI] and provenance. Whether the value is in its range is checked later.
-
-    Raises
-    ------
-    InputError
-        If the entry is none of these, has an unknown key, or a wrong value, unit, tag, note or range.
+    The entry is text of number and unit, a plain number where the quantity has no unit, or a mapping with value, unit
+    and optionally tag, note and range. Anything else is refused.
     """
     place, si_unit = Place(source, (key,)), dimension.si_unit
     if isinstance(entry, str):
@@ -199,8 +177,8 @@ class Record:
     """
 
     noun: ClassVar[str] = "record"
-    # Quantities that may be left out of a file because they follow from others that it gives.
-    derivable: ClassVar[frozenset[str]] = frozenset()
+    # Quantities that may be left out of a file because they follow from others, and those others.
+    sources: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     name: str
     title: str
     # Pairs instead of a mapping keep the record hashable.
@@ -219,58 +197,22 @@ class Record:
     ) -> None:
         """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
         fields, kinds = fields_of(type(self)), dimensions(type(self))
-        problems, found = [], {key: getattr(type(self), key, None) for key in fields}
-        missing = [key for key, one in fields.items() if one.is_required and key not in values]
-        if missing:
-            problems.append(self._missing(missing, source))
-        for key, value in values.items():
-            place = Place(source, (key,))
-            if key not in fields:
-                problems.append(unknown_key(key, fields, where=source.where(key)))
-            elif value is not None or fields[key].is_required:
-                try:
-                    unit = kinds[key].si_unit if key in kinds else "1"
-                    origin = provenance.get(key) or Provenance(value, unit)
-                    found[key] = fields[key].form.read(value, Given(place, written=(origin.written, origin.unit)))
-                except InputError as problem:
-                    where = ", ".join(part for part in (source.where(key, "value"), key) if part)
-                    problems.append(
-                        InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy)
-                    )
+        units = {key: kinds[key].si_unit for key in values if key in kinds}
+        written = {key: (with_unit(values[key], unit), unit) for key, unit in units.items()}
+        written |= {key: (origin.written, origin.unit) for key, origin in provenance.items()}
+        # An entry may have several lines; what is wrong with its value is in the line of the value.
+        lines = {keys[:1]: line for keys, line in source.lines.items() if keys[1:] == ("value",)}
+        place = Place(Source(source.file, {**source.lines, **lines}))
+        found, problems = read_keys(fields, values, Given(place, written=written))
         if problems:
             raise together(problems)
-        origins = {
-            key: provenance.get(key) or Provenance(found[key], kinds[key].si_unit)
-            for key in kinds
-            if found[key] is not None
-        }
-        vars(self).update(found, _provenance=tuple(origins.items()), _derived=derived)
-        problems = [*self._texts(source), *self._wide_ranges(source), *self._inconsistencies(source)]
+        found = {key: found.get(key, one.default) for key, one in fields.items()}
+        known = {key: provenance.get(key) or Provenance(found[key], kind.si_unit) for key, kind in kinds.items()}
+        given = tuple(one for one in known.items() if found[one[0]] is not None)
+        vars(self).update(found, _provenance=given, _derived=derived)
+        problems = [*self._wide_ranges(source), *self._inconsistencies(source)]
         if problems:
             raise together(problems)
-
-    @classmethod
-    def _missing(cls, keys: list[str], source: Source) -> InputError:
-        """The error for missing keys; a subclass adds other ways to give them."""
-        first, dimension = keys[0], dimensions(cls).get(keys[0])
-        if source.file:
-            form = f"{first}: {{value: ..., unit: {dimension.choices}}}" if dimension else f"{first}: ..."
-        else:
-            form = f"{first}=... [{dimension.si_unit}]" if dimension else f"{first}=..."
-        remedy = f"Add what is missing, in the form {form}"
-        return InputError(f"the {cls.noun} has no {', no '.join(keys)}", where=source.file, remedy=remedy)
-
-    def _texts(self, source: Source) -> Iterator[InputError]:
-        """Yield text that results could not hold: a NUL ends it there, half a surrogate pair has no UTF-8."""
-        texts = {(key,): getattr(self, key) for key in fields_of(type(self)).keys() - dimensions(type(self)).keys()}
-        notes = {(key, "note"): origin.note for key, origin in self._provenance}
-        for keys, text in (texts | notes).items():
-            if len(text) > LONGEST_TEXT or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in text):
-                yield Place(source, keys).problem(
-                    f"it is {shown(text)}",
-                    f"at most {LONGEST_TEXT} characters on one line, without control characters",
-                    "Write it as one line of plain text.",
-                )
 
     def _wide_ranges(self, source: Source) -> Iterator[InputError]:
         """Yield ranges of values that go beyond what the quantity may be."""
@@ -494,7 +436,7 @@ class Record:
             "title": f"{cls.noun} of macroslip",
             "type": "object",
             "properties": {key: _schema(one.form) for key, one in fields.items()},
-            "required": [key for key, one in fields.items() if one.is_required and key not in cls.derivable],
+            "required": [key for key, one in fields.items() if one.is_required and key not in cls.sources],
             "additionalProperties": False,
         }
 
@@ -512,10 +454,13 @@ def _schema(form: Form) -> dict[str, Any]:
 @functools.cache
 def fields_of(record: type[Record]) -> Fields:
     """Fields of a record class by key."""
-    hints = {
-        key: hint for key, hint in get_type_hints(record, include_extras=True).items() if hasattr(hint, "__metadata__")
-    }
-    return {key: Field(form_from(hint), not hasattr(record, key), True) for key, hint in hints.items()}
+    found = {}
+    for key, hint in get_type_hints(record, include_extras=True).items():
+        if hasattr(hint, "__metadata__"):
+            required, others = not hasattr(record, key), " and ".join(record.sources.get(key, ()))
+            remedy = f"Add it, or the figures of a data sheet from which it follows: {others}." if others else "Add it."
+            found[key] = Field(form_from(hint), required, not required, getattr(record, key, None), remedy)
+    return found
 
 
 @functools.cache

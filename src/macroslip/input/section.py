@@ -25,12 +25,13 @@ Fields = Mapping[str, "Field"]
 
 
 class Field(NamedTuple):
-    """A key of a section: its form, whether it has to be given, whether None leaves it open in Python, its default."""
+    """A key of a section; where it is optional, None leaves it open in Python."""
 
     form: Form
     is_required: bool
     is_optional: bool
     default: Any = None
+    remedy: str = "Add it."
 
 
 class _Section(NamedTuple):
@@ -160,33 +161,15 @@ def read_keys(
     gone: Mapping[str, str] | None = None,
     more: tuple[str, ...] = (),
 ) -> tuple[dict[str, Any], list[InputError]]:
-    """Read the values under the keys of a section as far as they are right.
+    """Read the values under the keys of a section as far as they are right; and everything that is wrong.
 
-    Parameters
-    ----------
-    fields : mapping
-        The keys that there are.
-    data : mapping
-        The section as it is given.
-    given : Given
-        How it is given.
-    gone : mapping
-        Keys that there were, with a sentence on each.
-    more : tuple of str
-        Other keys that the section may have, for messages.
-
-    Returns
-    -------
-    dict
-        Values of the keys that are there and right.
-    list of InputError
-        Everything that is wrong.
+    `gone` are keys that there were, with a sentence on each; `more` other keys that the section may have.
     """
-    place, found, problems = given.place, {}, []
+    place, gone, found, problems = given.place, gone or {}, {}, []
     unknown = [key for key in data if key not in fields]
     for key in unknown:
         where = place.source.where(*place.keys, key)
-        if key in (gone or {}):
+        if key in gone:
             problem = InputError(f"the key '{key}' inside {place.key} is gone", where=where, remedy=gone[key])
         else:
             problem = unknown_key(key, [*more, *fields], where=where, inside=place.key)
@@ -205,18 +188,12 @@ def read_keys(
                 problems += parts_of(problem)
         elif one.is_required and key not in meant:
             what = f"'{key}' is missing ({one.form.about})"
-            problems.append(given.place.problem(what, one.form.form, "Add it."))
+            problems.append(given.place.problem(what, one.form.form, one.remedy))
     return found, problems
 
 
 def read_value(one: Field, value: Any, given: Given) -> Any:
-    """Read the value of a key.
-
-    Raises
-    ------
-    InputError
-        With all that is wrong inside, each with its place.
-    """
+    """Read the value of a key; all that is wrong inside is raised with its place."""
     try:
         return one.form.read(value, given)
     except InputError as problem:
@@ -273,7 +250,7 @@ class Section(Group):
             if not isinstance(value, self.kind):
                 raise self.wrong(value, allowed=self.kind.__name__)
             return value
-        made = self.kind.__new__(self.kind)
+        made = object.__new__(self.kind)
         _fill(made, self._keys(value), given)
         return made
 
@@ -317,16 +294,7 @@ class OrWord(Form):
 class Variants(Form):
     """One of several sections, which a file chooses by the name under a key.
 
-    Parameters
-    ----------
-    about : str
-        What it is.
-    key, default : str
-        The key, and the name that holds without it.
-    sections : mapping
-        Section class by name.
-    presets : mapping
-        Where all names have one class: values that a name gives the keys that the file leaves out.
+    Where all names have one class, `presets` are the values that a name gives the keys that the file leaves out.
     """
 
     key: str = ""
@@ -363,7 +331,7 @@ class Variants(Form):
         found, others = read_keys(fields_of(kind), data, given, _SECTIONS[kind].gone, (self.key,))
         if problems or others:
             raise together(problems + others)
-        made = kind.__new__(kind)
+        made = object.__new__(kind)
         _SECTIONS[kind].fill(made, **found)
         return made
 
@@ -380,15 +348,7 @@ class Variants(Form):
 
 @dataclass(frozen=True, init=False)
 class Made(Form):
-    """An object of the program, which a builder makes from what the file has in its place.
-
-    Parameters
-    ----------
-    kinds : tuple of type
-        Classes of the object.
-    written : Form
-        What the file has.
-    """
+    """An object of the program in Python; in a file, what a form reads and a builder makes the object of."""
 
     kinds: tuple[type, ...]
     written: Form
@@ -421,16 +381,7 @@ class Made(Form):
 class MappingOf(Form):
     """A mapping of names of the user's own to values of one kind, each of which is checked with its name.
 
-    Parameters
-    ----------
-    about : str
-        What it is.
-    form : str
-        What is accepted, in words.
-    item : annotation
-        Form or section of a value; Any leaves it to `each`.
-    each : callable, optional
-        Makes what the program uses of a name and its value, or raises `InputError`.
+    `item` is the annotation of a value, Any leaves it to `each`, which makes what the program uses of name and value.
     """
 
     form: str = "a section whose keys are names of your own"  # pyright: ignore[reportIncompatibleVariableOverride]

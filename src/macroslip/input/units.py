@@ -126,28 +126,13 @@ NUMBER = _dimension(**{"1": 1})
 
 
 def parse_quantity(given: str | float, dimension: Dimension, what: str = "it", where: str = "") -> tuple[float, str]:
-    """Split a number and its unit, and check both.
-
-    Parameters
-    ----------
-    given : str or float
-        Number and unit; a pure number has no unit.
-    dimension : Dimension
-        Units that are allowed.
-    what : str
-        Name of the quantity, for messages.
-    where : str
-        File and line, for messages.
-
-    Returns
-    -------
-    tuple[float, str]
-        The number as written, an integer where it was written as one, and the unit, "1" for a pure number.
+    """The number as written, an integer where it was written as one, and the unit, "1" for a pure number.
 
     Raises
     ------
     InputError
-        If the text is no number, has no unit or another one, or is too large for a float.
+        If the text is no number, has no unit or another one, or is too large for a float; `what` and `where` name the
+        quantity and its place.
 
     Examples
     --------

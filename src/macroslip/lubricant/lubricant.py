@@ -61,13 +61,13 @@ class Lubricant(Record):
     """
 
     noun: ClassVar[str] = "lubricant"
-    derivable: ClassVar[frozenset[str]] = frozenset(_SOURCES)
+    sources: ClassVar[Mapping[str, tuple[str, ...]]] = _SOURCES
 
-    name: Annotated[str, Text("short name of the lubricant, used in results")]
-    title: Annotated[str, Text("one line that describes the lubricant", may_be_empty=True)] = ""
-    base_oil: Annotated[str, Text(f"family of the base oil: {', '.join(BASE_OILS)}", may_be_empty=True)] = ""
+    name: Annotated[str, Text("short name of the lubricant, used in results", line=True)]
+    title: Annotated[str, Text("one line that describes the lubricant", may_be_empty=True, line=True)] = ""
+    base_oil: Annotated[str, Text(f"family of the base oil: {', '.join(BASE_OILS)}", may_be_empty=True, line=True)] = ""
     thickener: Annotated[
-        str, Text("thickener of a grease; only the base oil enters the contacts here", may_be_empty=True)
+        str, Text("thickener of a grease; only the base oil enters the contacts here", may_be_empty=True, line=True)
     ] = ""
 
     inlet_temperature: Annotated[float, Quantity("temperature at the inlet of the contacts", TEMPERATURE, 200, 500)]
@@ -150,15 +150,6 @@ class Lubricant(Record):
             raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
         follows = {key: origin.value for key, origin in found.items()}
         super()._fill({**values, **follows}, {**provenance, **found}, source, frozenset(found))
-
-    @classmethod
-    def _missing(cls, keys: list[str], source: Source) -> InputError:
-        problem = super()._missing(keys, source)
-        others = [f"for {key} {' and '.join(_SOURCES[key])}" for key in keys if key in _SOURCES]
-        if not others:
-            return problem
-        instead = f"{problem.remedy}. Data sheets have other figures, which do as well: {'; '.join(others)}"
-        return InputError(problem.what, where=problem.where, remedy=instead)
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         for key in _SOURCES.keys() - self._derived:
