@@ -9,9 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip.bearing import Bearing
-from macroslip.catalogue import Provenance
 from macroslip.errors import InputError
-from macroslip.input.record import fields_of
+from macroslip.input.record import Provenance, fields_of
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +34,10 @@ def test_constructor_tells_all_problems_together(base):
     assert message.startswith(
         "3 problems: (1) the bearing has no hardness. Add what is missing, in the form hardness=... [Pa]. (2) "
     )
-    assert "density: it is -1.0 kg/m3. Allowed: 500 to 25000 kg/m3. It is the density of the rollers; check value and unit." in message
+    assert (
+        "density: it is -1.0 kg/m3. Allowed: 500 to 25000 kg/m3. It is the density of the rollers; check value and unit."
+        in message
+    )
     assert "the key 'mas' is unknown. Did you mean 'mass'?" in message
     assert "pydantic" not in message
 
@@ -100,7 +102,9 @@ RANGES = {
 def test_every_quantity_has_a_range(base, key):
     low, high = RANGES[key]
     step = 1 if key == "rollers_per_row" else 1e-6 * (high - low)
-    reported = re.compile(rf"\b{key}: it is [^ ]+( [^.]+)?\. Allowed: (a whole number, )?(above )?\S+,? (to|up to|and|to below) ")
+    reported = re.compile(
+        rf"\b{key}: it is [^ ]+( [^.]+)?\. Allowed: (a whole number, )?(above )?\S+,? (to|up to|and|to below) "
+    )
     for outside in (low - step, high + step):
         with pytest.raises(InputError, match=reported):
             base.replace(**{key: outside})

@@ -4,13 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.integrate import tplquad
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.bearing.frames import initial_angles
-from macroslip.bearing.inertia import roller_mass, spin_inertia
+from macroslip.bearing.geometry import initial_angles, roller_mass, spin_inertia
 from macroslip.errors import InputError
 
 

@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
 from macroslip.bearing import Bearing
-from macroslip.catalogue import TAGS, Provenance
 from macroslip.errors import InputError
-from macroslip.input.record import fields_of
+from macroslip.input.record import TAGS, Provenance, fields_of
 
 NAME = "skf-240-600-bc"
 TEXT = (resources.files("macroslip.bearing") / "catalogue" / f"{NAME}.yaml").read_text(encoding="utf-8")

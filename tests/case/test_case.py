@@ -33,17 +33,32 @@ def test_numbers_of_numpy_are_welcome():
     [
         (lambda: Radau(tolerance=0.5), "integrator.tolerance: it is 0.5. Allowed: 1e-10 to 0.01. 2e-4 gives energies"),
         (lambda: Radau(tolerance="1e-4"), "integrator.tolerance: it is '1e-4'. Allowed: a finite number."),
-        (lambda: Radau(max_steps=10**30), "integrator.max_steps: it is 1000000000000000000000000000000. Allowed: a whole"),
+        (
+            lambda: Radau(max_steps=10**30),
+            "integrator.max_steps: it is 1000000000000000000000000000000. Allowed: a whole",
+        ),
         (lambda: Radau(max_steps=1e30), "integrator.max_steps: it is 1e+30. Allowed: a whole number, 1 to 1e15."),
-        (lambda: Radau(max_steps=0), "integrator.max_steps: it is 0. Allowed: a whole number, 1 to 1e15. It is the number of"),
+        (
+            lambda: Radau(max_steps=0),
+            "integrator.max_steps: it is 0. Allowed: a whole number, 1 to 1e15. It is the number of",
+        ),
         (lambda: Radau(tolerence=1e-4), "the key 'tolerence' inside integrator is unknown. Did you mean 'tolerance'?"),
         (lambda: ExplicitEuler(), "integrator: 'step' is missing"),
-        (lambda: BackwardEuler(step=3.0), "integrator.step: it is 3.0. Allowed: 1e-7 to 1 s. It is the fixed time step"),
+        (
+            lambda: BackwardEuler(step=3.0),
+            "integrator.step: it is 3.0. Allowed: 1e-7 to 1 s. It is the fixed time step",
+        ),
         (lambda: Traces(step=-1.0), "traces.step: it is -1.0. Allowed: a number above 0 s."),
         (lambda: Window(start=np.nan), "window.start: it is nan. Allowed: a finite number."),
         (lambda: replace(Drivetrain(), tilt=5.0), "Angles are in radians: math.radians(5.0) for 5 degrees."),
-        (lambda: Radau(tables=True), "the key 'tables' inside integrator is gone. Contacts are always looked up in tables"),
-        (lambda: replace(Drivetrain(), tilt=5.0), "drivetrain.tilt: it is 5.0. Allowed: -0.3 to 0.3 rad. It is the shaft tilt"),
+        (
+            lambda: Radau(tables=True),
+            "the key 'tables' inside integrator is gone. Contacts are always looked up in tables",
+        ),
+        (
+            lambda: replace(Drivetrain(), tilt=5.0),
+            "drivetrain.tilt: it is 5.0. Allowed: -0.3 to 0.3 rad. It is the shaft tilt",
+        ),
         (lambda: Case(loads=LOADS, rollers=[0, 28]), "rollers: rollers is [0, 28]. Allowed: all, or a list"),
         (lambda: Case(loads=LOADS, rollers=3), "rollers: it is 3. Allowed: all, or a list"),
         (lambda: Case(loads=LOADS, rollers=[True]), "rollers: it is [True]. Allowed: all, or a list"),

@@ -2,7 +2,7 @@
 
 import pytest
 
-from macroslip.lubricant.density import dowson_higginson
+from macroslip.lubricant.viscosity import dowson_higginson
 
 
 def test_density_under_pressure():

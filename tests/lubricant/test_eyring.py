@@ -6,8 +6,7 @@ import pytest
 from scipy.optimize import brentq
 
 from macroslip.lubricant import Lubricant
-from macroslip.lubricant.eyring import eyring_stress
-from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity
+from macroslip.lubricant.temperature import eyring_stress, mean_pressure_viscosity
 
 
 def test_it_rises_with_temperature_as_published():

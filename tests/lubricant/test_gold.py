@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from macroslip.lubricant.base_oil import BASE_OILS
-from macroslip.lubricant.gold import gold
+from macroslip.lubricant.temperature import gold
 
 
 def test_it_is_a_power_law_in_mm2_per_second():

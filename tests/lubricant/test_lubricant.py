@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from macroslip.catalogue import TAGS
 from macroslip.errors import InputError
+from macroslip.input.record import TAGS
 from macroslip.lubricant import Lubricant
-from macroslip.lubricant.roelands_index import roelands_index
+from macroslip.lubricant.temperature import roelands_index
 from macroslip.lubricant.viscosity import barus, roelands
 
 

@@ -8,8 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip.errors import InputError
-from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity, pressure_viscosity_at
-from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
+from macroslip.lubricant.temperature import (
+    ROELANDS_PRESSURE,
+    mean_pressure_viscosity,
+    pressure_viscosity_at,
+    roelands_index,
+)
 from macroslip.lubricant.viscosity import roelands
 
 

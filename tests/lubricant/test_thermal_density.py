@@ -2,7 +2,7 @@
 
 import pytest
 
-from macroslip.lubricant.thermal_density import density_at
+from macroslip.lubricant.temperature import density_at
 
 
 def test_it_falls_by_065_a_kelvin():

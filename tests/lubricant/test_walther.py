@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip.errors import InputError
-from macroslip.lubricant.walther import (
+from macroslip.lubricant.temperature import (
     WaltherLine,
     walther_coefficient,
     walther_line_through,

@@ -3,7 +3,7 @@
 import pytest
 
 from macroslip import InputError, Lubricant
-from macroslip.catalogue.source import Place, Source
+from macroslip.input.files import Place, Source
 from macroslip.study.build import template
 from macroslip.study.settings import Setting, replaced
 

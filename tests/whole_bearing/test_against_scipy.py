@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from macroslip.bearing.frames import initial_angles
+from macroslip.bearing.geometry import initial_angles
 from macroslip.mechanisms import Laws
 from macroslip.roller.contact import cage_contact, raceway_contact
 from macroslip.roller.films import Films

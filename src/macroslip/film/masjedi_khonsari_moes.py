@@ -28,7 +28,7 @@ from macroslip.contact.interface import Interface
 from macroslip.film import masjedi_khonsari, moes
 from macroslip.film.film_law import register
 from macroslip.film.masjedi_khonsari import RANGES
-from macroslip.lubricant.density import dowson_higginson
+from macroslip.lubricant.viscosity import dowson_higginson
 
 _LOWEST_LOAD = RANGES["load"][0]
 _LOG_HEAVY = math.log(_LOWEST_LOAD)

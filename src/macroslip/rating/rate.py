@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.bearing.load_ratings import fatigue_load_limit
 from macroslip.compiled import jit
 from macroslip.errors import InputError

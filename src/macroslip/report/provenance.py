@@ -6,8 +6,8 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from macroslip.catalogue.entry import TAGS
-from macroslip.catalogue.units import with_unit
+from macroslip.input.record import TAGS
+from macroslip.input.units import with_unit
 from macroslip.integrate.status import Status
 from macroslip.machine import machine
 from macroslip.report.bibliography import bibtex

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import macroslip
-from macroslip.bearing.frames import ROWS, initial_angles
+from macroslip.bearing.geometry import ROWS, initial_angles
 from macroslip.case.parts import Radau
 from macroslip.integrate.detail import MECHANISMS
 from macroslip.integrate.record import COUNTS, TRACES, RollerRecord

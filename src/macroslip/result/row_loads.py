@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.ring.balance import roller_loads
 from macroslip.ring.motion import ring_motion

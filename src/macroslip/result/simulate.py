@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
 from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.errors import InputError
@@ -30,8 +30,7 @@ from macroslip.result.own_laws import check_own_laws
 from macroslip.result.simulate_whole import simulate_whole_bearing
 from macroslip.result.thermal_balance import case_at_balance
 from macroslip.ring.motion import ring_motion
-from macroslip.ring.orbit import Motion
-from macroslip.ring.travel import orbit_times
+from macroslip.ring.orbit import Motion, orbit_times
 from macroslip.roller.model import (
     RollerModel,
     highest_load,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.result.whole_dataset import whole_dataset
 from macroslip.roller.contact_force import CurvedContact
 from macroslip.whole_bearing.model import RowModels, whole_bearing, with_rollers

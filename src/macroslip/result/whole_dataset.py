@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.integrate.status import Status
 from macroslip.result.dataset import input_attributes, roller_coordinates, status_flags
 from macroslip.result.variables import INTERFACES, VARIABLES

@@ -14,7 +14,7 @@ from macroslip.errors import InputError
 from macroslip.film import asperity_load
 from macroslip.film import film_law as film_law
 from macroslip.film.correction import INLET_HEATING_REFERENCE, prepare_film
-from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
+from macroslip.lubricant.temperature import ROELANDS_PRESSURE, roelands_index
 from macroslip.roller.contact_force import CurvedContact, PlainContact
 from macroslip.roller.films import Films, NoFilms
 from macroslip.roller.plane_table import no_plane_table

@@ -12,9 +12,9 @@ import numpy as np
 from macroslip.case.case import Case
 from macroslip.case.case_file import build_case
 from macroslip.case.load_source import LoadSource
-from macroslip.catalogue import Record
-from macroslip.catalogue.source import Source
 from macroslip.errors import InputError
+from macroslip.input.files import Source
+from macroslip.input.record import Record
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.result.variables import CONTACT_DETAILS
 from macroslip.study.settings import Setting, replaced, with_settings

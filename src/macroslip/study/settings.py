@@ -9,19 +9,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from macroslip.bearing import Bearing
-from macroslip.case.keys import CaseFile
-from macroslip.catalogue import Record
-from macroslip.catalogue.entry import is_finite_number, read_entry
-from macroslip.catalogue.fields import dimensions
-from macroslip.catalogue.forms import FORM_ONLY
-from macroslip.catalogue.input_section import read_value
-from macroslip.catalogue.problems import shown, unknown_key
-from macroslip.catalogue.quantity import NUMBER_PATTERN
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.section_forms import Field, form_of, keys_of, word_of
-from macroslip.catalogue.source import Place, Source
-from macroslip.catalogue.units import NUMBER
+from macroslip.case.case import Case
 from macroslip.errors import InputError
+from macroslip.input.fields import FORM_ONLY, Quantity
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import shown, unknown_key
+from macroslip.input.record import Record, dimensions, read_entry
+from macroslip.input.section import Field, form_of, keys_of, read_value, word_of
+from macroslip.input.units import NUMBER, NUMBER_PATTERN, is_finite_number
 from macroslip.lubricant import Lubricant
 
 #: Records with values of their own, each of which can be replaced.
@@ -162,7 +157,7 @@ def replaced(record: Record, settings: list[Setting]) -> Record:
 def _settable() -> dict[str, list[Field]]:
     """Fields by the full name of a key, `drivetrain.tilt`; several where sections exclude each other."""
     found: dict[str, list[Field]] = {}
-    for key, field in keys_of(CaseFile):
+    for key, field in keys_of(Case):
         if form_of(field) or word_of(field):
             found.setdefault(key, []).append(field)
     return found

@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from macroslip.catalogue.forms import Choice, Flag, Form, Text, Texts
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.problems import shown, together
-from macroslip.catalogue.section_forms import MappingOf, read_all
-from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Flag, Form, Text, Texts
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import shown, together
+from macroslip.input.section import MappingOf, input_section, read_all
 from macroslip.result.variables import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Sample

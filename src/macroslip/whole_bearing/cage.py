@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import ROWS
-from macroslip.catalogue.forms import Choice, Flag, Whole
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import FORCE, INVERSE_SPEED, LENGTH, MASS, NUMBER
+from macroslip.bearing.geometry import ROWS
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Flag, Quantity, Whole
+from macroslip.input.section import input_section
+from macroslip.input.units import FORCE, INVERSE_SPEED, LENGTH, MASS, NUMBER
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing

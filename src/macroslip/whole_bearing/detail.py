@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba.extending import overload
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.compiled import jit_called, jit_merged
 from macroslip.integrate.detail import EXTREMES, Passage, book_cage, book_raceway, look
 from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS, Way

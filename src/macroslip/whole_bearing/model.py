@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.constants import GRAVITY
 from macroslip.mechanisms import Laws
 from macroslip.roller.films import Films, NoFilms

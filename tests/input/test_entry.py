@@ -5,11 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import Bearing
-from macroslip.catalogue import Provenance
-from macroslip.catalogue.entry import read_entry
-from macroslip.catalogue.source import Source
-from macroslip.catalogue.units import INVERSE_PRESSURE, LENGTH, MASS, NUMBER, TEMPERATURE
 from macroslip.errors import InputError
+from macroslip.input.files import Source
+from macroslip.input.record import Provenance, read_entry
+from macroslip.input.units import INVERSE_PRESSURE, LENGTH, MASS, NUMBER, TEMPERATURE
 
 SOURCE = Source("mine.yaml", {("bore",): 3, ("bore", "range"): 4})
 

@@ -1,2 +1,0 @@
-# shim
-from macroslip.input.record import dimensions as dimensions

@@ -1,2 +1,0 @@
-# shim
-from macroslip.lubricant.viscosity import dowson_higginson as dowson_higginson

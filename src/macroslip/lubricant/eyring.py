@@ -1,2 +1,0 @@
-# shim
-from macroslip.lubricant.temperature import eyring_stress as eyring_stress

@@ -1,2 +1,0 @@
-# shim
-from macroslip.lubricant.temperature import gold as gold

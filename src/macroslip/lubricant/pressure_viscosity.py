@@ -1,3 +1,0 @@
-# shim
-from macroslip.lubricant.temperature import mean_pressure_viscosity as mean_pressure_viscosity
-from macroslip.lubricant.temperature import pressure_viscosity_at as pressure_viscosity_at

@@ -1,2 +1,0 @@
-# shim
-from macroslip.lubricant.temperature import density_at as density_at

@@ -1,6 +1,0 @@
-# shim
-from macroslip.lubricant.temperature import WaltherLine as WaltherLine
-from macroslip.lubricant.temperature import walther_coefficient as walther_coefficient
-from macroslip.lubricant.temperature import walther_line_through as walther_line_through
-from macroslip.lubricant.temperature import walther_line_with_slope as walther_line_with_slope
-from macroslip.lubricant.temperature import walther_viscosity as walther_viscosity

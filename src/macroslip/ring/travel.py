@@ -1,2 +1,0 @@
-# shim
-from macroslip.ring.orbit import orbit_times, travel
