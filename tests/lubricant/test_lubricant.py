@@ -12,7 +12,7 @@ from macroslip.errors import InputError
 from macroslip.input.record import TAGS
 from macroslip.lubricant import Lubricant
 from macroslip.lubricant.temperature import roelands_index
-from macroslip.lubricant.viscosity import barus, roelands
+from macroslip.lubricant.viscosity import barus, dowson_higginson, roelands
 
 
 @pytest.fixture(scope="module")
@@ -158,3 +158,9 @@ def test_a_viscosity_too_low_for_roelands_is_reported():
             roelands_index(viscosity, 2.1e-8)
     assert np.isnan(roelands(6e-5, 2.1e-8, 1e8))
     assert roelands_index(6.4e-5, 2.1e-8) > 0.0
+
+
+def test_density_under_pressure():
+    assert dowson_higginson(0.0) == 1.0
+    assert dowson_higginson(1e30) == pytest.approx(1.0 + 0.6 / 1.7, rel=1e-15)
+    assert (dowson_higginson(1e3) - 1.0) / 1e3 == pytest.approx(0.6e-9, rel=1e-5)
