@@ -183,12 +183,11 @@ def test_wrong_entry_is_reported_with_its_line(reported, old, new, expected):
 
 def test_missing_keys_are_reported_together(reported):
     assert reported(text="name: x\ntitle: y\n")[0].startswith(
-        "mine.yaml: the bearing has no rollers_per_row, no roller_diameter, no roller_length, no contact_angle,"
+        "17 problems: (1) mine.yaml: 'rollers_per_row' is missing ("
     )
     lines = [line for line in TEXT.splitlines(keepends=True) if not line.startswith("roller_length:")]
     assert reported(text="".join(lines))[0] == (
-        "mine.yaml: the bearing has no roller_length. "
-        "Add what is missing, in the form roller_length: {value: ..., unit: m or mm or um}."
+        "mine.yaml: 'roller_length' is missing (roller length). Allowed: a number with its unit, m or mm or um. Add it."
     )
 
 

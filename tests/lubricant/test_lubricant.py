@@ -82,7 +82,10 @@ def test_a_range_is_reported_in_the_unit_of_the_file(base):
 
 
 def test_errors_speak_of_a_lubricant():
-    with pytest.raises(InputError, match="^the lubricant has no name, no inlet_temperature, no viscosity,.*name=..."):
+    with pytest.raises(
+        InputError,
+        match="^9 problems: .1. 'name' is missing .short name of the lubricant.* 'inlet_temperature' is missing",
+    ):
         Lubricant()
 
 
