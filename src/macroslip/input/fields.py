@@ -57,7 +57,7 @@ class Given:
 
     def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Given:
         """The same of a value further in."""
-        return replace(self, place=self.place.inside(key), before=before or {})
+        return Given(self.place.inside(key), self.in_file, self.ranges, before or {}, self.written)
 
 
 PYTHON, IN_FILE, FORM_ONLY = Given(), Given(in_file=True), Given(in_file=True, ranges=False)

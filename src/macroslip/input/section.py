@@ -84,6 +84,8 @@ def input_section(
 
         @functools.wraps(made.__init__)
         def initialise(self: Any, *first: Any, **values: Any) -> None:
+            if len(first) > (len(fields) if positional else 0):
+                raise TypeError(f"{made.__name__} takes its values by name")
             _fill(self, dict(zip(fields, first, strict=False)) | values, given)
 
         made.__init__ = initialise
@@ -176,14 +178,14 @@ def read_keys(
         problem.is_placed = True
         problems.append(problem)
     meant = {nearest(key, fields) for key in unknown}  # a misspelled key is not missing as well
+    before = {key: one.default for key, one in fields.items() if key not in data and not one.is_required}
     for key, one in fields.items():
         if key in data:
             if data[key] is None and one.is_optional and not given.in_file:
                 found[key] = None
                 continue
             try:
-                before = {other: field.default for other, field in fields.items() if other not in data} | found
-                found[key] = read_value(one, data[key], given.inside(key, before))
+                before[key] = found[key] = read_value(one, data[key], given.inside(key, before))
             except InputError as problem:
                 problems += parts_of(problem)
         elif one.is_required and key not in meant:
