@@ -107,9 +107,8 @@ def test_a_page_that_contradicts_itself(folder, macroslip, options, reported):
 def test_a_bearing_file_to_start_from(folder, macroslip):
     assert macroslip("bearing", "init").code == 0
     assert Bearing.read("bearing.yaml").name == "bearing"
-    assert Bearing.read("bearing.yaml").model_dump(exclude={"name", "title"}) == Bearing.read(
-        "skf-240-600-bc"
-    ).model_dump(exclude={"name", "title"})
+    own, base = (Bearing.read(name).model_dump() for name in ("bearing.yaml", "skf-240-600-bc"))
+    assert own | {"name": "", "title": ""} == base | {"name": "", "title": ""}
     assert macroslip("bearing", "init").code == 2
     assert macroslip("bearing", "init", "--force").code == 0
 
