@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.files import write_durably
 from macroslip.study.journal import Journal
 from macroslip.study.outcome import Outcome

@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, simulate
 from macroslip.bearing import Bearing
-from macroslip.bearing.frames import initial_angles
+from macroslip.bearing.geometry import initial_angles
 from macroslip.errors import InputError
 from macroslip.integrate.entries import sealed
 from macroslip.integrate.load_zone import empty_classes

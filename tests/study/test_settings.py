@@ -3,7 +3,7 @@
 import pytest
 
 from macroslip import InputError, Lubricant
-from macroslip.catalogue.source import Place, Source
+from macroslip.input.files import Place, Source
 from macroslip.study.build import template
 from macroslip.study.settings import Setting, replaced
 
@@ -36,7 +36,7 @@ def test_what_a_case_file_takes_is_taken(key, value, unit):
         ("bearing", "other", "", "its own key in a study: bearings"),
         ("loads.start", 3.0, "s", "its own key in a study: loads"),
         ("drivetrain.tlt", 4, "deg", "Did you mean 'drivetrain.tilt'"),
-        ("drivetrain.tilt", 4, "", "no unit"),
+        ("drivetrain.tilt", 4, "", "does not give its unit"),
         ("drivetrain", 4, "", "unknown"),
         ("forces.drag", "no", "", "true or false"),
         ("forces.drag", True, "N", "without unit"),

@@ -200,7 +200,7 @@ def test_files_whose_fields_cannot_be_read_are_reported(load_files, content):
         ('loads: {files: "a\\0{seed:d}.csv"}\n', ["loads.files", "zero byte"]),
         ("loads: {files: 's{seed:d}.csv'}\n", ["the field seed of s99999999999999999999.csv", "9007199254740992"]),
         ("loads: {bundled: 14B}\nvariations:\n  sample: {count: 1e18, seed: 1, ranges: {drivetrain.tilt: {low: 1, high: "
-         "2, unit: deg}}}\n", ["variations.sample.count: it is 1e+18. Allowed: a whole number."]),
+         "2, unit: deg}}}\n", ["variations.sample.count: it is 1e+18. Allowed: a whole number, 1 to 1e7."]),
         ("loads: {bundled: 14B}\nvariations:\n  sample: {count: 4, seed: 1, ranges: {drivetrain.tilt: {low: a, hgh: 2}}}\n",
          ["2 problems", "Did you mean 'high'?", "ranges.drivetrain.tilt.low: it is 'a'. Allowed: a number without unit."]),
     ],

@@ -31,9 +31,9 @@ def test_the_seed_decides():
 def test_wrong_samples_are_refused():
     with pytest.raises(InputError, match="Take 8 or 16"):
         Sample(method="sobol", count=12, seed=1, ranges=RANGES)
-    with pytest.raises(InputError, match="count is 0"):
+    with pytest.raises(InputError, match="sample.count: it is 0"):
         Sample(method="sobol", count=0, seed=1, ranges=RANGES)
-    with pytest.raises(InputError, match="seed is -1"):
+    with pytest.raises(InputError, match="sample.seed: it is -1"):
         Sample(method="sobol", count=8, seed=-1, ranges=RANGES)
     with pytest.raises(InputError, match="low below high"):
         Range(1.0, 1.0)

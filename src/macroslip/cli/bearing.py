@@ -15,7 +15,7 @@ from macroslip.files import check_new_file, new_file
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.bearing.estimate import EstimatedBearing
-    from macroslip.catalogue.units import Dimension
+    from macroslip.input.units import Dimension
 
 _BASE = "skf-240-600-bc"
 
@@ -54,7 +54,7 @@ def estimate(
     the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
     """
     from macroslip.bearing.estimate import MakersPage, estimate_bearing
-    from macroslip.catalogue.units import FORCE, LENGTH, MASS
+    from macroslip.input.units import FORCE, LENGTH, MASS
 
     check_new_file(output, force=force)
     page = MakersPage(
@@ -129,7 +129,7 @@ def add_commands(app: typer.Typer) -> None:
 
 
 def _required(option: str, text: str, dimension: Dimension) -> float:
-    from macroslip.catalogue.quantity import parse_quantity
+    from macroslip.input.units import parse_quantity
 
     return dimension.to_si(*parse_quantity(text, dimension, option))
 

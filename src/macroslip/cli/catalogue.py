@@ -14,7 +14,7 @@ from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
-    from macroslip.catalogue import Record
+    from macroslip.input.record import Record
     from macroslip.lubricant import Lubricant
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print it as JSON.")]
@@ -44,9 +44,9 @@ def _catalogue(
         yaml: Annotated[bool, typer.Option("--yaml", help="Print it as a file, to save and to change.")] = False,
         as_json: AsJson = False,
     ) -> None:
-        from macroslip.catalogue import TAGS
-        from macroslip.catalogue.units import with_unit
         from macroslip.cli.printing import print_json, print_table
+        from macroslip.input.record import TAGS
+        from macroslip.input.units import with_unit
 
         record = load().read(name_or_file)
         if yaml:
@@ -118,8 +118,7 @@ def estimate(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
 ) -> None:
     """Write a lubricant file from two viscosities and the base oil; what is estimated has the tag E and a range."""
-    from macroslip.catalogue.quantity import parse_quantity
-    from macroslip.catalogue.units import KINEMATIC_VISCOSITY
+    from macroslip.input.units import KINEMATIC_VISCOSITY, parse_quantity
     from macroslip.lubricant.estimate import estimate_lubricant
 
     def viscosity(text: str, option: str) -> float:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from macroslip.case.case import Case
-    from macroslip.catalogue.units import Dimension
+    from macroslip.input.units import Dimension
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 
 loads = typer.Typer(name="loads", help="Load histories.", no_args_is_help=True, rich_markup_mode=None)
@@ -55,8 +55,8 @@ def inspect(
     as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
     """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
-    from macroslip.catalogue.units import ANGLE, LENGTH, MASS, SPEED
     from macroslip.cli.printing import print_json
+    from macroslip.input.units import ANGLE, LENGTH, MASS, SPEED
 
     if output is not None:
         if output.suffix not in _PICTURES:
@@ -93,7 +93,7 @@ def _given(option: str, text: str | None, dimension: Dimension) -> float | None:
     """The value of an option, in SI."""
     if text is None:
         return None
-    from macroslip.catalogue.quantity import parse_quantity
+    from macroslip.input.units import parse_quantity
 
     return dimension.to_si(*parse_quantity(text, dimension, option))
 
@@ -249,7 +249,7 @@ def _words(drivetrain: dict[str, Any]) -> str:
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:
     """The picture of the loads, with the load that the upwind row carries in the case's bearing."""
-    from macroslip.bearing.frames import ROWS
+    from macroslip.bearing.geometry import ROWS
     from macroslip.case.case import Case
     from macroslip.report.load_figures import load_figure
     from macroslip.result.row_loads import roller_load_series

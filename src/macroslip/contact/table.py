@@ -22,7 +22,7 @@ from macroslip.contact.table_store import remembered, stored, table_key
 from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST_PRESSURE, chord_table
 
 if TYPE_CHECKING:
-    from macroslip.contact.laws import ContactLaws, RollerLaws
+    from macroslip.contact.laws import ContactLaws
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of √w for the
 #: fastest speed of the box of 1 m/s.

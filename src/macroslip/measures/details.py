@@ -1,5 +1,7 @@
-"""Where on the contacts energy is dissipated, and their extremes: stations along the roller, places of the raceways, flash
-temperature, power per area, slide-roll ratio and least film ratio.
+"""Details of the contacts: where on them energy is dissipated, and their extremes.
+
+By stations along the roller and places of the raceways; and the largest flash temperature, power per area and slide-roll ratio
+and the least film ratio in each orbit.
 
 A contact is evaluated station by station (a look) where its power has changed, a value is a new highest one, or some way has been
 travelled: at every step it would cost more than the forces. Between two looks the energies of the raceways are kept, and when

@@ -6,9 +6,9 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from macroslip.catalogue.entry import TAGS
-from macroslip.catalogue.units import with_unit
 from macroslip.imposed.status import Status
+from macroslip.input.record import TAGS
+from macroslip.input.units import with_unit
 from macroslip.machine import machine
 from macroslip.report.bibliography import bibtex
 from macroslip.report.page import Paragraph, Section, Table, Verbatim

@@ -10,7 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.case.case import Case
 from macroslip.loads import Drivetrain, HubLoads, main_bearing_load
 from macroslip.machine import usable_processors

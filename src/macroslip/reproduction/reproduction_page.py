@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from macroslip.catalogue.units import with_unit
+from macroslip.input.units import with_unit
 from macroslip.report.bearing_section import roller_sections, view_section
 from macroslip.report.page import Block, Paragraph, Pictures, Points, Section, Statements, Table, render
 from macroslip.report.pictures import picture

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import initial_angles
+from macroslip.bearing.geometry import initial_angles
 from macroslip.case.case import Case
 from macroslip.case.parts import Traces, Window
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads
 from macroslip.mechanisms import Laws
 from macroslip.result.simulate import simulate
-from macroslip.ring.travel import travel
+from macroslip.ring.orbit import travel
 
 if TYPE_CHECKING:
     import xarray as xr

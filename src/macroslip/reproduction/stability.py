@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS
+from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.case.case import Case
 from macroslip.case.parts import BackwardEuler, ExplicitEuler, Radau, Traces
 from macroslip.integrate.held_contact import relaxation_rate

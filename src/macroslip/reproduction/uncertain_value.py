@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from macroslip.catalogue.units import with_unit
+from macroslip.input.units import with_unit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing import geometry
+from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED
 from macroslip.result.orbit_position import in_window, position
 from macroslip.result.run_input import run_input
-from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED
 from macroslip.roller.model import RollerModel
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from macroslip.bearing import Bearing
-from macroslip.bearing.frames import AXIAL_SIGNS
+from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws

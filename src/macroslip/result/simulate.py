@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS, initial_angles
+from macroslip.bearing.geometry import ROWS, initial_angles
 from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
 from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.contact.table import larger
@@ -81,7 +81,7 @@ def simulate(
         raise
 
 
-class _Interrupted(Exception):
+class _InterruptedError(Exception):
     """The simulation was ended; what is under way is thrown away."""
 
 
@@ -157,7 +157,7 @@ def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Even
     outcome, measures = Outcome(), RollerMeasures(row, start_angle)
     for steps in steps_of(problem, start_angle, outcome):
         if stop.is_set():
-            raise _Interrupted
+            raise _InterruptedError
         measures.add(steps, 0)
     measures.finish()
     return Measured(measures, outcome)
@@ -214,7 +214,7 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
         tolerance=float(case.integrator.tolerance), max_steps=case.integrator.max_steps,
     ):  # fmt: skip
         if stop.is_set():
-            raise _Interrupted
+            raise _InterruptedError
         cages.add(part)
         for place, one in zip(places, measures, strict=True):
             one.add(part.steps, place)

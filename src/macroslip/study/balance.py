@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from macroslip.case.parts import Heat
-from macroslip.catalogue.entry import is_finite_number
 from macroslip.errors import InputError, MacroslipError
+from macroslip.input.units import is_finite_number
 from macroslip.result.thermal_balance import next_temperature
 from macroslip.study.build import template
 from macroslip.study.reader import open_study

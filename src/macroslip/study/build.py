@@ -10,40 +10,17 @@ from typing import Any
 import numpy as np
 
 from macroslip.case.case import Case
-from macroslip.case.case_file import CaseBuilder
-from macroslip.case.keys import LoadsKeys
-from macroslip.catalogue import Record
-from macroslip.catalogue.source import Source
+from macroslip.case.case_file import build_case
+from macroslip.case.load_source import LoadSource
 from macroslip.errors import InputError
+from macroslip.input.files import Source
+from macroslip.input.record import Record
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.result.variables import CONTACT_DETAILS
 from macroslip.study.settings import Setting, replaced, with_settings
 
-#: Keys of the base case's loads: what to read of each file, and the speed of files that have none.
-CUT_KEYS = ("start", "end", "shaft_speed")
 #: Used in place of the loads until they are read: so long that any window lies within it.
 _ANY_LOADS = BearingLoads(np.array([-1e10, 1e10]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
-
-
-class _TemplateBuilder(CaseBuilder):
-    """Builds a case without reading its loads, and with bearing and lubricant that have been read already."""
-
-    def __init__(self, mapping: Mapping[str, Any], source: Source, folder: Path, records: Mapping[str, Record]):
-        self.records = records
-        names = {noun: record.name for noun, record in records.items()}
-        self.cut: dict[str, float] = {}
-        # The source is named only because a case has to have one; `loads` below does not use it.
-        loads = (mapping.get("loads") or {}) | {"file": "-"}
-        super().__init__({**mapping, **names, "loads": loads}, source, folder)
-
-    def record(self, kind: type[Record], name: str) -> Record:
-        """Take what is given, or read it."""
-        return self.records.get(kind.noun) or super().record(kind, name)
-
-    def loads(self, given: LoadsKeys) -> BearingLoads:
-        """Keep what to cut out of the loads, and leave the rest open."""
-        self.cut = {key: getattr(given, key) for key in CUT_KEYS if getattr(given, key) is not None}
-        return _ANY_LOADS
 
 
 def template(
@@ -75,11 +52,20 @@ def template(
     InputError
         If anything but the loads is wrong.
     """
-    builder = _TemplateBuilder(with_settings(mapping, settings), source or Source(), folder or Path(), records)
-    case = builder.case()
+    cut: dict[str, float] = {}
+
+    def unread(given: LoadSource) -> BearingLoads:
+        cut.update(given.cut)
+        return _ANY_LOADS
+
+    names = {noun: record.name for noun, record in records.items()}
+    # The source is named only because a case has to have one; it is not read.
+    content = {**with_settings(mapping, settings), **names}
+    content["loads"] = (content.get("loads") or {}) | {"file": "-"}
+    case = build_case(content, source or Source(), folder or Path(), records=records, series=unread)
     changed = {noun: replaced(getattr(case, noun), settings) for noun in ("bearing", "lubricant")}
     details = case.contact_details and (keep is None or not set(CONTACT_DETAILS).isdisjoint(keep))
-    return replace(case, **changed, contact_details=details), builder.cut
+    return replace(case, **changed, contact_details=details), cut
 
 
 def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | BearingLoads:

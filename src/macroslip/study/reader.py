@@ -15,7 +15,7 @@ import numpy as np
 from xarray.backends import BackendArray
 from xarray.core import indexing  # the documented interface for arrays of a backend, in spite of its name
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.files import reading
 from macroslip.study.recorded import Recorded, recorded, texts
 from macroslip.study.store import REMEDY, RUNS, read_manifest, read_result

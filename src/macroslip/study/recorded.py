@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.study.journal import records
 from macroslip.study.outcome import Outcome
 from macroslip.study.store import JOURNAL, SUMMARY

@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager, closing, nullcontext
 from os import PathLike
 from pathlib import Path
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.case.case import WHOLE_BEARING
 from macroslip.errors import InputError, MacroslipError
 from macroslip.files import make_folder

@@ -5,27 +5,19 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, replace
+from typing import Any
 
 from macroslip.bearing import Bearing
-from macroslip.case.keys import CaseFile
-from macroslip.catalogue import Record
-from macroslip.catalogue.entry import is_finite_number, read_entry
-from macroslip.catalogue.fields import dimensions
-from macroslip.catalogue.forms import FORM_ONLY
-from macroslip.catalogue.input_section import read_value
-from macroslip.catalogue.problems import shown, unknown_key
-from macroslip.catalogue.quantity import NUMBER_PATTERN
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.section_forms import form_of, keys_of, word_of
-from macroslip.catalogue.source import Place, Source
-from macroslip.catalogue.units import NUMBER
+from macroslip.case.case import Case
 from macroslip.errors import InputError
+from macroslip.input.fields import FORM_ONLY, Quantity
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import shown, unknown_key
+from macroslip.input.record import Record, dimensions, read_entry
+from macroslip.input.section import Field, form_of, keys_of, read_value, word_of
+from macroslip.input.units import NUMBER, NUMBER_PATTERN, is_finite_number
 from macroslip.lubricant import Lubricant
-
-if TYPE_CHECKING:
-    from pydantic.fields import FieldInfo
 
 #: Records with values of their own, each of which can be replaced.
 RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
@@ -99,13 +91,13 @@ class Setting:
                 return
         raise problems[0]
 
-    def _check_against(self, field: FieldInfo, place: Place) -> None:
+    def _check_against(self, field: Field, place: Place) -> None:
         form, word = form_of(field), word_of(field)
         if self.unit and not (isinstance(form, Quantity) and form.dimension is not NUMBER):
             raise place.problem(f"it has the unit '{self.unit}'", "a value without unit", "Remove the unit.")
         if form is None and self.value != word:
             raise place.problem(f"it is {shown(self.value)}", word)
-        read_value(field, self.text, place, FORM_ONLY)
+        read_value(field, self.text, replace(FORM_ONLY, place=place))
 
     def _check_entry(self, record: type[Record], key: str, place: Place) -> None:
         key = _TOGETHER.get(self.key, key)
@@ -162,10 +154,10 @@ def replaced(record: Record, settings: list[Setting]) -> Record:
 
 
 @functools.cache
-def _settable() -> dict[str, list[FieldInfo]]:
+def _settable() -> dict[str, list[Field]]:
     """Fields by the full name of a key, `drivetrain.tilt`; several where sections exclude each other."""
-    found: dict[str, list[FieldInfo]] = {}
-    for key, field in keys_of(CaseFile):
+    found: dict[str, list[Field]] = {}
+    for key, field in keys_of(Case):
         if form_of(field) or word_of(field):
             found.setdefault(key, []).append(field)
     return found

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from macroslip.catalogue import Record
+from macroslip.input.record import Record
 from macroslip.study.loads_list import Load, LoadList
 from macroslip.study.settings import Setting
 

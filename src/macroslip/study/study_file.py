@@ -7,13 +7,12 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from macroslip.case.case import BALANCE
-from macroslip.case.keys import CaseFile
-from macroslip.catalogue import Record
-from macroslip.catalogue.input_section import read_fields
-from macroslip.catalogue.problems import together
-from macroslip.catalogue.source import Place, Source, parse, read_text
+from macroslip.case.case import BALANCE, Case
 from macroslip.errors import InputError
+from macroslip.input.files import Place, Source, parse, read_text
+from macroslip.input.messages import together
+from macroslip.input.record import Record
+from macroslip.input.section import read_fields
 from macroslip.study.build import template
 from macroslip.study.loads_list import load_list
 from macroslip.study.settings import RECORDS, Setting
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from macroslip.study.weights import Weighting
 
 #: Keys of a case file that a study file does not have at its top.
-_OF_A_CASE = CaseFile.__annotations__.keys() - StudyFile.__annotations__.keys()
+_OF_A_CASE = Case.__annotations__.keys() - StudyFile.__annotations__.keys()
 _REMEDY = "Write a study file that runs with: macroslip init --example study"
 
 

@@ -6,14 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import ValidationError
-
-from macroslip.catalogue.forms import Choice, Flag, Form, Text, Texts
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.problems import shown
-from macroslip.catalogue.section_forms import MappingOf, detail_of, details_inside
-from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Flag, Form, Text, Texts
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import shown, together
+from macroslip.input.section import MappingOf, input_section, read_all
 from macroslip.result.variables import VARIABLES
 from macroslip.study.settings import Setting
 from macroslip.study.variation import Sample
@@ -29,7 +26,7 @@ class BaseCase(Form):
 
     form = "the keys of a case file, of loads only start, end and shaft_speed"
 
-    def read(self, value: Any, info: Any) -> dict[str, Any]:
+    def read(self, value: Any, given: Any) -> dict[str, Any]:
         """Check that the loads are left to the study."""
         if value is None:  # every key of the section is commented out
             return {}
@@ -37,16 +34,14 @@ class BaseCase(Form):
         if not isinstance(loads, Mapping):
             raise InputError(f"it is {shown(value)}", allowed=self.form)
         remedy = "The study's own section loads names where the loads come from."
+        allowed = "start, end, shaft_speed"
         problems = [
-            detail_of(
-                ("loads", str(key)),
-                InputError(f"the key '{key}' cannot stand here", allowed="start, end, shaft_speed", remedy=remedy),
-            )
+            given.place.inside("loads", str(key)).problem(f"the key '{key}' cannot stand here", allowed, remedy)
             for key in loads
             if key not in ("start", "end", "shaft_speed")
         ]
         if problems:
-            raise ValidationError.from_exception_data("case", problems)
+            raise together(problems)
         return dict(value)
 
     def json(self) -> dict[str, Any]:
@@ -60,11 +55,11 @@ class Settings(Form):
 
     form = "a section such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
-    def read(self, value: Any, info: Any) -> list[Setting]:
+    def read(self, value: Any, given: Any) -> list[Setting]:
         """Check every key and value; nothing is the base case itself."""
         if value is None or value == {}:
             return []
-        return list(MappingOf(self.about, self.form, Any, _written).read(value, info).values())
+        return list(MappingOf(self.about, self.form, Any, _written).read(value, given).values())
 
     def json(self) -> dict[str, Any]:
         """An object with any keys."""
@@ -77,20 +72,12 @@ class SettingsList(Form):
 
     form = "a list of sections such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
 
-    def read(self, value: Any, info: Any) -> list[list[Setting]]:
+    def read(self, value: Any, given: Any) -> list[list[Setting]]:
         """Check every item; a key has one unit throughout, so that its values fit in one column."""
         if not isinstance(value, list) or not value:
             raise InputError(f"it is {shown(value)}", allowed=self.form)
-        items, problems = [], []
-        for number, item in enumerate(value):
-            try:
-                items.append(Settings(self.about).read(item, info))
-            except InputError as problem:
-                problems.append(detail_of((number,), problem))
-            except ValidationError as failure:
-                problems += details_inside(number, failure)
-        if problems:
-            raise ValidationError.from_exception_data("list", problems)
+        numbered = ((str(number), item) for number, item in enumerate(value))
+        items = read_all(numbered, lambda _, item, inner: Settings(self.about).read(item, inner), given)
         units: dict[str, str] = {}
         for setting in (setting for item in items for setting in item):
             if units.setdefault(setting.key, setting.unit) != setting.unit:
@@ -109,7 +96,7 @@ class Values(Form):
 
     form = "a list of values"
 
-    def read(self, value: Any, info: Any) -> list[Any]:
+    def read(self, value: Any, given: Any) -> list[Any]:
         """Check that there are some, and none twice."""
         if not isinstance(value, list) or not value:
             remedy = "For quantities, without their unit."
@@ -129,9 +116,9 @@ class Variables(Texts):
 
     form = f"a list of variables of a result: {', '.join(VARIABLES)}"
 
-    def read(self, value: Any, info: Any) -> list[str]:
+    def read(self, value: Any, given: Any) -> list[str]:
         """Check every name."""
-        names = super().read(value, info)
+        names = super().read(value, given)
         wrong = [name for name in names if name not in VARIABLES]
         if wrong:
             raise InputError(f"it is {shown(wrong[0])}", allowed=self.form, remedy=f"It is the {self.about}.")

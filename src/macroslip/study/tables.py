@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.files import flush, flush_folder, unfinished
 from macroslip.study.journal import records
 from macroslip.study.outcome import Outcome

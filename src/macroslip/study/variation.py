@@ -9,15 +9,12 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from macroslip.catalogue import Record
-from macroslip.catalogue.fields import dimensions
-from macroslip.catalogue.forms import Choice, Text, Whole
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.problems import unknown_key
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.section_forms import MappingOf, OrWord
-from macroslip.catalogue.source import Place, Source
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Quantity, Text, Whole
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import unknown_key
+from macroslip.input.record import Record, dimensions
+from macroslip.input.section import MappingOf, OrWord, input_section
 from macroslip.study.settings import RECORDS, Setting
 
 METHODS = ("latin-hypercube", "sobol")

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from macroslip.catalogue.forms import Text
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import NUMBER
 from macroslip.errors import InputError
+from macroslip.input.fields import Quantity, Text
+from macroslip.input.section import input_section
+from macroslip.input.units import NUMBER
 
 if TYPE_CHECKING:
     import pandas as pd

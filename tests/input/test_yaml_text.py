@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip import Bearing, Lubricant
-from macroslip.catalogue.source import parse
+from macroslip.input.files import parse
 
 RECORDS = [(kind, name) for kind in (Bearing, Lubricant) for name in kind.catalogue()]
 TEXT = st.text(

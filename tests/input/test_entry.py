@@ -5,11 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import Bearing
-from macroslip.catalogue import Provenance
-from macroslip.catalogue.entry import read_entry
-from macroslip.catalogue.source import Source
-from macroslip.catalogue.units import INVERSE_PRESSURE, LENGTH, MASS, NUMBER, TEMPERATURE
 from macroslip.errors import InputError
+from macroslip.input.files import Source
+from macroslip.input.record import Provenance, read_entry
+from macroslip.input.units import INVERSE_PRESSURE, LENGTH, MASS, NUMBER, TEMPERATURE
 
 SOURCE = Source("mine.yaml", {("bore",): 3, ("bore", "range"): 4})
 
@@ -46,21 +45,21 @@ def test_text_and_mapping_give_the_same(value):
 @pytest.mark.parametrize(
     ("entry", "dimension", "message"),
     [
-        ("75", LENGTH, "bore is .75., which does not give its unit. Allowed: .* Write .75 m. or .75 mm. or .75 um., whichever it is."),
-        ("75 inch", LENGTH, "bore has the unit 'inch'. Allowed: a number with its unit, m or mm or um. Convert"),
-        ("7,5 mm", LENGTH, "bore is '7,5 mm', which is not a quantity. Allowed: .* Use a decimal point"),
-        ("wide", LENGTH, "bore is 'wide', which is not a quantity. .* Write 1 m, for example."),
-        ("7.5.1 mm", LENGTH, "bore is '7.5.1 mm', which is not a quantity."),
-        ("7 5 mm", LENGTH, "bore has the unit '5 mm'."),
-        ("nan mm", LENGTH, "bore is 'nan mm', which is not a quantity."),
-        ("1e400 kg", MASS, "bore is '1e400 kg', which is too large for a number"),
-        ("0.98 mm", NUMBER, "bore has the unit 'mm'. Allowed: a number. Write the number alone."),
-        (75, LENGTH, "bore is 75, which does not give its unit. Allowed: bore: {value: a number, .* form: bore: 1 m."),
-        (True, NUMBER, "bore is True, which is no quantity. Allowed: bore: {value"),
+        ("75", LENGTH, "it is .75., which does not give its unit. Allowed: .* Write 75 m or 75 mm or 75 um, whichever it is."),
+        ("75 inch", LENGTH, "it is '75 inch', which has the unit 'inch'. Allowed: a number with its unit, m or mm or um. Convert"),
+        ("7,5 mm", LENGTH, "it is '7,5 mm', which is not a quantity. Allowed: .* Use a decimal point"),
+        ("wide", LENGTH, "it is 'wide', which is not a quantity. .* Write 1 m, for example."),
+        ("7.5.1 mm", LENGTH, "it is '7.5.1 mm', which is not a quantity."),
+        ("7 5 mm", LENGTH, "it is '7 5 mm', which has the unit '5 mm'."),
+        ("nan mm", LENGTH, "it is 'nan mm', which is not a quantity."),
+        ("1e400 kg", MASS, "it is '1e400 kg', which is too large for a number"),
+        ("0.98 mm", NUMBER, "it is '0.98 mm', which has the unit 'mm'. Allowed: a number. Write the number alone."),
+        (75, LENGTH, "it is 75, which does not give its unit. Allowed: bore: 1 m; or bore: {value: a number, unit"),
+        (True, NUMBER, "it is True, which is no quantity. Allowed: bore: 1; or bore: {value"),
     ],
 )  # fmt: skip
 def test_wrong_text_is_refused_in_one_paragraph(entry, dimension, message):
-    with pytest.raises(InputError, match=f"^mine.yaml, line 3: {message}") as caught:
+    with pytest.raises(InputError, match=f"^mine.yaml, line 3, bore: {message}") as caught:
         read_entry("bore", entry, dimension, SOURCE)
     assert "\n" not in str(caught.value)
 
@@ -76,7 +75,7 @@ def test_a_range_goes_with_the_value():
     "limits", [[71, 74], [60, 69], [66], "66 74", [66, "74"], [66, float("nan")], 3, None, [1, 2, 3]]
 )
 def test_a_wrong_range_is_refused(limits):
-    with pytest.raises(InputError, match="^mine.yaml, line 4: bore has the range .* Allowed: two numbers in the unit"):
+    with pytest.raises(InputError, match="^mine.yaml, line 4, bore.range: it is .* Allowed: two numbers in the unit"):
         read_entry("bore", {"value": 70, "unit": "mm", "range": limits}, LENGTH, SOURCE)
 
 

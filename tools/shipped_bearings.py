@@ -1,6 +1,6 @@
-"""Make the estimated bearings of the catalogue: ``python -m macroslip.bearing.shipped``.
+"""Make the estimated bearings of the catalogue: ``python -m tools.shipped_bearings``.
 
-`catalogue/pages.csv` holds what the maker publishes; every bearing in it gets a file, with `estimate_bearing` and its
+`catalogue/pages.csv` of `macroslip.bearing` holds what the maker publishes; every bearing in it gets a file, with `estimate_bearing` and its
 default seed. `skf-240-600-bc` is not among them: its inside was worked out one by one.
 """
 
@@ -9,10 +9,11 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from macroslip.bearing.bearing import Bearing
+import macroslip.bearing
+from macroslip.bearing import Bearing
 from macroslip.bearing.estimate import MakersPage, estimate_bearing
 
-FOLDER = Path(__file__).parent / "catalogue"
+FOLDER = Path(macroslip.bearing.__file__).parent / "catalogue"
 SOURCE = "SKF, Rolling bearings, catalogue 17000 EN (2018)"
 
 
