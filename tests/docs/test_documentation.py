@@ -10,7 +10,7 @@ from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_stud
 from macroslip.case.parts import INTEGRATORS
 from macroslip.input.fields import Choice
 from macroslip.input.section import fields_of, form_of, keys_of
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.study.export import tables
 from macroslip.study.outcome import Outcome
 from macroslip.study.study_file import study_of

@@ -25,7 +25,7 @@ from macroslip.integrate.load_zone import empty_classes
 from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.result.simulate import radau_limits

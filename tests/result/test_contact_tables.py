@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, Case, HubLoads, Laws, Radau, simulate
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 
 CASE = Case(loads=HubLoads.bundled("14B").window(30.0, 151.0), laws=Laws.physical(), rollers=[7])
 

@@ -20,7 +20,7 @@ class Need(NamedTuple):
 
 FIGURES = Need("a page or a picture", ("matplotlib", "jinja2"), "figures")
 PICTURE = Need("a picture", ("matplotlib",), "figures")
-WORKERS = Need("--workers and --scheduler", ("dask", "distributed", "cryptography"), "cluster")
+SCHEDULER = Need("--scheduler", ("dask", "distributed"), "cluster")
 
 #: What the commands need beyond the package's own dependencies.
 COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
@@ -29,7 +29,7 @@ COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
         "macroslip reproduce": (FIGURES,),
         "macroslip loads inspect -o": (PICTURE,),
         "macroslip bearing draw": (PICTURE,),
-        "macroslip study --workers": (WORKERS,),
+        "macroslip study --scheduler": (SCHEDULER,),
     }
 )
 
