@@ -1,0 +1,406 @@
+"""The paper's study in one call: what is computed, judged, drawn and written."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+import macroslip
+from macroslip import Case, HubLoads
+from macroslip.files import published_together
+from macroslip.report.style import save
+from macroslip.result.stored import to_netcdf
+from macroslip.study.reader import stored_results
+from macroslip.torque import TorqueHistory, computed_torque, torque_histories
+from paper import figures as draw
+from paper.experiments import STATIC_LOADS, experiments, turns, varying_load
+from paper.page import page
+from paper.studies import (
+    DETAILED_CASE, MODELS, PAPER, base_case, compute, content, dissipation, paper_numbers, paper_study, sensitivity,
+    study_of,
+)  # fmt: skip
+from paper.uncertainty import uncertainty, uncertainty_summary
+from paper.verdicts import Statement, number, statements
+
+SUMMARY, REPORT, STUDIES = "summary.json", "report.html", "studies"
+#: What is computed under each model, in its order, and what it takes of the time under `paper` and others, in proportion.
+STAGES = {
+    "study": (28.0, 85.0),
+    "one case in detail": (5.0, 20.0),
+    "single rollers": (2.0, 15.0),
+    "sensitivity": (7.0, 15.0),
+    "uncertainty": (0.0, 145.0),
+}
+Report = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True, slots=True)
+class ModelRun:
+    """What was computed under one model.
+
+    Parameters
+    ----------
+    study, numbers : xarray.Dataset
+        From `paper_study` and `paper_numbers`.
+    turns : dict
+        Traced turns by figure ("static", "typical", "peak") and title.
+    detail_status : ndarray
+        How the rollers of the detailed case ended.
+    torque : xarray.Dataset
+        From `computed_torque`: the detailed case.
+    sensitivity : xarray.Dataset
+        From `sensitivity`.
+    parts, uncertainty : xarray.Dataset or None
+        From `dissipation` and `uncertainty_summary`; None under the paper's model.
+    """
+
+    study: xr.Dataset
+    numbers: xr.Dataset
+    turns: dict[str, dict[str, xr.Dataset]]
+    detail_status: np.ndarray
+    torque: xr.Dataset
+    sensitivity: xr.Dataset
+    parts: xr.Dataset | None = None
+    uncertainty: xr.Dataset | None = None
+
+    @property
+    def failures(self) -> dict[str, int]:
+        """Failed integrations by place."""
+        return {
+            "study": int((self.study.status != 0).sum()),
+            "single_rollers": sum(turn.status != 0 for group in self.turns.values() for turn in group.values()),
+            "detailed_case": int((self.detail_status != 0).sum()),
+            "sensitivity": int(self.sensitivity.failed.sum()),
+            "uncertainty": self.uncertainty.attrs["failed"] if self.uncertainty is not None else 0,
+        }
+
+
+def of_model(name: str, model: str) -> str:
+    """Name of a figure or file of one model; those of the paper's have no ending.
+
+    Examples
+    --------
+    >>> of_model("figure_4a", "paper"), of_model("figure_4a", "physical")
+    ('figure_4a', 'figure_4a_physical')
+    """
+    return name if model == PAPER else f"{name}_{model}"
+
+
+def stages() -> dict[str, float]:
+    """Labels of the stages in their order, and what each takes of the time, in proportion."""
+    shares = {
+        f"{stage} ({name})": share[name != PAPER]
+        for name in MODELS
+        for stage, share in STAGES.items()
+        if share[name != PAPER]
+    }
+    return shares | {"experiments": 7.0, "figures": 8.0, "report": 1.0}
+
+
+def compute_model(name: str, directory: Path, threads: int | None, report: Report, reused: list[str]) -> ModelRun:
+    """Compute one model; studies go on from what is there of them, and `reused` takes the names of those that were whole."""
+    laws = MODELS[name]
+
+    def results(prefix: str, stage: str, *, may_fail: bool = False) -> Path:
+        study, folder = study_of(content(prefix, name)), directory / f"{prefix}_{name}"
+        progress = partial(report, f"{stage} ({name})")
+        if not compute(study, folder, may_fail=may_fail, threads=threads, progress=progress):
+            reused.append(folder.name)
+        return folder
+
+    study = paper_study(results("study", "study"))
+    _, detail = next(stored_results(results("detail", "one case in detail")))
+    torque = computed_torque(detail)
+    traced = turns(detail, laws, threads, partial(report, f"single rollers ({name})"))
+    varied = results("sensitivity", "sensitivity", may_fail=True)
+    return ModelRun(
+        study=study,
+        numbers=paper_numbers(study),
+        turns=traced,
+        detail_status=detail.status.values,
+        torque=torque,
+        sensitivity=sensitivity(varied, base_case(study_of(content("sensitivity", name)))),
+        parts=dissipation(study) if laws.microslip else None,
+        uncertainty=uncertainty_summary(uncertainty(results("uncertainty", "uncertainty", may_fail=True)))
+        if laws.microslip
+        else None,
+    )
+
+
+def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
+    """Friction torque of the bearing in the detailed case under every model, and by handbooks."""
+    case = Case(loads=HubLoads.bundled(DETAILED_CASE))
+    return torque_histories(
+        {name: run.torque for name, run in runs.items()}, varying_load(), case.bearing, case.lubricant
+    )
+
+
+def over_static(run: ModelRun) -> dict[str, dict[str, float]]:
+    """Energy per orbit in the detailed case over that under its mean load, by static load and row."""
+    varying = run.numbers.orbit_energy.sel(case=DETAILED_CASE)
+    return {
+        name: {
+            row: float(varying.sel(row=row)) / run.turns["static"][f"{name}, {row}"].attrs["energy_J"]
+            for row in run.study.row.values.tolist()
+        }
+        for name in STATIC_LOADS
+    }
+
+
+def all_figures(
+    runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset], torques: Mapping[str, TorqueHistory]
+) -> dict[str, Callable[[], Figure]]:
+    """How each figure is drawn, by file name; `made` has the experiments."""
+    found: dict[str, Callable[[], Figure]] = {
+        "figure_A1": partial(draw.stability_figure, made["A1"]),
+        "nonlinear_tolerance": partial(draw.nonlinear_tolerance_figure, made["nonlinear_tolerance"]),
+        "step_size": partial(draw.step_size_figure, made["step_size"]),
+        "friction_torque": partial(draw.torque_figure, torques, *draw.TORQUE_WINDOW),
+        "figures_4_5_models": partial(draw.models_figure, {name: run.numbers for name, run in runs.items()}),
+    }
+    for name, run in runs.items():
+        static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
+        of_run = {
+            "figure_3a": partial(draw.turns_figure, static),
+            "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
+            "figure_3b_peak": partial(draw.turns_figure, run.turns["peak"]),
+            "varying_over_static": partial(
+                draw.single_figure, partial(draw.plot_varying_over_static, ratios=over_static(run))
+            ),
+            "figure_4a": partial(draw.energy_figure, run.numbers),
+            "figure_4b": partial(draw.ratio_figure, run.numbers, "energy_ratio"),
+            "figure_5a": partial(draw.peak_power_figure, run.numbers),
+            "figure_5b": partial(draw.ratio_figure, run.numbers, "peak_power_ratio"),
+            "sensitivity": partial(draw.sensitivity_figure, run.sensitivity),
+        }
+        if run.parts is not None:
+            of_run["mechanisms"] = partial(draw.mechanisms_figure, run.parts)
+        if run.uncertainty is not None:
+            of_run["uncertainty"] = partial(draw.uncertainty_figure, run.uncertainty)
+        found |= {of_model(title, name): figure for title, figure in of_run.items()}
+    return found
+
+
+def failed_integrations(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dict[str, int]:
+    """Failed integrations by place, all models together. Explicit Euler may fail in A1: it is there to show that."""
+    counts = [run.failures for run in runs.values()]
+    beside = sum(made["A1"].attrs[f"status_{name}"] != 0 for name in ("backward", "converged"))
+    for name in ("nonlinear_tolerance", "step_size"):
+        beside += sum(int(one.sum()) for key, one in made[name].data_vars.items() if str(key).startswith("failed"))
+    return {place: sum(count[place] for count in counts) for place in counts[0]} | {"experiments": beside}
+
+
+def headline(
+    judged: Mapping[str, Mapping[str, Statement]], failed: Mapping[str, int], total: int, made: Mapping[str, xr.Dataset]
+) -> list[str]:
+    """What failed, each statement with what every model gives, and what the numerical method does, a line each."""
+    counts = ", ".join(f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count)
+    prefix = f"FAILED INTEGRATIONS: {counts}" if counts else "No integration failed, explicit Euler in A1 apart"
+    tolerances = made["nonlinear_tolerance"].sel(row="downwind").sortby("stopping_tolerance")
+    stopped = ", ".join(
+        f"{number(ratio)} at {tolerance:.0e}"
+        for ratio, tolerance in zip(tolerances.ratio.values, tolerances.stopping_tolerance.values, strict=True)
+    )
+    steps = made["step_size"].sel(row="upwind").sortby("step")
+    peaks = ", ".join(
+        f"{number(peak)} W at {1e3 * step:g} ms"
+        for peak, step in zip(steps.mean_peak_power.values, steps.step.values, strict=True)
+    )
+    return [
+        f"{prefix} (the study has {total} rollers).",
+        *(
+            f"Paper: {stated}. "
+            + "; ".join(
+                f"{model}: {found[subject].verdict} ({found[subject].found})" for model, found in judged.items()
+            )
+            + "."
+            for subject, stated in ((key, one.paper) for key, one in next(iter(judged.values())).items())
+        ),
+        f"Backward Euler, energy downwind over the static one, by the change of spin at which the iteration stops: {stopped}; "
+        f"converged {number(float(tolerances.ratio_converged))}. Mean peak power upwind by step: {peaks}; converged "
+        f"{number(float(steps.mean_peak_power_converged))} W. How the paper's authors solved the equations is not known.",
+    ]
+
+
+def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dict[str, Any]:
+    """Every plotted number, by figure, as plain data with units; of the torque the means."""
+    found: dict[str, Any] = {}
+    for model, run in runs.items():
+        of_run: dict[str, Any] = {
+            name: {title: turn.to_dict(data="list") for title, turn in run.turns[group].items()}
+            for name, group in (("3a", "static"), ("3b", "typical"), ("3b_peak", "peak"))
+        }
+        energy = [f"energy{part}_normalised" for part in ("", "_min", "_max")]
+        for name, variables in {
+            "4a": [*energy, "both_rows_normalised", "energy", "energy_std", "energy_by_interface", "both_rows"],
+            "4b": ["energy_ratio"],
+            "5a": ["peak_power_mean_normalised", "peak_power_std_normalised", "peak_power_mean", "peak_power_std"],
+            "5b": ["peak_power_ratio"],
+        }.items():
+            of_run[name] = run.numbers[variables].to_dict(data="list")
+        of_run["varying_over_static"] = over_static(run)
+        torque = run.torque.mean("time", keep_attrs=True)
+        tables = {"sensitivity": run.sensitivity, "friction_torque": torque, "mechanisms": run.parts}
+        tables["uncertainty"] = run.uncertainty
+        of_run |= {name: one.to_dict(data="list") for name, one in tables.items() if one is not None}
+        found |= {of_model(name, model): value for name, value in of_run.items()}
+    return found | {name: one.to_dict(data="list") for name, one in made.items()}
+
+
+def plain(value: Any) -> Any:
+    """Lists, dicts, text and numbers only; NaN and infinity, which JSON lacks, become None."""
+    if isinstance(value, dict):
+        return {str(key): plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [plain(one) for one in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def as_json(summary: dict[str, Any]) -> str:
+    """Indented, with every list of numbers on one line."""
+    text = json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False)
+    return re.sub(r"\[[\s\d.eE+\-,nul]+\]", lambda found: " ".join(found.group().split()), text) + "\n"
+
+
+CONVENTIONS = (
+    "The window opens when the rollers have completed one orbit and ends with the loads.",
+    "Energy of a row: mean over its rollers of E_in + E_out + E_cage; bars show the smallest and the largest roller.",
+    "P_max: largest power at any interface in an orbit; mean and (population) standard deviation over all (roller, "
+    "orbit) samples of a row.",
+    "Each row is normalised by its own value in the reference case (energy 12C, P_max 14A).",
+    "Static loads: means over the samples of case 14B, (0, F_Y0, 0) and (0, F_Y0, F_Z0), at the mean speed.",
+    "Angles of a turn count from the bottom along the orbit; the top is at 180 degrees.",
+    "Figure 3a: the ninth turn of roller 0 of the downwind row.",
+    "Figure 3b: the turn of roller 0 of each row whose energy is nearest the median over the row's rollers and orbits.",
+    "Figure 3b_peak: the turn with the row's largest P_max.",
+    "Sensitivity: case 14B, one value at a time, window and orbits as in the study.",
+    "Model physical: rollers 0, 4, ... 24 of each row in the sensitivity, and its window ends at 200 s. Against all 28, over "
+    "the 21 cases of the study, these rollers move a row's energy by at most 0.2 %, and its mean P_max by 1.4 % downwind "
+    "and 8 % upwind.",
+    "Uncertainty: 128 scrambled Sobol samples over 23 estimated values, the law of shear among them, cases 12B and 24B, "
+    "roller 0 of each row, window to 100 s. Ranges are quantiles 5 to 95 %; a driver has a rank correlation at p < 0.001. "
+    "Sobol' indices are those of a sparse polynomial of second degree fitted to the logarithm of a result; a statement is "
+    "robust if every sample shows it.",
+    "Friction torque: dissipated power, rolling resistance and drag over shaft speed, all rollers in case 14B.",
+    "Verdicts: agrees where every number with a stated value has it, differs where none has; 'about' allows a factor of 2.",
+    "Verdicts: a trend is a rank correlation with wind speed at p < 0.05; high variance is a median standard deviation of at "
+    "least half the mean.",
+    "Verdicts: at the top is within 15 degrees of it; a snap is a return to 99 % of pure rolling in 2 % of an orbit.",
+    "Verdicts: the cage dominates where it takes at least half of the energy in every case.",
+)
+
+
+def reproduce(directory: Path, *, threads: int | None = None, progress: Report | None = None) -> dict[str, Any]:
+    """Reproduce the paper's study and figures with converged solutions, and judge its statements.
+
+    Its studies are computed as any study is: a run that was stopped goes on where it ended, and what an earlier run into
+    the same folder computed is used again as long as its inputs and the program are the same.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder for `report.html`, `summary.json`, `study.nc`, the figures (PNG and SVG) and, under `studies`, the
+        results of the studies. Files of an earlier run are overwritten, all at the end; others stay.
+    threads : int, optional
+        Threads over rollers; the number of usable processors by default.
+    progress : callable, optional
+        Called as progress(stage, done, total) with the labels of `stages`.
+
+    Returns
+    -------
+    dict
+        What `summary.json` holds: `headline`, `statements`, `failed_rollers`, `conventions`, `figures` with every
+        plotted number and its units, `seconds` by stage, and the studies whose results were there and are `reused`.
+        NaN is None.
+
+    Raises
+    ------
+    InputError
+        If `directory` is a file.
+    """
+    clock, seconds = time.perf_counter(), {}
+
+    def report(stage: str, done: int, total: int) -> None:
+        nonlocal clock
+        if done == total:
+            seconds[stage] = round(seconds.get(stage, 0.0) + time.perf_counter() - clock, 2)
+            clock = time.perf_counter()
+        if progress:
+            progress(stage, done, total)
+
+    directory = Path(directory)
+    reused: list[str] = []
+    with published_together(directory, SUMMARY) as folder:
+        runs, made = {}, {}
+        for name in MODELS:
+            runs[name] = compute_model(name, directory / STUDIES, threads, report, reused)
+        _, detail = next(stored_results(directory / STUDIES / f"detail_{PAPER}"))
+        made = experiments(detail, threads, partial(report, "experiments"))
+        judged = {
+            name: statements(name, run.study, run.numbers, run.turns["static"], made if name == PAPER else {})
+            for name, run in runs.items()
+        }
+        for name, run in runs.items():
+            # In memory first: the HDF5 library may bring the whole process down when the disk is full.
+            (folder / f"{of_model('study', name)}.nc").write_bytes(to_netcdf(run.study))
+        failed, total = failed_integrations(runs, made), sum(run.study.status.size for run in runs.values())
+        by_case = {
+            of_model(str(case), name): int(count)
+            for name, run in runs.items()
+            for case, count in zip(
+                run.study.case.values, (run.study.status != 0).sum(("row", "roller")).values, strict=True
+            )
+            if count
+        }
+        told = [
+            {
+                "paper": one.paper,
+                "models": {
+                    model: {
+                        "verdict": found[subject].verdict,
+                        "found": found[subject].found,
+                        "because": found[subject].because,
+                        "numbers": {row.key: row.value for row in found[subject].rows},
+                    }
+                    for model, found in judged.items()
+                },
+            }
+            for subject, one in next(iter(judged.values())).items()
+        ]
+        summary = plain(
+            {
+                "program": f"macroslip {macroslip.__version__}",
+                "headline": headline(judged, failed, total, made),
+                "statements": told,
+                "failed_rollers": failed | {"study_by_case": by_case, "study_total": total},
+                "conventions": CONVENTIONS,
+                "seconds": seconds,
+                "reused": reused,
+                "figures": plotted(runs, made),
+                "study": {name: run.study.to_dict(data="list") for name, run in runs.items()},
+            }
+        )
+        torques = bearing_torques(runs)
+        jobs = all_figures(runs, made, torques)
+        for done, (name, figure) in enumerate(jobs.items(), start=1):
+            save(figure(), folder, name)
+            report("figures", done, len(jobs))
+        summary["seconds"] = dict(seconds)
+        (folder / REPORT).write_text(page(folder, runs, made, judged, torques, summary), encoding="utf-8")
+        report("report", 1, 1)
+        summary["seconds"] = dict(seconds)
+        (folder / SUMMARY).write_text(as_json(summary), encoding="utf-8")
+    return summary

@@ -1,0 +1,363 @@
+"""The study under values drawn from their ranges: how far results spread, what drives them, and how often trends hold."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from macroslip import open_study
+from macroslip.study.outcome import Outcome
+from paper.studies import between_rows, put
+from paper.values import VALUES
+from paper.verdicts import ABOUT, DOMINANT
+
+#: Meaning of the variable `outcome`.
+OUTCOMES = ("completed", "a roller failed", "refused")
+#: Quantiles that are given.
+QUANTILES = (0.05, 0.5, 0.95)
+#: Probability below which a rank correlation is taken to name a driver. With 23 values and eleven quantities a smaller
+#: one than usual: about one of them in four samples is found by chance.
+DRIVER_LEVEL = 0.001
+#: Part of the variance from which on a Sobol' index is shown.
+TOLD_INDEX = 0.05
+
+
+def uncertainty(directory: Path) -> xr.Dataset:
+    """The results of a study that runs a sample of values under several loads, after the base values.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder of its results. The first point of the study has the base values.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (sample, case, row, interface): orbit_energy [J] per orbit, mean over rollers and orbits; over (sample,
+        case, row): peak_power [W], mean over rollers and orbits of the largest power at any interface per orbit; over
+        (sample, case): window_energy [J], both rows; torque [N m], sliding torque of both rows' contacts, mean over the
+        turns of the shaft; and friction_power [W] of the whole bearing with rolling and drag. Over (sample, parameter):
+        value, in the unit of the coordinate `unit`, of a choice its number; NaN for the base values. outcome over
+        (sample): position in `OUTCOMES`; what did not complete is NaN, and `reason` gives the cause. Sample 0 are the
+        base values, which are no part of the statistics.
+    """
+    study = open_study(directory)
+    names = list(dict.fromkeys(study.loads.values.tolist()))
+    # All loads have the same points in the same order.
+    parts = [study.isel(case=np.flatnonzero(study.loads.values == name)) for name in names]
+    reasons = [_reason(names, [part.isel(case=k) for part in parts]) for k in range(parts[0].sizes["case"])]
+    outcomes = np.array([outcome for outcome, _ in reasons], dtype=np.int8)
+
+    def gathered(*variables: str) -> np.ndarray:
+        """Values over (sample, case, ..., variable); NaN for samples that did not complete."""
+        found = np.stack([np.stack([part[name].values for name in variables], axis=-1) for part in parts], axis=1)
+        found[outcomes != 0] = np.nan
+        return found
+
+    interfaces, of_row = ["inner", "outer", "cage"], ("sample", "case", "row")
+    found = xr.Dataset(
+        coords={
+            "sample": np.arange(len(reasons)),
+            "case": names,
+            "row": study.row.values,
+            "interface": interfaces,
+            "parameter": [one.name for one in VALUES],
+            "unit": ("parameter", [one.unit for one in VALUES]),
+        },
+        attrs={"title": study.attrs["title"]},
+    )
+    values = np.stack([one.of_study(parts[0][one.key].values) for one in VALUES], axis=1)
+    energies = gathered(*(f"orbit_energy_{name}" for name in interfaces))
+    for name, dims, one, units, words in (
+        ("orbit_energy", (*of_row, "interface"), energies, "J", "energy per orbit, mean over rollers and orbits"),
+        ("peak_power", of_row, gathered("peak_power_mean")[..., 0], "W", "mean of the largest power per orbit"),
+        ("window_energy", of_row[:2], gathered("energy_mean")[..., 0].sum(-1), "J", "energy in the window, both rows"),
+        ("torque", of_row[:2], gathered("contact_torque")[..., 0], "N m", "mean sliding torque of all contacts"),
+        ("friction_power", of_row[:2], gathered("friction_power")[..., 0], "W", "mean power of the whole bearing"),
+        ("value", ("sample", "parameter"), values, "1", "value set, in the unit of its parameter"),
+        ("outcome", "sample", outcomes, "1", f"what became of the sample: {', '.join(OUTCOMES)}"),
+        ("reason", "sample", [reason for _, reason in reasons], "1", "why it did not complete"),
+    ):
+        put(found, name, (dims, one), units, words)
+    return found
+
+
+def _reason(names: list[str], runs: list[xr.Dataset]) -> tuple[int, str]:
+    """What became of a sample, as position in `OUTCOMES`, and why."""
+    for name, run in zip(names, runs, strict=True):
+        if not Outcome(run.outcome.item()).stored:
+            return 2, f"bundled case {name}: {run.reason.item()}"
+    failed = int(sum(float(run.failed_rollers.sum()) for run in runs))
+    return (1, f"{failed} rollers failed") if failed else (0, "")
+
+
+# --- Sobol' indices from a sample: a sparse polynomial, fitted to it with a measured error, replaces the model ---------
+
+#: Parts into which the sample is divided to measure the error of the fit.
+_PARTS = 10
+#: Most terms of a fit, as a part of the number of samples.
+_MOST_TERMS = 0.25
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Polynomial:
+    """A sum of products of Legendre polynomials of places from 0 to 1.
+
+    Parameters
+    ----------
+    degrees : ndarray of int, shape (terms, values)
+        Degree in every value; the first term is the constant.
+    coefficients : ndarray, shape (terms,)
+        Each term has the variance 1 over evenly likely places, the constant none.
+    """
+
+    degrees: NDArray[np.int64]
+    coefficients: NDArray[np.float64]
+
+    def __call__(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Value at each of n places, shape (n, values)."""
+        return _columns(places, self.degrees) @ self.coefficients
+
+
+def _columns(places: NDArray[np.float64], degrees: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Every term at every place, shape (places, terms)."""
+    x = 2.0 * places - 1.0
+    legendre = np.stack([np.ones_like(x), math.sqrt(3.0) * x, math.sqrt(5.0) * (1.5 * x * x - 0.5)])
+    found = np.ones((len(places), len(degrees)))
+    for k in range(degrees.shape[1]):
+        found *= legendre[degrees[:, k], :, k].T
+    return found
+
+
+def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
+    """The sparse polynomial of second degree that predicts the values of a sample best.
+
+    Terms are taken up one by one, each the one that most lowers what is left; the number of terms is that at which leaving
+    one sample out is predicted best.
+
+    Parameters
+    ----------
+    places : ndarray, shape (samples, values)
+        From 0 to 1.
+    values : ndarray, shape (samples,)
+
+    References
+    ----------
+    G. Blatman, B. Sudret, "Adaptive sparse polynomial chaos expansion based on least angle regression", J. Comput. Phys.
+    230 (2011) 2345, doi:10.1016/j.jcp.2010.12.021; here by forward selection.
+    """
+    unit = np.eye(places.shape[1], dtype=int)
+    pairs = [unit[i] + unit[k] for i, k in combinations(range(len(unit)), 2)]
+    degrees = np.concatenate([0 * unit[:1], unit, 2 * unit, np.array(pairs, dtype=int).reshape(-1, len(unit))])
+    columns = _columns(places, degrees)
+    chosen, best, least = [0], [0], math.inf
+    basis = columns[:, :1] / np.linalg.norm(columns[:, 0])
+    rest, spans = columns - basis @ (basis.T @ columns), np.linalg.norm(columns, axis=0)
+    for _ in range(max(1, int(_MOST_TERMS * len(values)))):
+        left = values - basis @ (basis.T @ values)
+        leverage = (basis**2).sum(axis=1)
+        # Beyond the error of leaving one out: the more terms have been tried, the more one of them fits by chance.
+        error = float(np.mean((left / (1.0 - leverage)) ** 2)) / max(1e-9, 1.0 - basis.shape[1] / len(values))
+        if error < least:
+            best, least = chosen.copy(), error
+        norms = np.linalg.norm(rest, axis=0)
+        gain = np.where(norms > 1e-6 * spans, np.abs(left @ rest) / np.maximum(norms, 1e-300), 0.0)
+        gain[chosen] = 0.0
+        k = int(np.argmax(gain))
+        if gain[k] <= 1e-12 * np.linalg.norm(values):
+            break
+        chosen.append(k)
+        new = rest[:, k] / norms[k]
+        basis = np.column_stack([basis, new])
+        rest = rest - np.outer(new, new @ rest)
+    coefficients, *_ = np.linalg.lstsq(columns[:, best], values, rcond=None)
+    return Polynomial(degrees[best], coefficients)
+
+
+def explained_variance(places: NDArray[np.float64], values: NDArray[np.float64]) -> float:
+    """Part of the variance that the fit predicts for samples it was not fitted to [1], below 1; 0 and less: nothing.
+
+    The sample is divided into ten parts; each is predicted by a fit to the other nine.
+    """
+    order = np.random.default_rng(0).permutation(len(values))
+    error = 0.0
+    for part in np.array_split(order, _PARTS):
+        others = np.setdiff1d(order, part)
+        error += float(((fit(places[others], values[others])(places[part]) - values[part]) ** 2).sum())
+    return 1.0 - error / float(((values - values.mean()) ** 2).sum())
+
+
+def sobol_indices(polynomial: Polynomial) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Sobol' indices of a polynomial over its values: of first order, and total [1].
+
+    Its terms are orthonormal, so a part of its variance is a sum of squared coefficients.
+
+    References
+    ----------
+    B. Sudret, "Global sensitivity analysis using polynomial chaos expansions", Reliab. Eng. Syst. Saf. 93 (2008) 964,
+    doi:10.1016/j.ress.2007.04.002.
+
+    Examples
+    --------
+    >>> first, total = sobol_indices(Polynomial(np.array([[0, 0], [1, 0], [1, 1]]), np.array([5.0, 3.0, 4.0])))
+    >>> first.tolist(), total.tolist()
+    ([0.36, 0.0], [1.0, 0.64])
+    """
+    acts = polynomial.degrees > 0
+    square = np.where(acts.any(axis=1), polynomial.coefficients**2, 0.0)
+    if not square.any():
+        return np.zeros(acts.shape[1]), np.zeros(acts.shape[1])
+    alone = acts & (acts.sum(axis=1) == 1)[:, None]
+    return square @ alone / square.sum(), square @ acts / square.sum()
+
+
+# --- What the sample says ------------------------------------------------------------------------------------------
+
+
+def quantities(sample: xr.Dataset) -> xr.Dataset:
+    """The results whose uncertainty is given: `result` over (sample, quantity), with the coordinate `units`.
+
+    NaN where a sample did not complete.
+    """
+    energy = sample.orbit_energy.sum("interface", skipna=False)
+    down = energy.sel(row="downwind")
+    ratio, peak = between_rows(energy), between_rows(sample.peak_power)
+    inner = sample.orbit_energy.sel(row="downwind", interface="inner") / down
+    names = sample.case.values.tolist()
+    first, last = names[0], names[-1]
+    window, power = sample.window_energy, sample.friction_power
+    found = {f"energy per orbit, downwind, {name}": (down.sel(case=name), "J") for name in (first, last)}
+    found[f"energy in {first} / {last}"] = window.sel(case=first) / window.sel(case=last), "1"
+    found |= {f"energy, downwind / upwind, {name}": (ratio.sel(case=name), "1") for name in names}
+    found[f"share of the inner raceway, downwind, {first}"] = inner.sel(case=first), "1"
+    found |= {f"mean P_max, downwind / upwind, {name}": (peak.sel(case=name), "1") for name in names}
+    found[f"sliding torque, {first}"] = sample.torque.sel(case=first), "N m"
+    found[f"friction power of the bearing, {first}"] = power.sel(case=first), "W"
+    found[f"friction power in {first} / {last}"] = power.sel(case=first) / power.sel(case=last), "1"
+    values = np.stack([one.values for one, _ in found.values()], axis=1)
+    return xr.Dataset(
+        {"result": (("sample", "quantity"), values, {"units": "1", "long_name": "result, in its quantity's unit"})},
+        {"sample": sample.sample, "quantity": list(found), "units": ("quantity", [one for _, one in found.values()])},
+    )
+
+
+def trends(sample: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Whether each sample shows what the paper states, as far as its cases can."""
+    names = sample.case.values.tolist()
+    first, others, cases = names[0], names[1:], ", ".join(names)
+    energy = sample.orbit_energy.sum("interface", skipna=False)
+    ratio, peak = between_rows(energy), between_rows(sample.peak_power)
+    cage = sample.orbit_energy.sel(interface="cage").sum("row") / energy.sum("row")
+    down = sample.orbit_energy.sel(row="downwind")
+    below = down.sel(interface="cage") / down.sum("interface", skipna=False)
+    window, power = sample.window_energy, sample.friction_power
+
+    def highest(values: xr.DataArray) -> xr.DataArray:
+        return (values.sel(case=first) > values.sel(case=others)).all("case")
+
+    def about(values: xr.DataArray, stated: float) -> xr.DataArray:
+        return ((values >= stated / ABOUT) & (values <= stated * ABOUT)).any("case")
+
+    return {
+        f"energy highest in {first} of {cases}": highest(window),
+        "downwind row spends more than the upwind row, every case": (ratio > 1.0).all("case"),
+        "energy ratio within a factor of 2 of 10, any case": about(ratio, 10.0),
+        f"ratio of peak powers highest in {first}": highest(peak),
+        f"ratio of peak powers falls from case to case of {cases}": (peak.diff("case") < 0.0).all("case"),
+        "ratio of peak powers within a factor of 2 of 5, any case": about(peak, 5.0),
+        "cage takes at least half of the energy of both rows, any case": (cage >= DOMINANT).any("case"),
+        "raceways take at least half of the downwind row's energy, every case": (below < DOMINANT).all("case"),
+        f"friction power of the bearing highest in {first}": highest(power),
+    }
+
+
+def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
+    """Ranges, rank correlations and indices over the samples that completed, of what `uncertainty` gives.
+
+    Returns
+    -------
+    xarray.Dataset
+        base [unit of the quantity] over quantity; range over (quantity, quantile); over (quantity, parameter):
+        rank_correlation and probability [1] (Spearman), first_order and total_order [1], Sobol' indices of the quantity's
+        logarithm; explained [1] over quantity, the part of its variance that the polynomial behind them predicts of
+        samples it has not seen. trend_share [1] over trend: how many of the completed samples show it, and trend_base
+        whether the base values do. Attributes: completed, failed, refused: numbers of samples. `case` has the load cases
+        of the samples.
+    """
+    from scipy.stats import spearmanr
+
+    found = quantities(sample)
+    drawn = sample.sample > 0
+    good = (sample.outcome == 0) & drawn
+    result, values = found.result.values[good], sample.value.values[good]
+    shape = found.sizes["quantity"], values.shape[1]
+    ranks, chance, first, total = (np.full(shape, np.nan) for _ in range(4))
+    explained = np.full(shape[0], np.nan)
+    places = np.stack([one.place(values[:, k]) for k, one in enumerate(VALUES)], axis=1)
+    for q, one in enumerate(result.T):
+        if len(one) < 3 or np.ptp(one) == 0.0:
+            continue  # what does not change has no rank, and no variance to divide
+        for p in np.flatnonzero(np.ptp(values, axis=0) > 0.0):
+            ranks[q, p], chance[q, p] = spearmanr(values[:, p], one)
+        if len(one) > shape[1] and (one > 0.0).all():
+            first[q], total[q] = sobol_indices(fit(places, np.log(one)))
+            explained[q] = explained_variance(places, np.log(one))
+    shown = {name: flags.values for name, flags in trends(sample).items()}
+    shares = [float(flags[good].mean()) if good.any() else np.nan for flags in shown.values()]
+    quantile = np.quantile(result, QUANTILES, axis=0).T if len(result) else np.full((shape[0], 3), np.nan)
+    counts = {
+        name: int(((sample.outcome == k) & drawn).sum()) for k, name in enumerate(("completed", "failed", "refused"))
+    }
+    summary = xr.Dataset(
+        coords={
+            "quantity": found.quantity,
+            "units": found.units,
+            "quantile": list(QUANTILES),
+            "trend": list(shown),
+            "parameter": sample.parameter,
+            "case": sample.case.values,
+        },
+        attrs=counts,
+    )
+    for name, dims, one, words in (
+        ("base", "quantity", found.result.values[0], "with the base values"),
+        ("range", ("quantity", "quantile"), quantile, "quantiles over the samples"),
+        ("rank_correlation", ("quantity", "parameter"), ranks, "Spearman's rank correlation"),
+        ("probability", ("quantity", "parameter"), chance, "probability of such a correlation by chance"),
+        ("first_order", ("quantity", "parameter"), first, "Sobol' index of first order, of the logarithm"),
+        ("total_order", ("quantity", "parameter"), total, "total Sobol' index, of the logarithm"),
+        ("explained", "quantity", explained, "part of the variance that the polynomial behind the indices predicts"),
+        ("trend_share", "trend", shares, "share of the samples that show it"),
+        ("trend_base", "trend", [int(flags[0]) for flags in shown.values()], "whether the base values show it"),
+    ):
+        put(summary, name, (dims, one), "1", words)
+    return summary
+
+
+def robust(summary: xr.Dataset) -> list[tuple[str, str]]:
+    """Every trend with the word for it: robust, where all samples show it; robustly not, where none does; or not robust."""
+    shares = zip(summary.trend.values.tolist(), summary.trend_share.values.tolist(), strict=True)
+    return [(name, {1.0: "robust", 0.0: "robustly not so"}.get(share, "not robust")) for name, share in shares]
+
+
+def strongest(summary: xr.Dataset, quantity: str) -> list[tuple[str, float, float]]:
+    """Parameters with a total Sobol' index worth telling, the largest first: name, first order, total."""
+    one = summary.sel(quantity=quantity)
+    found = zip(
+        one.parameter.values.tolist(), one.first_order.values.tolist(), one.total_order.values.tolist(), strict=True
+    )
+    return sorted((each for each in found if each[2] >= TOLD_INDEX), key=lambda each: -each[2])
+
+
+def drivers(summary: xr.Dataset, quantity: str) -> list[tuple[str, float]]:
+    """Parameters whose rank correlation with a quantity is no chance, the strongest first, with its value."""
+    one = summary.sel(quantity=quantity)
+    sure = one.isel(parameter=one.probability.values < DRIVER_LEVEL)
+    found = zip(sure.parameter.values.tolist(), sure.rank_correlation.values.tolist(), strict=True)
+    return sorted(found, key=lambda each: -abs(each[1]))

@@ -1,0 +1,391 @@
+"""The paper's statements beside what a converged solution gives: numbers, and one rule for every verdict."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from paper.experiments import STATIC_LOADS, inflexion_angle
+from paper.studies import DETAILED_CASE, dissipation
+
+AGREES, PARTLY, DIFFERS, UNKNOWN = "agrees", "agrees in part", "differs", "cannot be judged"
+#: Verdict on what was not computed under a model.
+NOT_COMPUTED = "not computed"
+#: "About" in a statement allows this factor either way.
+ABOUT = 2.0
+#: Share of the energy from which on an interface dominates.
+DOMINANT = 0.5
+#: Probability below which a rank correlation with wind speed counts as a trend.
+TREND_LEVEL = 0.05
+#: Relative standard deviation from which on a quantity varies highly.
+HIGH_VARIATION = 0.5
+#: Distance from the top within which an inflexion is at the top [degrees].
+AT_TOP = 15.0
+#: Part of an orbit within which a return to pure rolling is a snap.
+SNAP = 0.02
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One number beside what the paper states of it.
+
+    Parameters
+    ----------
+    key, name : str
+        In data and in tables.
+    value : float
+        Infinite where there is no such thing, which no statement allows; NaN where an integration failed.
+    unit : str
+    stated : str
+        The paper's value in words; empty for a number that only explains.
+    low, high : float
+        The values that count as the stated one.
+    """
+
+    key: str
+    name: str
+    value: float
+    unit: str = ""
+    stated: str = ""
+    low: float = -math.inf
+    high: float = math.inf
+
+    @property
+    def holds(self) -> bool:
+        """Whether the number is as stated."""
+        return self.low <= self.value <= self.high
+
+    @property
+    def told(self) -> str:
+        """Name, number and unit."""
+        return f"{self.name} {number(self.value)}{f' {self.unit}' if self.unit else ''}"
+
+
+def number(value: float) -> str:
+    """A number with three digits, without a power of ten where one can do without.
+
+    Examples
+    --------
+    >>> number(0.21014), number(1925.7), number(math.inf)
+    ('0.21', '1,926', 'none')
+    """
+    if math.isinf(value):
+        return "none"
+    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """One statement of the paper, the numbers it is judged by, and why they may differ.
+
+    Parameters
+    ----------
+    paper : str
+        What the paper states.
+    rows : tuple of Row
+        None if it was not computed under this model.
+    reason : str
+        What explains a difference.
+    """
+
+    paper: str
+    rows: tuple[Row, ...] = ()
+    reason: str = ""
+
+    @property
+    def judged(self) -> tuple[Row, ...]:
+        """The numbers of which the paper states something."""
+        return tuple(row for row in self.rows if row.stated)
+
+    @property
+    def verdict(self) -> str:
+        """Agrees if all judged numbers are as stated, differs if none is; a NaN anywhere leaves nothing to judge.
+
+        Examples
+        --------
+        >>> ten, two = Row("a", "", 10.0, "", "about 10", 5.0, 20.0), Row("b", "", 2.0, "", "about 10", 5.0, 20.0)
+        >>> Statement("", (ten, two)).verdict, Statement("", (two,)).verdict, Statement("").verdict
+        ('agrees in part', 'differs', 'not computed')
+        """
+        if not self.rows:
+            return NOT_COMPUTED
+        if any(math.isnan(row.value) for row in self.rows):
+            return UNKNOWN
+        held = [row.holds for row in self.judged]
+        return AGREES if all(held) else (PARTLY if any(held) else DIFFERS)
+
+    @property
+    def found(self) -> str:
+        """The judged numbers in one line."""
+        return "; ".join(row.told for row in self.judged) or NOT_COMPUTED
+
+    @property
+    def because(self) -> str:
+        """The reason, where the statement does not simply agree."""
+        return self.reason if self.verdict in (PARTLY, DIFFERS) else ""
+
+
+def about(key: str, name: str, value: float, stated: float, words: str = "") -> Row:
+    """A ratio that the paper states as about a number."""
+    return Row(key, name, value, "", words or f"about {stated:g}", stated / ABOUT, stated * ABOUT)
+
+
+def ends(values: xr.DataArray) -> dict[str, float]:
+    """Least and most over all cases; NaN if any is."""
+    return {name: float(getattr(values, find)(skipna=False)) for name, find in (("lowest", "min"), ("highest", "max"))}
+
+
+def by_wind_speed(values: xr.DataArray) -> xr.DataArray:
+    """Mean over the turbulence classes; NaN if any of them is."""
+    return values.groupby("wind_speed").mean(skipna=False)
+
+
+def _change(values: xr.DataArray) -> float:
+    """How much the largest is above the smallest of the means over the turbulence classes [%]."""
+    mean = ends(by_wind_speed(values))
+    return 100.0 * (mean["highest"] / mean["lowest"] - 1.0)
+
+
+def energy_over_wind_speed(numbers: xr.Dataset, study: xr.Dataset) -> tuple[Row, ...]:
+    """At which wind speeds energy is highest; and how much of that is the number of orbits."""
+    energy = by_wind_speed(numbers.both_rows_normalised)
+    # Of failed rollers there is no order.
+    order = energy.wind_speed.values[np.argsort(-energy.values)] if energy.notnull().all() else [math.nan] * 2
+    stated, allowed = "12 and 14 m/s", (12.0, 14.0)
+    # Two different wind speeds of the study: both are at 14 m/s or below only if they are 12 and 14 m/s.
+    return (
+        Row("highest_mps", "highest two: higher wind speed", float(max(order[:2])), "m/s", stated, *allowed),
+        Row("second_mps", "highest two: lower wind speed", float(min(order[:2])), "m/s"),
+        Row("spread", "energy of both rows: change over wind speed", _change(numbers.both_rows_normalised), "%"),
+        *(
+            Row(f"per_orbit_{row}", f"energy per orbit {row}: change", _change(study.orbit_energy.sel(row=row)), "%")
+            for row in study.row.values.tolist()
+        ),
+        Row("orbits", "number of orbits: change", _change(study.orbits), "%"),
+    )
+
+
+def energy_between_rows(numbers: xr.Dataset, gripped: float) -> tuple[Row, ...]:
+    """Energy of the downwind over the upwind row.
+
+    `gripped` is the energy per orbit [J] of a downwind roller under the constant mean load with thrust.
+    """
+    ratio, per_orbit = ends(numbers.energy_ratio), ends(numbers.orbit_energy.sel(row="downwind") / gripped)
+    return (
+        about("lowest", "least ratio", ratio["lowest"], 10.0),
+        about("highest", "largest ratio", ratio["highest"], 10.0),
+        *(
+            Row(
+                f"gripped_{name}", f"{name} energy per orbit downwind, over the same under static load with thrust", one
+            )
+            for name, one in per_orbit.items()
+        ),
+    )
+
+
+def peak_power_over_wind_speed(numbers: xr.Dataset) -> tuple[Row, ...]:
+    """Trend and variation of peak power."""
+    from scipy.stats import spearmanr
+
+    rows: list[Row] = []
+    for row in numbers.row.values.tolist():
+        mean = numbers.peak_power_mean.sel(row=row)
+        rank = spearmanr(numbers.wind_speed.values, mean.values)
+        speeds = by_wind_speed(mean).values
+        variation = float((numbers.peak_power_std.sel(row=row) / mean).median(skipna=False))
+        rows += [
+            Row(f"probability_{row}", f"{row}: probability of such a rank correlation by chance", float(rank.pvalue), "",
+                f"no trend: above {TREND_LEVEL:g}", TREND_LEVEL),
+            Row(f"variation_{row}", f"{row}: standard deviation over mean", variation, "",
+                f"high variance: above {HIGH_VARIATION:g}", HIGH_VARIATION),
+            Row(f"rank_correlation_{row}", f"{row}: rank correlation with wind speed", float(rank.statistic)),
+            Row(f"change_{row}", f"{row}: mean at the highest over that at the lowest wind speed", speeds[-1] / speeds[0]),
+        ]  # fmt: skip
+    return tuple(rows)
+
+
+def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None) -> tuple[Row, ...]:
+    """Mean peak power of the downwind over the upwind row; `steps` from `step_size` has the effect of a fixed step."""
+    ratio = ends(numbers.peak_power_ratio)
+    mean = by_wind_speed(numbers.peak_power_ratio)
+    speed = float(mean.wind_speed[int(np.argmax(mean.values))]) if mean.notnull().all() else math.nan
+    rows = [
+        about("highest", "largest ratio", ratio["highest"], 5.0, "up to 5"),
+        Row("highest_at_mps", "wind speed of the largest mean ratio", speed, "m/s", "12 m/s", 12.0, 12.0),
+        Row("lowest", "least ratio", ratio["lowest"]),
+    ]
+    if steps is not None:
+        coarse = steps.isel(step=int(np.argmax(steps.step.values)))
+        for key, words, peak in (
+            ("fixed_step", f"in an excerpt, backward Euler at {1e3 * float(coarse.step):g} ms", coarse.mean_peak_power),
+            ("converged", "in the same excerpt, converged", steps.mean_peak_power_converged),
+        ):
+            rows.append(Row(key, words, float(peak.sel(row="downwind") / peak.sel(row="upwind"))))
+    return tuple(rows)
+
+
+def unloaded_roller(turn: xr.Dataset, inflexion: float) -> tuple[Row, ...]:
+    """How a roller behaves in the unloaded zone of a downward static load."""
+
+    def or_none(value: float) -> float:
+        # No inflexion and no return are findings; only a failed integration leaves nothing to judge.
+        return math.inf if math.isnan(value) else value
+
+    period = turn.attrs["end_s"] - turn.attrs["start_s"]
+    recovery = or_none(turn.attrs["recovery_time_s"])
+    return (
+        Row("lowest_spin_ratio", "lowest spin over pure rolling", turn.attrs["lowest_spin_ratio"], "", "slows", 0.0, 0.99),
+        Row("inflexion_deg", "angle of the inflexion", or_none(inflexion), "°", "at the top (180°)", 180.0 - AT_TOP,
+            180.0 + AT_TOP),
+        Row("recovery_s", "time to 99 % of pure rolling", recovery, "s", f"snaps back: within {SNAP * period:.2g} s", 0.0,
+            SNAP * period),
+    )  # fmt: skip
+
+
+def varying_over_static(
+    numbers: xr.Dataset, static: Mapping[str, Mapping[str, float]], tolerances: xr.Dataset | None = None
+) -> tuple[Row, ...]:
+    """Energy per orbit in the detailed case, over that under its mean load; `static` has it [J] by load and row.
+
+    `tolerances` from `nonlinear_tolerance` shows what an iteration that stops early adds.
+    """
+    varying = numbers.orbit_energy.sel(case=DETAILED_CASE)
+    rows = [
+        about(f"{name}_{row}", f"{row}, over static load {name}", float(varying.sel(row=row)) / energy, 100.0)
+        for name, by_row in static.items()
+        for row, energy in by_row.items()
+    ]
+    if tolerances is not None:
+        one = tolerances.ratio.sel(row="downwind").sel(stopping_tolerance=1e-6, method="nearest")
+        words = f"downwind by an iteration that stops at a change of {float(one.stopping_tolerance):.0e}"
+        rows.append(Row("early_stop", words, float(one)))
+    return tuple(rows)
+
+
+def cage_dominates(study: xr.Dataset) -> tuple[Row, ...]:
+    """The cage's share of a roller's energy, over all cases."""
+    energy = study.energy.sum("roller", skipna=False)
+    share = energy.sel(interface="cage") / energy.sum("interface", skipna=False)
+    rows = []
+    for row in study.row.values.tolist():
+        one = ends(share.sel(row=row))
+        stated = f"at least {DOMINANT:g}"
+        rows.append(Row(f"least_{row}", f"{row}: least share of the cage", one["lowest"], "", stated, DOMINANT, 1.0))
+        rows.append(Row(f"most_{row}", f"{row}: largest share of the cage", one["highest"]))
+    return tuple(rows)
+
+
+def euler_stability(stability: xr.Dataset) -> tuple[Row, ...]:
+    """Explicit against backward Euler at the same step."""
+    values = stability.attrs
+    # An explicit method that was stopped is unstable; its missing numbers do not hide that.
+    explicit = math.inf if values["status_explicit"] else values["largest_deviation_explicit"]
+    return (
+        # Where it is unstable its deviation is chaotic.
+        Row("explicit", "largest deviation over pure rolling, explicit Euler (1: as much or more)", min(explicit, 1.0), "",
+            "unstable: above 0.1", 0.1),
+        Row("backward", "largest deviation over pure rolling, backward Euler", values["largest_deviation_backward"], "",
+            "stable: below 0.1", 0.0, 0.1),
+        Row("step_ms", "step", 1e3 * values["step_s"], "ms"),
+    )  # fmt: skip
+
+
+#: What the paper states, by subject.
+STATED = {
+    "energy": "energy is highest at 12 and 14 m/s",
+    "rows": "the downwind row spends about 10 times the energy of the upwind row",
+    "peaks": "peak power has no trend over wind speed but high variance",
+    "peak ratio": "the downwind row's mean peak power is up to 5 times the upwind row's, most at 12 m/s",
+    "unloaded": "an unloaded roller slows with an inflexion at the top and snaps back in the load zone",
+    "static": "time-varying loads give about 100 times the static energy",
+    "cage": "friction at the cage dominates the energy",
+    "Euler": "explicit Euler is unstable in the load zone, backward Euler is not",
+}
+#: What explains a difference, by model and subject.
+REASONS = {
+    "paper": {
+        "energy": "the energy of one orbit hardly depends on wind speed; the number of orbits does, and is least where the "
+        "shaft turns slowest",
+        "rows": "a roller that is gripped all round spends nothing but the friction of its own weight at the cage, whatever "
+        "its load; no load adds to it",
+        "peaks": "the largest powers are those of unloaded upwind rollers that are gripped again, which wind and turbulence "
+        "make more frequent",
+        "peak ratio": "the largest powers are those of unloaded upwind rollers that are gripped again, which wind and "
+        "turbulence make more frequent; a fixed step does not resolve them",
+        "static": "force balance bounds the difference of a gripped roller's raceway forces by its weight, drag and inertia, "
+        "so its cage carries these and no more, however the load varies; an iteration on spin that stops early breaks that "
+        "balance",
+    },
+    "physical": {
+        "energy": "the downwind raceways dissipate by microslip, through the contact's curvature and the contact angle; "
+        "both grow with load, which falls with thrust over wind speed",
+        "rows": "thrust unloads the upwind row, whose rollers carry load for a small part of the time; the energy of an "
+        "unloaded roller depends on the oil around it, and on how much there is",
+        "peaks": "downwind the largest power of an orbit is microslip at the inner raceway under the largest load, not a snap",
+        "peak ratio": "the downwind row's power hardly changes, and the upwind row's rises because it is under load more "
+        "often",
+        "static": "power at the raceways follows the load of the moment, and the energy of an orbit its mean: the static "
+        "load gives less because it lacks thrust, not because it is constant",
+        "cage": "the raceways take most of the energy, by microslip",
+    },
+}
+
+
+def inside_contacts(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, tuple[Row, ...]]:
+    """Numbers from inside the contacts that explain what is found, by subject, where microslip was computed."""
+    from scipy.stats import spearmanr
+
+    if "mechanism_energy" not in study or bool((study.status != 0).any()):
+        return {}
+    down = dissipation(study).sel(row="downwind")
+    shares = 100.0 * (down.part_energy / down.part_energy.sum("part")).mean("case")
+    rank = spearmanr(study.thrust.values, numbers.orbit_energy.sel(row="downwind").values).statistic
+    loaded = ends(100.0 * study.loaded_share.sel(row="upwind"))
+    return {
+        "energy": (
+            *(
+                Row(name, f"share of {name} in the downwind energy",
+                    float(shares.sel(part=[f"inner, {name}", f"outer, {name}"]).sum()), "%")
+                for name in ("curvature", "contact angle")
+            ),
+            Row("load_exponent", "exponent of the energy per orbit downwind over load", float(down.load_exponent)),
+            Row("thrust_rank", "rank correlation of the energy per orbit downwind with thrust", float(rank)),
+        ),
+        "rows": tuple(Row(f"loaded_{key}", f"{key} share of time under load, upwind", one, "%") for key, one in loaded.items()),
+    }  # fmt: skip
+
+
+def statements(
+    model: str,
+    study: xr.Dataset,
+    numbers: xr.Dataset,
+    static: Mapping[str, xr.Dataset],
+    experiments: Mapping[str, xr.Dataset],
+) -> dict[str, Statement]:
+    """The paper's statements by subject, judged by what was computed under one model.
+
+    `static` has the turns under static load by title; `experiments` what was computed under this model of "A1",
+    "nonlinear_tolerance" and "step_size".
+    """
+    rows = study.row.values.tolist()
+    energies = {name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in rows} for name in STATIC_LOADS}
+    downward = static["downward, downwind"]
+    found = {
+        "energy": energy_over_wind_speed(numbers, study),
+        "rows": energy_between_rows(numbers, energies["downward and thrust"]["downwind"]),
+        "peaks": peak_power_over_wind_speed(numbers),
+        "peak ratio": peak_power_between_rows(numbers, experiments.get("step_size")),
+        "unloaded": unloaded_roller(downward, inflexion_angle(downward)),
+        "static": varying_over_static(numbers, energies, experiments.get("nonlinear_tolerance")),
+        "cage": cage_dominates(study),
+        "Euler": euler_stability(experiments["A1"]) if "A1" in experiments else (),
+    }
+    more, reasons = inside_contacts(study, numbers), REASONS.get(model, {})
+    return {
+        subject: Statement(paper, found[subject] + more.get(subject, ()), reasons.get(subject, ""))
+        for subject, paper in STATED.items()
+    }
