@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -10,9 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from macroslip.report.style import (
-    BLACK, BLUE, GREEN, GREY, ORANGE, ROW, finish, legend_above, log_ticks, new_figure,
-)  # fmt: skip
+from macroslip.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, ROW, finish, legend_above, log_ticks, new_figure
 from macroslip.torque import TorqueHistory
 from paper.studies import PARTS
 from paper.uncertainty import DRIVER_LEVEL, TOLD_INDEX
@@ -60,9 +58,6 @@ def _note(axes: Axes, words: str, place: tuple[float, float], shift: tuple[float
     axes.annotate(words, place, xytext=shift, textcoords="offset points", **{"fontsize": 9} | options)
 
 
-# --- One roller over a turn ----------------------------------------------------------------------------------------
-
-
 def plot_spin(axes: Axes, turn: xr.Dataset, title: str = "") -> Axes:
     """Spin speed of the roller and that of pure rolling over a `trace_turn`; its loaded part is shaded."""
     angle = turn.angle.values
@@ -102,8 +97,9 @@ def turns_figure(turns: Mapping[str, xr.Dataset]) -> Figure:
     return figure
 
 
-def plot_varying_over_static(axes: Axes, ratios: Mapping[str, Mapping[str, float]]) -> Axes:
+def varying_over_static_figure(ratios: Mapping[str, Mapping[str, float]]) -> Figure:
     """Energy per orbit under time-varying over that under static load, by name of the static load and by row."""
+    figure, (axes,) = new_figure(4.8, 3.4)
     for place, by_row in enumerate(ratios.values()):
         for k, (row, ratio) in enumerate(by_row.items()):
             x = place + 0.34 * (k - 0.5)
@@ -112,12 +108,9 @@ def plot_varying_over_static(axes: Axes, ratios: Mapping[str, Mapping[str, float
             _note(axes, number(ratio), (x, ratio), (0, 8), ha="center")
     axes.set_xticks(range(len(ratios)), [f"static: {name}" for name in ratios])
     axes.set_xlim(-0.5, len(ratios) - 0.5)
-    axes.set_yscale("log")
-    axes.yaxis.set_major_formatter("{x:g}")
-    return mark_level(finish(axes, "", "energy, time-varying / static [–]"), 50.0, 200.0, "paper: about 100")
-
-
-# --- Over wind speed -----------------------------------------------------------------------------------------------
+    mark_level(finish(log_ticks(axes), "", "energy, time-varying / static [–]"), 50.0, 200.0, "paper: about 100")
+    legend_above(figure, axes)
+    return figure
 
 
 def plot_by_class(axes: Axes, numbers: xr.Dataset, name: str, label: str, row: str | None = None) -> Axes:
@@ -202,9 +195,6 @@ def models_figure(numbers: Mapping[str, xr.Dataset]) -> Figure:
     return figure
 
 
-# --- What the numerical method does ----------------------------------------------------------------------------------
-
-
 def stability_figure(stability: xr.Dataset) -> Figure:
     """Figure A1: the two Euler methods entering the load zone, spin and growth of the error.
 
@@ -255,7 +245,8 @@ def plot_tolerance(axes: Axes, experiment: xr.Dataset, name: str, label: str) ->
             if y > _RAISED * level:
                 words = f"{number(y / level)} ×"
                 _note(axes, words, (x, y), (-7, 0), ha="right", va="center", color=style["color"])
-    return finish(log_ticks(axes, "x"), "relative change of spin at the stop [–]", label)
+    axes.set_xscale("log")
+    return finish(axes, "relative change of spin at the stop [–]", label)
 
 
 def nonlinear_tolerance_figure(experiment: xr.Dataset) -> Figure:
@@ -267,17 +258,8 @@ def nonlinear_tolerance_figure(experiment: xr.Dataset) -> Figure:
     values = experiment.static_energy.sel(row="downwind").values
     axes[0].plot(experiment.stopping_tolerance.values, values, label="downwind, static load", **static)
     plot_tolerance(axes[1], experiment, "cage_energy", "cage energy per orbit [J]")
-    for one in axes:
-        one.xaxis.set_major_locator(_decades(one))
-        one.xaxis.set_major_formatter(lambda value, _: f"$10^{{{round(np.log10(value))}}}$")
     legend_above(figure, axes[0])
     return figure
-
-
-def _decades(axes: Axes):
-    from matplotlib.ticker import LogLocator
-
-    return LogLocator(numticks=6)
 
 
 def step_size_figure(experiment: xr.Dataset) -> Figure:
@@ -294,9 +276,6 @@ def step_size_figure(experiment: xr.Dataset) -> Figure:
     finish(log_ticks(axes[0]), "fixed step [s]", f"mean {_PEAK} per orbit [W]")
     axes[0].legend(frameon=False, fontsize=9, loc="center left")
     return figure
-
-
-# --- Inside the contacts, torque, and what the result depends on ---------------------------------------------------
 
 
 def plot_parts(axes: Axes, parts: xr.DataArray, row: str) -> Axes:
@@ -357,47 +336,25 @@ def torque_figure(histories: Mapping[str, TorqueHistory], start: float, end: flo
     return figure
 
 
-def plot_tornado(axes: Axes, table: xr.Dataset, quantity: str, row: str) -> Axes:
-    """`energy` or `peak_power` of a `sensitivity` over the base case's, the widest bar on top.
-
-    The axis is logarithmic, so that half and double reach equally far. The value that was set is written at the end of its
-    bar; the low value's bar is hatched.
-    """
-    one = table.sel(row=row)
-    ratio = (one[quantity] / one[quantity].sel(level="base")).transpose("variation", "level")
-    order = np.argsort(np.nan_to_num(np.abs(np.log(ratio)).max("level").values))
-    for place, k in enumerate(order):
-        values = one.value.isel(variation=int(k))
-        for level, color, hatch in (("low", ORANGE, "///"), ("high", BLUE, "")):
-            reached, value = float(ratio.isel(variation=int(k)).sel(level=level)), float(values.sel(level=level))
-            if not np.isfinite(reached) or value == float(values.sel(level="base")):
-                continue
-            axes.barh(place, reached - 1.0, left=1.0, height=0.62, color=color, hatch=hatch, edgecolor="white")
-            side = 1 if reached > 1.0 else -1
-            _note(axes, f"{value:g}", (reached, place), (4 * side, 0), ha="left" if side > 0 else "right", va="center")
-    units = [f" [{unit}]" if unit != "1" else "" for unit in table.unit.values]
-    axes.set_yticks(np.arange(len(order)), [f"{table.variation.values[k]}{units[k]}" for k in order])
-    axes.axvline(1.0, color=GREY, linewidth=0.9)
-    low, high = float(min(ratio.min(), 0.9)), float(max(ratio.max(), 1.1))
-    margin = (high / low) ** 0.18
-    log_ticks(axes, "x").set_xlim(low / margin, high * margin)
-    choices = (
-        (0.01, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
-        if high / low > 4.0
-        else (0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.7, 2)
-    )
-    axes.set_xticks([value for value in choices if low / margin <= value <= high * margin])
-    words = {"energy": "energy", "peak_power": f"mean {_PEAK}"}[quantity]
-    return finish(axes, f"{words} / that of the base case [–]", "", f"{row} row")
-
-
 def sensitivity_figure(table: xr.Dataset) -> Figure:
-    """Tornado charts of energy and peak power for both rows."""
-    rows = table.row.values.tolist()
-    figure, axes = new_figure(9.0, 5.4, 2, len(rows))
-    for k, quantity in enumerate(("energy", "peak_power")):
-        for one, row in zip(axes[k * len(rows) :], rows, strict=False):
-            plot_tornado(one, table, quantity, row)
+    """Energy and peak power of both rows with one value changed, over the base case; half and double reach equally far."""
+    figure, axes = new_figure(8.6, 0.8 + 0.34 * table.sizes["point"], 1, 2, sharey=True)
+    places = np.arange(table.sizes["point"])[::-1]
+    for one, (quantity, words) in zip(axes, (("energy", "energy"), ("peak_power", f"mean {_PEAK}")), strict=True):
+        for k, row in enumerate(table.row.values.tolist()):
+            style = {
+                "color": ROW[row]["color"],
+                "edgecolor": "white",
+                "hatch": "///" if k else "",
+                "label": f"{row} row",
+            }
+            one.barh(
+                places - 0.36 * k + 0.18, table[quantity].sel(row=row).values - 1.0, left=1.0, height=0.36, **style
+            )
+        one.axvline(1.0, color=GREY, linewidth=0.9)
+        finish(log_ticks(one, "x"), f"{words} / that of the base case [–]", "")
+    axes[0].set_yticks(places, table.point.values.tolist())
+    legend_above(figure, axes[0])
     return figure
 
 
@@ -418,67 +375,40 @@ def plot_ranges(axes: Axes, summary: xr.Dataset) -> Axes:
     return finish(log_ticks(axes, "x"), "over the value with the base values [–]", "")
 
 
-def _squares(summary: xr.Dataset, name: str) -> Iterator[tuple[int, int, int, int, float]]:
-    """Quantity, parameter, their places on the axes, and the number of each pair that has one."""
-    values = summary[name].values
-    for q, p in np.argwhere(np.isfinite(values)):
-        yield q, p, p, values.shape[0] - 1 - q, values[q, p]
+def plot_squares(axes: Axes, summary: xr.Dataset, name: str) -> Axes:
+    """`rank_correlation` or `total_order` of every quantity with every value: a square of that area.
 
-
-def plot_correlations(axes: Axes, summary: xr.Dataset) -> Axes:
-    """Rank correlation of every quantity with every value: a square of its size, filled where it is no chance.
-
-    Orange and marked + where the quantity rises with the value, blue and − where it falls.
+    Correlations are orange where the quantity rises with the value and blue where it falls, and filled where they are no
+    chance. Sobol' indices, of the quantity's logarithm, are filled up to the first order; on the right is the part of the
+    variance that the polynomial behind them predicts.
     """
-    for q, p, x, y, value in _squares(summary, "rank_correlation"):
-        color, sure = (ORANGE if value > 0.0 else BLUE), summary.probability.values[q, p] < DRIVER_LEVEL
-        face = color if sure else "none"
-        axes.scatter(x, y, s=330.0 * abs(value), marker="s", facecolor=face, edgecolor=color, linewidth=0.8)
-        if sure:
-            sign = "+" if value > 0.0 else "−"
-            axes.annotate(sign, (x, y), ha="center", va="center", color="white", fontsize=9)
-    return _grid(axes, summary, "rank correlation", beyond=-0.4)
-
-
-def plot_indices(axes: Axes, summary: xr.Dataset) -> Axes:
-    """Sobol' indices of every quantity's logarithm: the area of a square is the total index, filled up to the first order.
-
-    On the right is the part of the variance that the polynomial behind the indices predicts.
-    """
-    for q, p, x, y, total in _squares(summary, "total_order"):
-        if total >= TOLD_INDEX:
-            axes.scatter(x, y, s=330.0 * total, marker="s", facecolor="none", edgecolor=BLUE, linewidth=0.8)
-            axes.scatter(x, y, s=330.0 * summary.first_order.values[q, p], marker="s", facecolor=BLUE, linewidth=0.0)
-    for q, known in enumerate(summary.explained.values):
-        if np.isfinite(known):
-            place = summary.sizes["parameter"] - 0.2, summary.sizes["quantity"] - 1 - q
+    values, rank = summary[name].values, name == "rank_correlation"
+    for q, p in np.argwhere(np.abs(np.nan_to_num(values)) >= (0.0 if rank else TOLD_INDEX)):
+        value, place = values[q, p], (p, values.shape[0] - 1 - q)
+        color = ORANGE if rank and value > 0.0 else BLUE
+        full = value * (summary.probability.values[q, p] < DRIVER_LEVEL) if rank else summary.first_order.values[q, p]
+        edge = {"marker": "s", "edgecolor": color, "linewidth": 0.8}
+        axes.scatter(*place, s=330.0 * abs(value), facecolor="none", **edge)
+        axes.scatter(*place, s=330.0 * abs(full), facecolor=color, marker="s", linewidth=0.0)
+        if rank and full:
+            axes.annotate("+" if value > 0.0 else "−", place, ha="center", va="center", color="white", fontsize=9)
+    if not rank:
+        for q, known in enumerate(summary.explained.values):
+            place = values.shape[1] - 0.2, values.shape[0] - 1 - q
             axes.annotate(f"{known:.2f}", place, va="center", fontsize=8)
-    return _grid(axes, summary, "Sobol' index, and part predicted", beyond=1.6)
-
-
-def _grid(axes: Axes, summary: xr.Dataset, title: str, *, beyond: float) -> Axes:
-    """Axes of one square for every quantity and varied value, as far as `beyond` squares past the last value."""
     names = summary.parameter.values.tolist()
     axes.set_xticks(np.arange(len(names)), names, rotation=60, ha="right", rotation_mode="anchor")
     axes.set_yticks([])
-    axes.set_xlim(-0.6, len(names) + beyond)
+    axes.set_xlim(-0.6, len(names) + (-0.4 if rank else 1.6))
     axes.set_ylim(-0.6, summary.sizes["quantity"] - 0.4)
-    return finish(axes, "varied value", "", title)
+    return finish(axes, "varied value", "", "rank correlation" if rank else "Sobol' index, and part predicted")
 
 
 def uncertainty_figure(summary: xr.Dataset) -> Figure:
     """Ranges of the results on the left, then what drives them: rank correlations and Sobol' indices."""
     figure, axes = new_figure(16.0, 7.2, 1, 3)
     plot_ranges(axes[0], summary)
-    plot_correlations(axes[1], summary)
-    plot_indices(axes[2], summary)
+    plot_squares(axes[1], summary, "rank_correlation")
+    plot_squares(axes[2], summary, "total_order")
     axes[0].set_ylim(axes[1].get_ylim())
-    return figure
-
-
-def single_figure(plot: Callable[[Axes], object], width: float = 4.8, height: float = 3.4) -> Figure:
-    """A figure of one plot with its legend above."""
-    figure, axes = new_figure(width, height)
-    plot(axes[0])
-    legend_above(figure, axes[0])
     return figure

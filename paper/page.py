@@ -18,7 +18,6 @@ from macroslip.machine import machine
 from macroslip.report.bibliography import bibtex
 from macroslip.torque import TorqueHistory
 from paper import figures
-from paper.studies import LEVELS
 from paper.uncertainty import DRIVER_LEVEL, drivers, robust, strongest
 from paper.values import VALUES
 from paper.verdicts import AGREES, DIFFERS, PARTLY, Statement, by_wind_speed, number
@@ -74,7 +73,7 @@ def page(
         parts={name: _parts(run.parts) for name, run in runs.items() if run.parts is not None},
         uncertainty={name: _uncertainty(one) for name, one in of_uncertainty.items()},
         trends={
-            name: zip(robust(one), one.trend_share.values, one.trend_base.values)
+            name: list(zip(robust(one), one.trend_share.values, one.trend_base.values, strict=True))
             for name, one in of_uncertainty.items()
         },
         values=VALUES,
@@ -85,7 +84,6 @@ def page(
             for name, one in torques.items()
         },
         torque_window=figures.TORQUE_WINDOW,
-        sensitivity={name: _sensitivity(run.sensitivity) for name, run in runs.items()},
         failed={place: count for place, count in summary["failed_rollers"].items() if isinstance(count, int)},
         summary=summary,
         provenance=_provenance({name: run.study for name, run in runs.items()}),
@@ -138,27 +136,6 @@ def _uncertainty(summary: xr.Dataset) -> dict[str, Any]:
             }
         )
     return {"rows": rows, "cases": summary.case.values.tolist(), **summary.attrs}
-
-
-def _sensitivity(table: xr.Dataset) -> dict[str, Any]:
-    rows = []
-    for k, name in enumerate(table.variation.values.tolist()):
-        one = table.isel(variation=k)
-        base = float(one.value.sel(level="base"))
-        for level in LEVELS:
-            at = one.sel(level=level)
-            if level == "base" or float(at.value) != base:
-                cells = [float(at[what].sel(row=row)) for what in ("energy", "peak_power") for row in table.row.values]
-                unit = "" if str(one.unit.values) == "1" else f" {one.unit.values}"
-                rows.append((name, f"{float(at.value):g}{unit}", cells))
-    names = table.variation.values.tolist()
-    notes = [f"{name}: {note}" for name, note in zip(names, table.note.values.tolist(), strict=True) if note]
-    refused = [
-        f"{name}, refused and replaced by the next value towards the base case: {text}"
-        for name, text in zip(names, table.refused.values.tolist(), strict=True)
-        if text
-    ]
-    return {"rows": rows, "notes": notes + refused, "sides": table.row.values.tolist()}
 
 
 def _provenance(studies: Mapping[str, xr.Dataset]) -> dict[str, Any]:

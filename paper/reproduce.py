@@ -17,21 +17,19 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import macroslip
-from macroslip import Case, HubLoads
 from macroslip.files import published_together
 from macroslip.report.style import save
 from macroslip.result.stored import to_netcdf
 from macroslip.study.reader import stored_results
+from macroslip.study.study_file import study_of
 from macroslip.torque import TorqueHistory, computed_torque, torque_histories
 from paper import figures as draw
+from paper import studies
 from paper.experiments import STATIC_LOADS, experiments, turns, varying_load
 from paper.page import page
-from paper.studies import (
-    DETAILED_CASE, MODELS, PAPER, base_case, compute, content, dissipation, paper_numbers, paper_study, sensitivity,
-    study_of,
-)  # fmt: skip
+from paper.studies import DETAILED_CASE, MODELS, PAPER
 from paper.uncertainty import uncertainty, uncertainty_summary
-from paper.verdicts import Statement, number, statements
+from paper.verdicts import Statement, statements
 
 SUMMARY, REPORT, STUDIES = "summary.json", "report.html", "studies"
 #: What is computed under each model, in its order, and what it takes of the time under `paper` and others, in proportion.
@@ -45,30 +43,14 @@ STAGES = {
 Report = Callable[[str, int, int], None]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelRun:
-    """What was computed under one model.
-
-    Parameters
-    ----------
-    study, numbers : xarray.Dataset
-        From `paper_study` and `paper_numbers`.
-    turns : dict
-        Traced turns by figure ("static", "typical", "peak") and title.
-    detail_status : ndarray
-        How the rollers of the detailed case ended.
-    torque : xarray.Dataset
-        From `computed_torque`: the detailed case.
-    sensitivity : xarray.Dataset
-        From `sensitivity`.
-    parts, uncertainty : xarray.Dataset or None
-        From `dissipation` and `uncertainty_summary`; None under the paper's model.
-    """
+    """What was computed under one model; `parts` and `uncertainty` only of contacts with microslip."""
 
     study: xr.Dataset
     numbers: xr.Dataset
     turns: dict[str, dict[str, xr.Dataset]]
-    detail_status: np.ndarray
+    detail_failed: int
     torque: xr.Dataset
     sensitivity: xr.Dataset
     parts: xr.Dataset | None = None
@@ -80,7 +62,7 @@ class ModelRun:
         return {
             "study": int((self.study.status != 0).sum()),
             "single_rollers": sum(turn.status != 0 for group in self.turns.values() for turn in group.values()),
-            "detailed_case": int((self.detail_status != 0).sum()),
+            "detailed_case": self.detail_failed,
             "sensitivity": int(self.sensitivity.failed.sum()),
             "uncertainty": self.uncertainty.attrs["failed"] if self.uncertainty is not None else 0,
         }
@@ -110,40 +92,38 @@ def stages() -> dict[str, float]:
 
 def compute_model(name: str, directory: Path, threads: int | None, report: Report, reused: list[str]) -> ModelRun:
     """Compute one model; studies go on from what is there of them, and `reused` takes the names of those that were whole."""
-    laws = MODELS[name]
+    laws, found = MODELS[name], {}
 
     def results(prefix: str, stage: str, *, may_fail: bool = False) -> Path:
-        study, folder = study_of(content(prefix, name)), directory / f"{prefix}_{name}"
+        study, folder = study_of(studies.content(prefix, name)), directory / f"{prefix}_{name}"
         progress = partial(report, f"{stage} ({name})")
-        if not compute(study, folder, may_fail=may_fail, threads=threads, progress=progress):
+        if not studies.compute(study, folder, may_fail=may_fail, threads=threads, progress=progress):
             reused.append(folder.name)
         return folder
 
-    study = paper_study(results("study", "study"))
+    study = studies.paper_study(results("study", "study"))
     _, detail = next(stored_results(results("detail", "one case in detail")))
-    torque = computed_torque(detail)
     traced = turns(detail, laws, threads, partial(report, f"single rollers ({name})"))
     varied = results("sensitivity", "sensitivity", may_fail=True)
+    if laws.microslip:
+        sample = uncertainty(results("uncertainty", "uncertainty", may_fail=True))
+        found = {"parts": studies.dissipation(study), "uncertainty": uncertainty_summary(sample)}
     return ModelRun(
         study=study,
-        numbers=paper_numbers(study),
+        numbers=studies.paper_numbers(study),
         turns=traced,
-        detail_status=detail.status.values,
-        torque=torque,
-        sensitivity=sensitivity(varied, base_case(study_of(content("sensitivity", name)))),
-        parts=dissipation(study) if laws.microslip else None,
-        uncertainty=uncertainty_summary(uncertainty(results("uncertainty", "uncertainty", may_fail=True)))
-        if laws.microslip
-        else None,
+        detail_failed=int((detail.status != 0).sum()),
+        torque=computed_torque(detail),
+        sensitivity=studies.sensitivity(varied, name),
+        **found,
     )
 
 
 def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
     """Friction torque of the bearing in the detailed case under every model, and by handbooks."""
-    case = Case(loads=HubLoads.bundled(DETAILED_CASE))
-    return torque_histories(
-        {name: run.torque for name, run in runs.items()}, varying_load(), case.bearing, case.lubricant
-    )
+    case = macroslip.Case(loads=macroslip.HubLoads.bundled(DETAILED_CASE))
+    computed = {name: run.torque for name, run in runs.items()}
+    return torque_histories(computed, varying_load(), case.bearing, case.lubricant)
 
 
 def over_static(run: ModelRun) -> dict[str, dict[str, float]]:
@@ -175,9 +155,7 @@ def all_figures(
             "figure_3a": partial(draw.turns_figure, static),
             "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
             "figure_3b_peak": partial(draw.turns_figure, run.turns["peak"]),
-            "varying_over_static": partial(
-                draw.single_figure, partial(draw.plot_varying_over_static, ratios=over_static(run))
-            ),
+            "varying_over_static": partial(draw.varying_over_static_figure, over_static(run)),
             "figure_4a": partial(draw.energy_figure, run.numbers),
             "figure_4b": partial(draw.ratio_figure, run.numbers, "energy_ratio"),
             "figure_5a": partial(draw.peak_power_figure, run.numbers),
@@ -201,35 +179,29 @@ def failed_integrations(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Data
     return {place: sum(count[place] for count in counts) for place in counts[0]} | {"experiments": beside}
 
 
-def headline(
-    judged: Mapping[str, Mapping[str, Statement]], failed: Mapping[str, int], total: int, made: Mapping[str, xr.Dataset]
-) -> list[str]:
-    """What failed, each statement with what every model gives, and what the numerical method does, a line each."""
+def headline(judged: Mapping[str, Mapping[str, Statement]], failed: Mapping[str, int], total: int) -> list[str]:
+    """What failed, and each statement with what every model gives, a line each."""
     counts = ", ".join(f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count)
-    prefix = f"FAILED INTEGRATIONS: {counts}" if counts else "No integration failed, explicit Euler in A1 apart"
-    tolerances = made["nonlinear_tolerance"].sel(row="downwind").sortby("stopping_tolerance")
-    stopped = ", ".join(
-        f"{number(ratio)} at {tolerance:.0e}"
-        for ratio, tolerance in zip(tolerances.ratio.values, tolerances.stopping_tolerance.values, strict=True)
-    )
-    steps = made["step_size"].sel(row="upwind").sortby("step")
-    peaks = ", ".join(
-        f"{number(peak)} W at {1e3 * step:g} ms"
-        for peak, step in zip(steps.mean_peak_power.values, steps.step.values, strict=True)
-    )
+    lines = [
+        f"{f'FAILED INTEGRATIONS: {counts}' if counts else 'No integration failed'} (the study has {total} rollers)."
+    ]
+    for subject, first in next(iter(judged.values())).items():
+        found = "; ".join(f"{model}: {one[subject].verdict} ({one[subject].found})" for model, one in judged.items())
+        lines.append(f"Paper: {first.paper}. {found}.")
+    return lines
+
+
+def told(judged: Mapping[str, Mapping[str, Statement]]) -> list[dict[str, Any]]:
+    """Statements as plain data: what the paper states, each with what every model gives."""
     return [
-        f"{prefix} (the study has {total} rollers).",
-        *(
-            f"Paper: {stated}. "
-            + "; ".join(
-                f"{model}: {found[subject].verdict} ({found[subject].found})" for model, found in judged.items()
-            )
-            + "."
-            for subject, stated in ((key, one.paper) for key, one in next(iter(judged.values())).items())
-        ),
-        f"Backward Euler, energy downwind over the static one, by the change of spin at which the iteration stops: {stopped}; "
-        f"converged {number(float(tolerances.ratio_converged))}. Mean peak power upwind by step: {peaks}; converged "
-        f"{number(float(steps.mean_peak_power_converged))} W. How the paper's authors solved the equations is not known.",
+        {
+            "paper": first.paper,
+            "models": {
+                model: {name: getattr(one[subject], name) for name in ("verdict", "found", "because", "numbers")}
+                for model, one in judged.items()
+            },
+        }
+        for subject, first in next(iter(judged.values())).items()
     ]
 
 
@@ -241,13 +213,15 @@ def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dic
             name: {title: turn.to_dict(data="list") for title, turn in run.turns[group].items()}
             for name, group in (("3a", "static"), ("3b", "typical"), ("3b_peak", "peak"))
         }
-        energy = [f"energy{part}_normalised" for part in ("", "_min", "_max")]
-        for name, variables in {
-            "4a": [*energy, "both_rows_normalised", "energy", "energy_std", "energy_by_interface", "both_rows"],
-            "4b": ["energy_ratio"],
-            "5a": ["peak_power_mean_normalised", "peak_power_std_normalised", "peak_power_mean", "peak_power_std"],
-            "5b": ["peak_power_ratio"],
-        }.items():
+        for name, shown in (
+            ("4a", "energy|both_rows"),
+            ("4b", "energy_ratio$"),
+            ("5a", "peak_power_(mean|std)"),
+            ("5b", "peak_power_ratio$"),
+        ):
+            variables = [
+                one for one in run.numbers if re.match(shown, str(one)) and (name != "4a" or one != "energy_ratio")
+            ]
             of_run[name] = run.numbers[variables].to_dict(data="list")
         of_run["varying_over_static"] = over_static(run)
         torque = run.torque.mean("time", keep_attrs=True)
@@ -277,29 +251,24 @@ def as_json(summary: dict[str, Any]) -> str:
 
 CONVENTIONS = (
     "The window opens when the rollers have completed one orbit and ends with the loads.",
-    "Energy of a row: mean over its rollers of E_in + E_out + E_cage; bars show the smallest and the largest roller.",
-    "P_max: largest power at any interface in an orbit; mean and (population) standard deviation over all (roller, "
-    "orbit) samples of a row.",
+    "Energy of a row: mean over its rollers of E_in + E_out + E_cage.",
+    "P_max: largest power at any interface in an orbit; mean and population standard deviation over all (roller, orbit) "
+    "samples of a row.",
     "Each row is normalised by its own value in the reference case (energy 12C, P_max 14A).",
     "Static loads: means over the samples of case 14B, (0, F_Y0, 0) and (0, F_Y0, F_Z0), at the mean speed.",
-    "Angles of a turn count from the bottom along the orbit; the top is at 180 degrees.",
-    "Figure 3a: the ninth turn of roller 0 of the downwind row.",
-    "Figure 3b: the turn of roller 0 of each row whose energy is nearest the median over the row's rollers and orbits.",
-    "Figure 3b_peak: the turn with the row's largest P_max.",
-    "Sensitivity: case 14B, one value at a time, window and orbits as in the study.",
-    "Model physical: rollers 0, 4, ... 24 of each row in the sensitivity, and its window ends at 200 s. Against all 28, over "
-    "the 21 cases of the study, these rollers move a row's energy by at most 0.2 %, and its mean P_max by 1.4 % downwind "
-    "and 8 % upwind.",
+    "Figure 3a: the ninth turn of roller 0 of the downwind row; 3b: the turn of roller 0 of each row whose energy is nearest "
+    "the median over the row's rollers and orbits; 3b_peak: the turn with the row's largest P_max.",
+    "Sensitivity: case 14B, one value at a time. Model physical: rollers 0, 4, ... 24 of each row, to 200 s. Against all 28, "
+    "over the 21 cases of the study, these move a row's energy by at most 0.2 %, its mean P_max by 1.4 % downwind and 8 % "
+    "upwind.",
     "Uncertainty: 128 scrambled Sobol samples over 23 estimated values, the law of shear among them, cases 12B and 24B, "
-    "roller 0 of each row, window to 100 s. Ranges are quantiles 5 to 95 %; a driver has a rank correlation at p < 0.001. "
-    "Sobol' indices are those of a sparse polynomial of second degree fitted to the logarithm of a result; a statement is "
-    "robust if every sample shows it.",
+    "roller 0 of each row, to 100 s. Ranges are quantiles 5 to 95 %; a driver has a rank correlation at p < 0.001; Sobol' "
+    "indices are those of a sparse polynomial of second degree fitted to the logarithm of a result.",
     "Friction torque: dissipated power, rolling resistance and drag over shaft speed, all rollers in case 14B.",
-    "Verdicts: agrees where every number with a stated value has it, differs where none has; 'about' allows a factor of 2.",
-    "Verdicts: a trend is a rank correlation with wind speed at p < 0.05; high variance is a median standard deviation of at "
-    "least half the mean.",
-    "Verdicts: at the top is within 15 degrees of it; a snap is a return to 99 % of pure rolling in 2 % of an orbit.",
-    "Verdicts: the cage dominates where it takes at least half of the energy in every case.",
+    "Verdicts: agrees where every number with a stated value has it, differs where none has; 'about' allows a factor of 2; a "
+    "trend is a rank correlation with wind speed at p < 0.05; high variance is a median standard deviation of at least half "
+    "the mean; at the top is within 15 degrees of it; a snap is a return to 99 % of pure rolling in 2 % of an orbit; the "
+    "cage dominates where it takes at least half of the energy in every case.",
 )
 
 
@@ -322,9 +291,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
     Returns
     -------
     dict
-        What `summary.json` holds: `headline`, `statements`, `failed_rollers`, `conventions`, `figures` with every
-        plotted number and its units, `seconds` by stage, and the studies whose results were there and are `reused`.
-        NaN is None.
+        What `summary.json` holds. NaN is None.
 
     Raises
     ------
@@ -344,9 +311,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
     directory = Path(directory)
     reused: list[str] = []
     with published_together(directory, SUMMARY) as folder:
-        runs, made = {}, {}
-        for name in MODELS:
-            runs[name] = compute_model(name, directory / STUDIES, threads, report, reused)
+        runs = {name: compute_model(name, directory / STUDIES, threads, report, reused) for name in MODELS}
         _, detail = next(stored_results(directory / STUDIES / f"detail_{PAPER}"))
         made = experiments(detail, threads, partial(report, "experiments"))
         judged = {
@@ -357,34 +322,15 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
             # In memory first: the HDF5 library may bring the whole process down when the disk is full.
             (folder / f"{of_model('study', name)}.nc").write_bytes(to_netcdf(run.study))
         failed, total = failed_integrations(runs, made), sum(run.study.status.size for run in runs.values())
-        by_case = {
-            of_model(str(case), name): int(count)
-            for name, run in runs.items()
-            for case, count in zip(
-                run.study.case.values, (run.study.status != 0).sum(("row", "roller")).values, strict=True
-            )
-            if count
-        }
-        told = [
-            {
-                "paper": one.paper,
-                "models": {
-                    model: {
-                        "verdict": found[subject].verdict,
-                        "found": found[subject].found,
-                        "because": found[subject].because,
-                        "numbers": {row.key: row.value for row in found[subject].rows},
-                    }
-                    for model, found in judged.items()
-                },
-            }
-            for subject, one in next(iter(judged.values())).items()
-        ]
+        by_case = {}
+        for name, run in runs.items():
+            counts = (run.study.status != 0).sum(("row", "roller"))
+            by_case |= {of_model(str(one.case.item()), name): int(one) for one in counts if one}
         summary = plain(
             {
                 "program": f"macroslip {macroslip.__version__}",
-                "headline": headline(judged, failed, total, made),
-                "statements": told,
+                "headline": headline(judged, failed, total),
+                "statements": told(judged),
                 "failed_rollers": failed | {"study_by_case": by_case, "study_total": total},
                 "conventions": CONVENTIONS,
                 "seconds": seconds,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +13,12 @@ import xarray as xr
 
 from macroslip import Case, HubLoads, InputError, Laws, MacroslipError, open_study, run_study
 from macroslip.result.row_loads import row_loads
-from macroslip.study.build import template
 from macroslip.study.outcome import Outcome
 from macroslip.study.reader import stored_results
 from macroslip.study.study import Study
-from macroslip.study.study_file import study_of
 from paper.values import sample_points
 
-#: Mechanisms of the models by name.
+#: Mechanisms by model.
 MODELS: Mapping[str, Laws] = {"paper": Laws.paper(), "physical": Laws.physical()}
 #: The model of the paper, under which the numerical experiments are computed.
 PAPER = "paper"
@@ -30,29 +27,19 @@ DETAILED_CASE = "14B"
 #: Cases to which the paper refers energy (figure 4) and peak power (figure 5).
 ENERGY_REFERENCE, PEAK_REFERENCE = "12C", "14A"
 
-
-def _osculation(value: float) -> dict[str, float]:
-    return {"bearing.osculation_inner": value, "bearing.osculation_outer": value}
-
-
-#: Points of the sensitivity, one value at a time; the first is the base case. Where a value is refused, the one before
-#: it is the limit.
-_POINTS: tuple[Mapping[str, Any], ...] = (
+#: Points of the sensitivity, one value at a time; the first is the base case.
+_POINTS: tuple[dict[str, Any], ...] = (
     {},
     {"bearing.diametral_clearance": "0 mm"},
     {"bearing.diametral_clearance": "0.4 mm"},
-    _osculation(0.97),
-    _osculation(0.99),
+    *({"bearing.osculation_inner": one, "bearing.osculation_outer": one} for one in (0.97, 0.985, 0.99)),
     {"lubricant.at": "20 degC"},
     {"lubricant.at": "60 degC"},
     {"drivetrain.bearing_to_gearbox": "1.8 m"},
     {"drivetrain.bearing_to_gearbox": "2.6 m"},
 )
-_OWN_POINTS: Mapping[str, tuple[Mapping[str, Any], ...]] = {
-    "paper": (
-        _osculation(0.985),
-        {"lubricant.starvation": 0.7, "laws.starvation": True},
-    ),
+_OWN_POINTS: Mapping[str, tuple[dict[str, Any], ...]] = {
+    "paper": ({"lubricant.starvation": 0.7, "laws.starvation": True},),
     "physical": (
         {"lubricant.starvation": 1},
         {"lubricant.eyring_stress": "3.3 MPa"},
@@ -85,7 +72,7 @@ def content(stage: str, model: str) -> dict[str, Any]:
             "case": case | ({} if model == PAPER else _PART),
             "loads": {"bundled": DETAILED_CASE},
             "keep": ["energy"],
-            "variations": {"list": [*map(dict, _POINTS + _OWN_POINTS[model])]},
+            "variations": {"list": [*_POINTS, *_OWN_POINTS[model]]},
         }
     return {
         "title": "Study under values drawn from their ranges",
@@ -94,13 +81,6 @@ def content(stage: str, model: str) -> dict[str, Any]:
         "keep": ["energy"],
         "variations": {"list": sample_points()},
     }
-
-
-def base_case(study: Study) -> Case:
-    """The base case of a study, under its first load history."""
-    records = {"bearing": next(iter(study.bearings.values())), "lubricant": next(iter(study.lubricants.values()))}
-    case, cut = template(study.case, [], records)
-    return replace(case, loads=HubLoads.bundled(study.loads.loads[0].name).window(cut.get("start"), cut.get("end")))
 
 
 def compute(
@@ -113,10 +93,7 @@ def compute(
 ) -> bool:
     """Compute what is missing of a study in a folder; tell whether there was anything.
 
-    Raises
-    ------
-    MacroslipError
-        If a run failed, unless it may because its refusal is a result.
+    A run that fails is an error, unless it may because its refusal is a result.
     """
     ended = run_study(
         study, directory, threads=threads, resume=True, progress=lambda now: progress(now.done, now.total)
@@ -158,21 +135,8 @@ def put(into: xr.Dataset, name: str, values: Any, units: str, long_name: str) ->
 def paper_study(directory: Path) -> xr.Dataset:
     """The table of a study of bundled load cases with the default bearing.
 
-    Parameters
-    ----------
-    directory : Path
-        Folder of the results of a study.
-
-    Returns
-    -------
-    xarray.Dataset
-        Dimensions case, row, roller, interface. Energies per roller [J], statistics of P_max [W] over (roller, orbit)
-        samples, extremes over the window, mean loads [N]. Values of a failed roller, and every mean it enters, are NaN.
-
-    Raises
-    ------
-    InputError
-        For a window without a complete orbit.
+    Energies per roller [J], statistics of P_max [W] over (roller, orbit) samples, extremes over the window and mean loads
+    [N], over case, row, roller and interface. Values of a failed roller, and every mean it enters, are NaN.
     """
     opened = open_study(directory)
     parts, inputs, attributes = [], [], {}
@@ -231,18 +195,7 @@ def paper_numbers(study: xr.Dataset) -> xr.Dataset:
     P_max is the largest power (33) at any interface in an orbit; mean and standard deviation (of the whole population)
     are over all (roller, orbit) samples of a row. A row is normalised by its own value in the reference case. NaN
     wherever a roller failed.
-
-    Raises
-    ------
-    InputError
-        If the study lacks a reference case.
     """
-    missing = {ENERGY_REFERENCE, PEAK_REFERENCE} - set(study.case.values.tolist())
-    if missing:
-        raise InputError(
-            f"the study lacks {', '.join(sorted(missing))}",
-            allowed=f"a study with the reference cases {ENERGY_REFERENCE} and {PEAK_REFERENCE}",
-        )
     numbers = study[["peak_power_mean", "peak_power_std", "peak_power_max", "orbit_energy"]].drop_vars(
         ["roller", "interface", "start_angle"], errors="ignore"
     )
@@ -332,92 +285,30 @@ def _exponent(load: np.ndarray, energy: np.ndarray) -> float:
 # --- One value at a time -------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Variation:
-    """A value that is varied: its name, the key of the study that sets it, its unit and its value in the base case."""
-
-    name: str
-    key: str
-    unit: str
-    base: Callable[[Case], float]
-    note: str = ""
-
-
-VARIATIONS = (
-    Variation(
-        "diametral clearance", "bearing.diametral_clearance", "mm", lambda case: 1e3 * case.bearing.diametral_clearance
-    ),
-    Variation(
-        "osculation", "bearing.osculation_outer", "1", lambda case: case.bearing.osculation_outer,
-        "at both raceways; the cage pocket conforms with it",
-    ),
-    Variation(
-        "inlet temperature", "lubricant.at", "°C", lambda case: case.lubricant.inlet_temperature - 273.15,
-        "viscosity, its coefficients, density and Eyring stress follow",
-    ),
-    Variation(
-        "bearing to gearbox", "drivetrain.bearing_to_gearbox", "m", lambda case: case.drivetrain.bearing_to_gearbox,
-        "distance between the supports of the shaft, which turns hub loads into the load on the bearing",
-    ),
-    Variation(
-        "film factor", "lubricant.starvation", "1",
-        lambda case: case.lubricant.starvation if case.laws.starvation else 1.0,
-        "film thickness over that of the law, at every interface; 0.7 is reported for a starved bearing",
-    ),
-    Variation(
-        "Eyring stress", "lubricant.eyring_stress", "MPa",
-        lambda case: 1e-6 * (case.lubricant.eyring_stress or float("nan")),
-        "stress at which the film thins under shear; reported for PAO near 1 GPa",
-    ),
-)  # fmt: skip
-LEVELS = ("low", "base", "high")
-
-
-def sensitivity(directory: Path, case: Case) -> xr.Dataset:
-    """Energy and peak power with each value low and high, all others as in the base case.
-
-    Parameters
-    ----------
-    directory : Path
-        Folder of the results of a study whose first run is the base case, and whose others vary one value each.
-    case : Case
-        The base case.
+def sensitivity(directory: Path, model: str) -> xr.Dataset:
+    """Energy and peak power with one value changed, over the same in the base case, from the study's folder.
 
     Returns
     -------
     xarray.Dataset
-        Over (variation, level): value, in the unit of the coordinate `unit`; over (variation, level, row):
-        energy [J] in the window, mean over the rollers; peak_power [W], mean over rollers and orbits of the largest
-        power at any interface per orbit; failed, the number of failed rollers. Low and high are the lowest and the
-        highest value that the model does not refuse, because a contact ellipse would reach past the roller's ends, for
-        example; `refused` over variation has the refused values with the reason. Where the study has no value on a
-        side, it is the base value.
+        Over (point, row): energy [1], mean over the rollers; peak_power [1], mean over rollers and orbits of the largest
+        power at any interface per orbit; failed, the number of failed rollers. `reason` over point says why a value is
+        refused, because a contact ellipse would reach past the roller's ends, for example; its numbers are NaN.
     """
     study = open_study(directory)
-    used = [one for one in VARIATIONS if one.key in study.coords]
-    stored = np.array([Outcome(outcome).stored for outcome in study.outcome.values])
-    runs, values, refused = [], [], []
-    for one in used:
-        tried = study[one.key].values
-        known = {float(tried[k]): k for k in np.flatnonzero(stored & np.isfinite(tried))} | {one.base(case): 0}
-        values.append((min(known), one.base(case), max(known)))
-        runs.append([known[value] for value in values[-1]])
-        wrong = np.flatnonzero(~stored & np.isfinite(tried))
-        refused.append(" ".join(f"{tried[k]:g} {one.unit}: {study.reason.values[k]}" for k in wrong))
-    chosen, of_level = np.array(runs), ("variation", "level")
-    table = xr.Dataset(
-        coords={"row": study.row.values, "level": list(LEVELS), "variation": [one.name for one in used]},
-        attrs={"title": f"Sensitivity under {case.loads.source}", "source_load": case.loads.source},
-    )
-    for name, source, units, words in (
-        ("energy", "energy_mean", "J", "energy in the window, mean over the rollers of the row"),
-        ("peak_power", "peak_power_mean", "W", "mean over rollers and orbits of P_max per orbit"),
-        ("failed", "failed_rollers", "1", "failed rollers"),
-    ):
-        put(table, name, ((*of_level, "row"), study[source].values[chosen]), units, words)
-    put(table, "value", (of_level, np.array(values, dtype=float)), "1", "varied value, in the unit of its variation")
-    return table.assign_coords(
-        unit=("variation", [one.unit for one in used]),
-        note=("variation", [one.note for one in used]),
-        refused=("variation", refused),
-    )
+    points = content("sensitivity", model)["variations"]["list"][1 : study.sizes["case"]]
+    table = xr.Dataset(coords={"row": study.row.values, "point": [_told(point) for point in points]})
+    for name, source in (("energy", "energy_mean"), ("peak_power", "peak_power_mean")):
+        ratio = study[source].values[1:] / study[source].values[0]
+        put(table, name, (("point", "row"), ratio), "1", f"{study[source].long_name}, over the base case")
+    failed = np.nan_to_num(study.failed_rollers.values[1:]).astype(int)
+    put(table, "failed", (("point", "row"), failed), "1", "failed rollers")
+    return table.assign_coords(reason=("point", study.reason.values[1:].astype(str)))
+
+
+def _told(point: Mapping[str, Any]) -> str:
+    """The value that is changed, in words: the last key, of both osculations one."""
+    key, value = list(point.items())[-1] if "laws.starvation" not in point else next(iter(point.items()))
+    name = {"at": "oil temperature", "starvation": "film factor", "osculation_outer": "osculation"}
+    word = key.partition(".")[2]
+    return f"{name.get(word, word.replace('_', ' '))} {str(value).replace('degC', '°C')}"

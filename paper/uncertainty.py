@@ -29,23 +29,15 @@ TOLD_INDEX = 0.05
 
 
 def uncertainty(directory: Path) -> xr.Dataset:
-    """The results of a study that runs a sample of values under several loads, after the base values.
-
-    Parameters
-    ----------
-    directory : Path
-        Folder of its results. The first point of the study has the base values.
+    """The results of a study that runs a sample of values under several loads; its first point has the base values.
 
     Returns
     -------
     xarray.Dataset
-        Over (sample, case, row, interface): orbit_energy [J] per orbit, mean over rollers and orbits; over (sample,
-        case, row): peak_power [W], mean over rollers and orbits of the largest power at any interface per orbit; over
-        (sample, case): window_energy [J], both rows; torque [N m], sliding torque of both rows' contacts, mean over the
-        turns of the shaft; and friction_power [W] of the whole bearing with rolling and drag. Over (sample, parameter):
-        value, in the unit of the coordinate `unit`, of a choice its number; NaN for the base values. outcome over
-        (sample): position in `OUTCOMES`; what did not complete is NaN, and `reason` gives the cause. Sample 0 are the
-        base values, which are no part of the statistics.
+        Over (sample, case, row, interface): orbit_energy [J]; over (sample, case, row): peak_power [W]; over (sample, case):
+        window_energy [J], torque [N m] and friction_power [W]; over (sample, parameter): value, in the coordinate `unit`, of
+        a choice its number; over (sample): outcome, the position in `OUTCOMES`, and its reason. What did not complete is NaN.
+        Sample 0 are the base values, which are no part of the statistics.
     """
     study = open_study(directory)
     names = list(dict.fromkeys(study.loads.values.tolist()))
@@ -107,14 +99,9 @@ _MOST_TERMS = 0.25
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Polynomial:
-    """A sum of products of Legendre polynomials of places from 0 to 1.
+    """A sum of products of Legendre polynomials of places from 0 to 1; the first term is the constant.
 
-    Parameters
-    ----------
-    degrees : ndarray of int, shape (terms, values)
-        Degree in every value; the first term is the constant.
-    coefficients : ndarray, shape (terms,)
-        Each term has the variance 1 over evenly likely places, the constant none.
+    `degrees` over (term, value); `coefficients` of terms that have the variance 1 over evenly likely places.
     """
 
     degrees: NDArray[np.int64]
@@ -140,12 +127,6 @@ def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
 
     Terms are taken up one by one, each the one that most lowers what is left; the number of terms is that at which leaving
     one sample out is predicted best.
-
-    Parameters
-    ----------
-    places : ndarray, shape (samples, values)
-        From 0 to 1.
-    values : ndarray, shape (samples,)
 
     References
     ----------
@@ -283,12 +264,10 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        base [unit of the quantity] over quantity; range over (quantity, quantile); over (quantity, parameter):
-        rank_correlation and probability [1] (Spearman), first_order and total_order [1], Sobol' indices of the quantity's
-        logarithm; explained [1] over quantity, the part of its variance that the polynomial behind them predicts of
-        samples it has not seen. trend_share [1] over trend: how many of the completed samples show it, and trend_base
-        whether the base values do. Attributes: completed, failed, refused: numbers of samples. `case` has the load cases
-        of the samples.
+        base over quantity; range over (quantity, quantile); rank_correlation, its probability, first_order and total_order
+        (Sobol' indices of the logarithm) over (quantity, parameter); explained over quantity, the part of the variance that
+        the polynomial behind the indices predicts; trend_share and trend_base over trend: how many samples show it, and
+        whether the base values do. Attributes: how many samples completed, failed and were refused.
     """
     from scipy.stats import spearmanr
 

@@ -19,24 +19,8 @@ SEED, POINTS = 20261122, 128
 class UncertainValue:
     """A value of which only a range is known, evenly likely in it; or a choice between laws, each as likely.
 
-    Parameters
-    ----------
-    name : str
-        As in tables.
-    key : str
-        Key under which the study varies it.
-    unit : str
-        Of `low` and `high`, as in tables.
-    low, high : float
-        Ends of the range; 0 and 1 of a choice.
-    tag : str
-        Provenance of the base value: E estimate, R literature from memory, P paper, D derived, as in the catalogue; C a
-        choice.
-    reason : str
-        Where the range comes from.
-    kind : str
-        "even"; "log": the logarithm is evenly likely, for ranges over more than a factor of five; "count": a whole
-        number; "choice": one of `choices`.
+    `key` is the study's name for it; `unit` the unit of `low` and `high`; `tag` the provenance of the base value as in the
+    catalogue, C for a choice; `kind` "even", "log" (the logarithm is evenly likely), "count" (a whole number) or "choice".
 
     Examples
     --------

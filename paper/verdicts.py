@@ -31,19 +31,10 @@ SNAP = 0.02
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One number beside what the paper states of it.
+    """One number beside what the paper states of it, in words and as the values from `low` to `high` that count as stated.
 
-    Parameters
-    ----------
-    key, name : str
-        In data and in tables.
-    value : float
-        Infinite where there is no such thing, which no statement allows; NaN where an integration failed.
-    unit : str
-    stated : str
-        The paper's value in words; empty for a number that only explains.
-    low, high : float
-        The values that count as the stated one.
+    A number without `stated` only explains. The value is infinite where there is no such thing, which no statement allows,
+    and NaN where an integration failed.
     """
 
     key: str
@@ -80,17 +71,7 @@ def number(value: float) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """One statement of the paper, the numbers it is judged by, and why they may differ.
-
-    Parameters
-    ----------
-    paper : str
-        What the paper states.
-    rows : tuple of Row
-        None if it was not computed under this model.
-    reason : str
-        What explains a difference.
-    """
+    """A statement of the paper, its numbers (none if not computed under this model), and what explains a difference."""
 
     paper: str
     rows: tuple[Row, ...] = ()
@@ -119,6 +100,11 @@ class Statement:
         return AGREES if all(held) else (PARTLY if any(held) else DIFFERS)
 
     @property
+    def numbers(self) -> dict[str, float]:
+        """All numbers by key."""
+        return {row.key: row.value for row in self.rows}
+
+    @property
     def found(self) -> str:
         """The judged numbers in one line."""
         return "; ".join(row.told for row in self.judged) or NOT_COMPUTED
@@ -145,9 +131,9 @@ def by_wind_speed(values: xr.DataArray) -> xr.DataArray:
 
 
 def _change(values: xr.DataArray) -> float:
-    """How much the largest is above the smallest of the means over the turbulence classes [%]."""
+    """Largest over smallest of the means over the turbulence classes, less one."""
     mean = ends(by_wind_speed(values))
-    return 100.0 * (mean["highest"] / mean["lowest"] - 1.0)
+    return mean["highest"] / mean["lowest"] - 1.0
 
 
 def energy_over_wind_speed(numbers: xr.Dataset, study: xr.Dataset) -> tuple[Row, ...]:
@@ -160,12 +146,12 @@ def energy_over_wind_speed(numbers: xr.Dataset, study: xr.Dataset) -> tuple[Row,
     return (
         Row("highest_mps", "highest two: higher wind speed", float(max(order[:2])), "m/s", stated, *allowed),
         Row("second_mps", "highest two: lower wind speed", float(min(order[:2])), "m/s"),
-        Row("spread", "energy of both rows: change over wind speed", _change(numbers.both_rows_normalised), "%"),
+        Row("spread", "energy of both rows: change over wind speed", _change(numbers.both_rows_normalised)),
         *(
-            Row(f"per_orbit_{row}", f"energy per orbit {row}: change", _change(study.orbit_energy.sel(row=row)), "%")
+            Row(f"per_orbit_{row}", f"energy per orbit {row}: change", _change(study.orbit_energy.sel(row=row)))
             for row in study.row.values.tolist()
         ),
-        Row("orbits", "number of orbits: change", _change(study.orbits), "%"),
+        Row("orbits", "number of orbits: change", _change(study.orbits)),
     )
 
 
@@ -308,28 +294,18 @@ STATED = {
 #: What explains a difference, by model and subject.
 REASONS = {
     "paper": {
-        "energy": "the energy of one orbit hardly depends on wind speed; the number of orbits does, and is least where the "
-        "shaft turns slowest",
-        "rows": "a roller that is gripped all round spends nothing but the friction of its own weight at the cage, whatever "
-        "its load; no load adds to it",
-        "peaks": "the largest powers are those of unloaded upwind rollers that are gripped again, which wind and turbulence "
-        "make more frequent",
-        "peak ratio": "the largest powers are those of unloaded upwind rollers that are gripped again, which wind and "
-        "turbulence make more frequent; a fixed step does not resolve them",
-        "static": "force balance bounds the difference of a gripped roller's raceway forces by its weight, drag and inertia, "
-        "so its cage carries these and no more, however the load varies; an iteration on spin that stops early breaks that "
-        "balance",
+        "energy": "the energy of an orbit hardly changes; the number of orbits does, least where the shaft is slowest",
+        "rows": "a roller gripped all round spends only the friction of its own weight at the cage, whatever its load",
+        "peaks": "the largest powers are those of unloaded upwind rollers gripped again, more frequent in more wind",
+        "peak ratio": "the largest powers are those of unloaded upwind rollers gripped again; a fixed step misses them",
+        "static": "force balance bounds what a gripped roller's cage carries, however the load varies; an iteration on spin "
+        "that stops early breaks that balance",
     },
     "physical": {
-        "energy": "the downwind raceways dissipate by microslip, through the contact's curvature and the contact angle; "
-        "both grow with load, which falls with thrust over wind speed",
-        "rows": "thrust unloads the upwind row, whose rollers carry load for a small part of the time; the energy of an "
-        "unloaded roller depends on the oil around it, and on how much there is",
-        "peaks": "downwind the largest power of an orbit is microslip at the inner raceway under the largest load, not a snap",
-        "peak ratio": "the downwind row's power hardly changes, and the upwind row's rises because it is under load more "
-        "often",
-        "static": "power at the raceways follows the load of the moment, and the energy of an orbit its mean: the static "
-        "load gives less because it lacks thrust, not because it is constant",
+        "rows": "thrust unloads the upwind row; an unloaded roller's energy depends on how much oil is around it",
+        "peaks": "the largest power downwind is microslip at the inner raceway under the largest load, not a snap",
+        "peak ratio": "the upwind row's power rises because it is under load more often; the downwind row's hardly changes",
+        "static": "power at the raceways follows the load of the moment: the static load gives less where it lacks thrust",
         "cage": "the raceways take most of the energy, by microslip",
     },
 }
@@ -366,10 +342,9 @@ def statements(
     static: Mapping[str, xr.Dataset],
     experiments: Mapping[str, xr.Dataset],
 ) -> dict[str, Statement]:
-    """The paper's statements by subject, judged by what was computed under one model.
+    """The paper's statements by subject, judged by what was computed under one model, as far as it was.
 
-    `static` has the turns under static load by title; `experiments` what was computed under this model of "A1",
-    "nonlinear_tolerance" and "step_size".
+    `static` has the turns under static load by title, `experiments` the numerical ones.
     """
     rows = study.row.values.tolist()
     energies = {name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in rows} for name in STATIC_LOADS}
