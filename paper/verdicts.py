@@ -132,8 +132,8 @@ def by_wind_speed(values: xr.DataArray) -> xr.DataArray:
 
 def _change(values: xr.DataArray) -> float:
     """Largest over smallest of the means over the turbulence classes, less one."""
-    mean = ends(by_wind_speed(values))
-    return mean["highest"] / mean["lowest"] - 1.0
+    mean = by_wind_speed(values)
+    return float(mean.max(skipna=False) / mean.min(skipna=False) - 1.0)
 
 
 def energy_over_wind_speed(numbers: xr.Dataset, study: xr.Dataset) -> tuple[Row, ...]:

@@ -26,7 +26,6 @@ WORKERS = Need("--workers and --scheduler", ("dask", "distributed", "cryptograph
 COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
     {
         "macroslip report": (FIGURES,),
-        "macroslip reproduce": (FIGURES,),
         "macroslip loads inspect -o": (PICTURE,),
         "macroslip bearing draw": (PICTURE,),
         "macroslip study --workers": (WORKERS,),
