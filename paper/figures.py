@@ -383,7 +383,7 @@ def plot_squares(axes: Axes, summary: xr.Dataset, name: str) -> Axes:
     variance that the polynomial behind them predicts.
     """
     values, rank = summary[name].values, name == "rank_correlation"
-    for q, p in np.argwhere(np.abs(np.nan_to_num(values)) >= (0.0 if rank else TOLD_INDEX)):
+    for q, p in np.argwhere(np.abs(values) >= (0.0 if rank else TOLD_INDEX)):
         value, place = values[q, p], (p, values.shape[0] - 1 - q)
         color = ORANGE if rank and value > 0.0 else BLUE
         full = value * (summary.probability.values[q, p] < DRIVER_LEVEL) if rank else summary.first_order.values[q, p]
