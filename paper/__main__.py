@@ -8,7 +8,7 @@ from pathlib import Path
 
 from macroslip import MacroslipError
 from macroslip.cli.progress import command_progress
-from paper.reproduce import REPORT, SUMMARY, reproduce, stages
+from paper.reproduce import REPORT, SUMMARY, reproduce
 
 
 def main() -> int:
@@ -18,7 +18,7 @@ def main() -> int:
     parser.add_argument("--threads", type=int, help="threads; all processors if not given")
     given = parser.parse_args()
     try:
-        with command_progress(quiet=False, stages=stages()) as report:
+        with command_progress(quiet=False) as report:
             summary = reproduce(given.output, threads=given.threads, progress=report)
     except MacroslipError as error:
         print(f"error: {error}", file=sys.stderr)
@@ -29,7 +29,7 @@ def main() -> int:
         print(f"used again from the last run, whose inputs are the same: {', '.join(summary['reused'])}")
     print(f"written: {given.output}; the report: {given.output / REPORT}")
     failed = summary["failed_rollers"]
-    if any(failed[part] for part in ("study", "single_rollers", "detailed_case", "sensitivity")):
+    if any(failed[part] for part in ("study", "single_rollers", "detailed_case")):
         print(
             f"failed: some rollers did not reach the end; {given.output / SUMMARY} has their number.", file=sys.stderr
         )

@@ -58,9 +58,6 @@ def static_load(variable: BearingLoads, *, thrust: bool, duration: float) -> Bea
     return BearingLoads.constant([0.0, down, axial if thrust else 0.0], float(variable.shaft_speed.mean()), duration)
 
 
-# --- One roller over a turn ----------------------------------------------------------------------------------------
-
-
 def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: Laws = _PAPER) -> xr.Dataset:
     """Spin and cumulative frictional energy of one roller of a row over the turn from the bottom that holds a time [s].
 
@@ -99,15 +96,7 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
     angle = np.degrees(np.interp(seconds, loads.time, turned))
     angle -= 360.0 * np.round(angle[0] / 360.0)
     ratio = result.spin.values / result.spin_pure.values
-    turn = xr.Dataset(
-        coords={
-            "angle": (
-                "angle",
-                angle[::_FINE],
-                {"units": "degree", "long_name": "angle from the bottom along the orbit"},
-            )
-        }
-    )
+    turn = _over_angle(angle[::_FINE])
     for name, values, units, words in (
         ("spin_speed", np.abs(result.spin.values), "rad/s", "spin speed"),
         ("spin_speed_pure", np.abs(result.spin_pure.values), "rad/s", "spin speed in pure rolling"),
@@ -116,9 +105,6 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
     ):
         put(turn, name, ("angle", values[::_FINE]), units, words)
     return turn.assign_attrs(
-        load=loads.source,
-        row=row,
-        roller=roller,
         status=int(result.status),
         start_s=start,
         end_s=end,
@@ -128,6 +114,11 @@ def trace_turn(loads: BearingLoads, row: str, roller: int, time: float, laws: La
         lowest_spin_ratio=float(ratio.min()),
         recovery_time_s=_recovery_time(seconds, ratio),
     )
+
+
+def _over_angle(angle: np.ndarray) -> xr.Dataset:
+    words = {"units": "degree", "long_name": "angle from the bottom along the orbit"}
+    return xr.Dataset(coords={"angle": ("angle", angle, words)})
 
 
 def _turn(loads: BearingLoads, angle: np.ndarray, time: float) -> tuple[float, float]:
@@ -223,9 +214,6 @@ def inflexion_angle(turn: xr.Dataset) -> float:
     return float(found[np.argmin(np.abs(found - 180.0))]) if found.size else float("nan")
 
 
-# --- Explicit and backward Euler -----------------------------------------------------------------------------------
-
-
 def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset:
     """Figure A1: half an orbit of a downwind roller, from pure rolling at the top through the unloaded zone to the bottom.
 
@@ -267,9 +255,7 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
     def at(values: np.ndarray, found: np.ndarray) -> float:
         return float(values[found[0]]) if found.size else float("nan")
 
-    stability = xr.Dataset(
-        coords={"angle": ("angle", angle, {"units": "degree", "long_name": "angle from the bottom along the orbit"})}
-    )
+    stability = _over_angle(angle)
     for name, values in ratios.items():
         put(stability, f"spin_ratio_{name}", ("angle", values), "1", f"spin over pure rolling, {name}")
     for name, values in deviations.items():
@@ -282,7 +268,6 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
         limit_angle_deg=at(angle, beyond),
         limit_load_N=at(load, beyond),
         limit_relaxation_time_s=at(relaxation, beyond),
-        bottom_relaxation_time_s=float(relaxation[-1]),
         lost_angle_deg=at(angle, lost),
         lost_load_N=at(load, lost),
         **{f"largest_deviation_{name}": float(np.nanmax(values)) for name, values in deviations.items()},

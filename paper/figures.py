@@ -97,22 +97,6 @@ def turns_figure(turns: Mapping[str, xr.Dataset]) -> Figure:
     return figure
 
 
-def varying_over_static_figure(ratios: Mapping[str, Mapping[str, float]]) -> Figure:
-    """Energy per orbit under time-varying over that under static load, by name of the static load and by row."""
-    figure, (axes,) = new_figure(4.8, 3.4)
-    for place, by_row in enumerate(ratios.values()):
-        for k, (row, ratio) in enumerate(by_row.items()):
-            x = place + 0.34 * (k - 0.5)
-            style = ROW[row] | {"linestyle": "none", "markersize": 7, "label": "" if place else f"{row} row"}
-            axes.plot([x], [ratio], **style)
-            _note(axes, number(ratio), (x, ratio), (0, 8), ha="center")
-    axes.set_xticks(range(len(ratios)), [f"static: {name}" for name in ratios])
-    axes.set_xlim(-0.5, len(ratios) - 0.5)
-    mark_level(finish(log_ticks(axes), "", "energy, time-varying / static [–]"), 50.0, 200.0, "paper: about 100")
-    legend_above(figure, axes)
-    return figure
-
-
 def plot_by_class(axes: Axes, numbers: xr.Dataset, name: str, label: str, row: str | None = None) -> Axes:
     """A variable of `paper_numbers` over mean wind speed, a line for each turbulence class, of one row or of both."""
     for turbulence in sorted(set(numbers.turbulence.values.tolist())):
@@ -333,28 +317,6 @@ def torque_figure(histories: Mapping[str, TorqueHistory], start: float, end: flo
         axes[0].plot(one.time[inside], one.torque[inside], color=color, linestyle=line, linewidth=1.3, label=label)
     finish(log_ticks(axes[0]), "time [s]", "friction torque [N m]")
     legend_above(figure, axes[0], ncols=2)
-    return figure
-
-
-def sensitivity_figure(table: xr.Dataset) -> Figure:
-    """Energy and peak power of both rows with one value changed, over the base case; half and double reach equally far."""
-    figure, axes = new_figure(8.6, 0.8 + 0.34 * table.sizes["point"], 1, 2, sharey=True)
-    places = np.arange(table.sizes["point"])[::-1]
-    for one, (quantity, words) in zip(axes, (("energy", "energy"), ("peak_power", f"mean {_PEAK}")), strict=True):
-        for k, row in enumerate(table.row.values.tolist()):
-            style = {
-                "color": ROW[row]["color"],
-                "edgecolor": "white",
-                "hatch": "///" if k else "",
-                "label": f"{row} row",
-            }
-            one.barh(
-                places - 0.36 * k + 0.18, table[quantity].sel(row=row).values - 1.0, left=1.0, height=0.36, **style
-            )
-        one.axvline(1.0, color=GREY, linewidth=0.9)
-        finish(log_ticks(one, "x"), f"{words} / that of the base case [–]", "")
-    axes[0].set_yticks(places, table.point.values.tolist())
-    legend_above(figure, axes[0])
     return figure
 
 

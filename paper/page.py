@@ -34,24 +34,7 @@ def page(
     torques: Mapping[str, TorqueHistory],
     summary: Mapping[str, Any],
 ) -> str:
-    """The page `report.html`.
-
-    Parameters
-    ----------
-    folder : Path
-        Where the figures are, as SVG.
-    runs, made, judged : mapping
-        What was computed by model, the experiments, and the statements by model and subject.
-    torques : mapping
-        Friction torques by name.
-    summary : mapping
-        As `summary.json`.
-
-    Returns
-    -------
-    str
-        HTML in one piece, that needs no network.
-    """
+    """The page, with the figures that are in `folder` as SVG, in one piece that needs no network."""
     import jinja2
 
     environment = jinja2.Environment(
@@ -84,7 +67,6 @@ def page(
             for name, one in torques.items()
         },
         torque_window=figures.TORQUE_WINDOW,
-        failed={place: count for place, count in summary["failed_rollers"].items() if isinstance(count, int)},
         summary=summary,
         provenance=_provenance({name: run.study for name, run in runs.items()}),
     )
@@ -156,19 +138,6 @@ def _provenance(studies: Mapping[str, xr.Dataset]) -> dict[str, Any]:
             part: {key: one for key, one in first[part].items() if isinstance(one, dict)}
             for part in ("bearing", "lubricant")
         },
-        "further": {
-            name: {key: _told(one) for key, one in given.items() if key not in ("bearing", "lubricant", "loads")}
-            for name, given in inputs.items()
-        },
         "loads": first["loads"],
-        "film_range_notes": sorted(
-            {line for one in studies.values() for line in one.attrs["film_range_notes"].splitlines()}
-        ),
         "bibtex": bibtex(cited),
     }
-
-
-def _told(value: Any) -> str:
-    if isinstance(value, dict):
-        return ", ".join(f"{key} {_told(one)}" for key, one in value.items())
-    return "none" if value is None else str(value)

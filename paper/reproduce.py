@@ -32,14 +32,6 @@ from paper.uncertainty import uncertainty, uncertainty_summary
 from paper.verdicts import Statement, statements
 
 SUMMARY, REPORT, STUDIES = "summary.json", "report.html", "studies"
-#: What is computed under each model, in its order, and what it takes of the time under `paper` and others, in proportion.
-STAGES = {
-    "study": (28.0, 85.0),
-    "one case in detail": (5.0, 20.0),
-    "single rollers": (2.0, 15.0),
-    "sensitivity": (7.0, 15.0),
-    "uncertainty": (0.0, 145.0),
-}
 Report = Callable[[str, int, int], None]
 
 
@@ -52,7 +44,6 @@ class ModelRun:
     turns: dict[str, dict[str, xr.Dataset]]
     detail_failed: int
     torque: xr.Dataset
-    sensitivity: xr.Dataset
     parts: xr.Dataset | None = None
     uncertainty: xr.Dataset | None = None
 
@@ -63,7 +54,6 @@ class ModelRun:
             "study": int((self.study.status != 0).sum()),
             "single_rollers": sum(turn.status != 0 for group in self.turns.values() for turn in group.values()),
             "detailed_case": self.detail_failed,
-            "sensitivity": int(self.sensitivity.failed.sum()),
             "uncertainty": self.uncertainty.attrs["failed"] if self.uncertainty is not None else 0,
         }
 
@@ -77,17 +67,6 @@ def of_model(name: str, model: str) -> str:
     ('figure_4a', 'figure_4a_physical')
     """
     return name if model == PAPER else f"{name}_{model}"
-
-
-def stages() -> dict[str, float]:
-    """Labels of the stages in their order, and what each takes of the time, in proportion."""
-    shares = {
-        f"{stage} ({name})": share[name != PAPER]
-        for name in MODELS
-        for stage, share in STAGES.items()
-        if share[name != PAPER]
-    }
-    return shares | {"experiments": 7.0, "figures": 8.0, "report": 1.0}
 
 
 def compute_model(name: str, directory: Path, threads: int | None, report: Report, reused: list[str]) -> ModelRun:
@@ -104,7 +83,6 @@ def compute_model(name: str, directory: Path, threads: int | None, report: Repor
     study = studies.paper_study(results("study", "study"))
     _, detail = next(stored_results(results("detail", "one case in detail")))
     traced = turns(detail, laws, threads, partial(report, f"single rollers ({name})"))
-    varied = results("sensitivity", "sensitivity", may_fail=True)
     if laws.microslip:
         sample = uncertainty(results("uncertainty", "uncertainty", may_fail=True))
         found = {"parts": studies.dissipation(study), "uncertainty": uncertainty_summary(sample)}
@@ -114,7 +92,6 @@ def compute_model(name: str, directory: Path, threads: int | None, report: Repor
         turns=traced,
         detail_failed=int((detail.status != 0).sum()),
         torque=computed_torque(detail),
-        sensitivity=studies.sensitivity(varied, name),
         **found,
     )
 
@@ -124,18 +101,6 @@ def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
     case = macroslip.Case(loads=macroslip.HubLoads.bundled(DETAILED_CASE))
     computed = {name: run.torque for name, run in runs.items()}
     return torque_histories(computed, varying_load(), case.bearing, case.lubricant)
-
-
-def over_static(run: ModelRun) -> dict[str, dict[str, float]]:
-    """Energy per orbit in the detailed case over that under its mean load, by static load and row."""
-    varying = run.numbers.orbit_energy.sel(case=DETAILED_CASE)
-    return {
-        name: {
-            row: float(varying.sel(row=row)) / run.turns["static"][f"{name}, {row}"].attrs["energy_J"]
-            for row in run.study.row.values.tolist()
-        }
-        for name in STATIC_LOADS
-    }
 
 
 def all_figures(
@@ -155,12 +120,10 @@ def all_figures(
             "figure_3a": partial(draw.turns_figure, static),
             "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
             "figure_3b_peak": partial(draw.turns_figure, run.turns["peak"]),
-            "varying_over_static": partial(draw.varying_over_static_figure, over_static(run)),
             "figure_4a": partial(draw.energy_figure, run.numbers),
             "figure_4b": partial(draw.ratio_figure, run.numbers, "energy_ratio"),
             "figure_5a": partial(draw.peak_power_figure, run.numbers),
             "figure_5b": partial(draw.ratio_figure, run.numbers, "peak_power_ratio"),
-            "sensitivity": partial(draw.sensitivity_figure, run.sensitivity),
         }
         if run.parts is not None:
             of_run["mechanisms"] = partial(draw.mechanisms_figure, run.parts)
@@ -223,9 +186,8 @@ def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dic
                 one for one in run.numbers if re.match(shown, str(one)) and (name != "4a" or one != "energy_ratio")
             ]
             of_run[name] = run.numbers[variables].to_dict(data="list")
-        of_run["varying_over_static"] = over_static(run)
         torque = run.torque.mean("time", keep_attrs=True)
-        tables = {"sensitivity": run.sensitivity, "friction_torque": torque, "mechanisms": run.parts}
+        tables = {"friction_torque": torque, "mechanisms": run.parts}
         tables["uncertainty"] = run.uncertainty
         of_run |= {name: one.to_dict(data="list") for name, one in tables.items() if one is not None}
         found |= {of_model(name, model): value for name, value in of_run.items()}
@@ -258,9 +220,6 @@ CONVENTIONS = (
     "Static loads: means over the samples of case 14B, (0, F_Y0, 0) and (0, F_Y0, F_Z0), at the mean speed.",
     "Figure 3a: the ninth turn of roller 0 of the downwind row; 3b: the turn of roller 0 of each row whose energy is nearest "
     "the median over the row's rollers and orbits; 3b_peak: the turn with the row's largest P_max.",
-    "Sensitivity: case 14B, one value at a time. Model physical: rollers 0, 4, ... 24 of each row, to 200 s. Against all 28, "
-    "over the 21 cases of the study, these move a row's energy by at most 0.2 %, its mean P_max by 1.4 % downwind and 8 % "
-    "upwind.",
     "Uncertainty: 128 scrambled Sobol samples over 23 estimated values, the law of shear among them, cases 12B and 24B, "
     "roller 0 of each row, to 100 s. Ranges are quantiles 5 to 95 %; a driver has a rank correlation at p < 0.001; Sobol' "
     "indices are those of a sparse polynomial of second degree fitted to the logarithm of a result.",
@@ -273,30 +232,11 @@ CONVENTIONS = (
 
 
 def reproduce(directory: Path, *, threads: int | None = None, progress: Report | None = None) -> dict[str, Any]:
-    """Reproduce the paper's study and figures with converged solutions, and judge its statements.
+    """Compute, judge and draw the paper's study; return what `summary.json` holds, where NaN is None.
 
     Its studies are computed as any study is: a run that was stopped goes on where it ended, and what an earlier run into
-    the same folder computed is used again as long as its inputs and the program are the same.
-
-    Parameters
-    ----------
-    directory : Path
-        Folder for `report.html`, `summary.json`, `study.nc`, the figures (PNG and SVG) and, under `studies`, the
-        results of the studies. Files of an earlier run are overwritten, all at the end; others stay.
-    threads : int, optional
-        Threads over rollers; the number of usable processors by default.
-    progress : callable, optional
-        Called as progress(stage, done, total) with the labels of `stages`.
-
-    Returns
-    -------
-    dict
-        What `summary.json` holds. NaN is None.
-
-    Raises
-    ------
-    InputError
-        If `directory` is a file.
+    the same folder computed is used again as long as its inputs and the program are the same. All other files are written
+    at the end, over those of an earlier run. `progress` is called as progress(stage, done, total).
     """
     clock, seconds = time.perf_counter(), {}
 
@@ -315,7 +255,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
         _, detail = next(stored_results(directory / STUDIES / f"detail_{PAPER}"))
         made = experiments(detail, threads, partial(report, "experiments"))
         judged = {
-            name: statements(name, run.study, run.numbers, run.turns["static"], made if name == PAPER else {})
+            name: statements(name, run.study, run.numbers, run.turns["static"], made["A1"] if name == PAPER else None)
             for name, run in runs.items()
         }
         for name, run in runs.items():

@@ -22,36 +22,14 @@ from paper.values import sample_points
 MODELS: Mapping[str, Laws] = {"paper": Laws.paper(), "physical": Laws.physical()}
 #: The model of the paper, under which the numerical experiments are computed.
 PAPER = "paper"
-#: The case of the single rollers, the torque and the sensitivity; its means are the static load.
+#: The case of the single rollers and the torque; its means are the static load.
 DETAILED_CASE = "14B"
 #: Cases to which the paper refers energy (figure 4) and peak power (figure 5).
 ENERGY_REFERENCE, PEAK_REFERENCE = "12C", "14A"
 
-#: Points of the sensitivity, one value at a time; the first is the base case.
-_POINTS: tuple[dict[str, Any], ...] = (
-    {},
-    {"bearing.diametral_clearance": "0 mm"},
-    {"bearing.diametral_clearance": "0.4 mm"},
-    *({"bearing.osculation_inner": one, "bearing.osculation_outer": one} for one in (0.97, 0.985, 0.99)),
-    {"lubricant.at": "20 degC"},
-    {"lubricant.at": "60 degC"},
-    {"drivetrain.bearing_to_gearbox": "1.8 m"},
-    {"drivetrain.bearing_to_gearbox": "2.6 m"},
-)
-_OWN_POINTS: Mapping[str, tuple[dict[str, Any], ...]] = {
-    "paper": ({"lubricant.starvation": 0.7, "laws.starvation": True},),
-    "physical": (
-        {"lubricant.starvation": 1},
-        {"lubricant.eyring_stress": "3.3 MPa"},
-        {"lubricant.eyring_stress": "8.7 MPa"},
-    ),
-}
-#: Under `physical` a part of the rollers and of the time stands for all, in the sensitivity.
-_PART = {"rollers": [0, 4, 8, 12, 16, 20, 24], "window": {"end": "200 s"}}
-
 
 def content(stage: str, model: str) -> dict[str, Any]:
-    """Content of a study file: `study`, `detail`, `sensitivity` or `uncertainty`, under a model.
+    """Content of a study file: `study`, `detail` or `uncertainty`, under a model.
 
     Examples
     --------
@@ -66,14 +44,6 @@ def content(stage: str, model: str) -> dict[str, Any]:
         # As often as the loads are sampled.
         case["traces"] = {"step": "0.05 s"}
         return {"title": "One case in detail", "case": case, "loads": {"bundled": DETAILED_CASE}}
-    if stage == "sensitivity":
-        return {
-            "title": f"Sensitivity of case {DETAILED_CASE}",
-            "case": case | ({} if model == PAPER else _PART),
-            "loads": {"bundled": DETAILED_CASE},
-            "keep": ["energy"],
-            "variations": {"list": [*_POINTS, *_OWN_POINTS[model]]},
-        }
     return {
         "title": "Study under values drawn from their ranges",
         "case": case | {"drivetrain": {"shaft_mass_station": "1.73 m"}, "rollers": [0], "loads": {"end": "100 s"}},
@@ -103,8 +73,6 @@ def compute(
         raise MacroslipError(f"{len(lost)} cases of '{study.title}' failed, case {lost[0][0]} first: {lost[0][1]}")
     return ended.progress.computed > 0 or len(ended.failures) > len(lost)
 
-
-# --- The paper's study ---------------------------------------------------------------------------------------------
 
 #: Variables of each roller; those from `mechanism_energy` on only of contacts with microslip or asperities.
 _OF_ROLLERS = (
@@ -226,8 +194,6 @@ def paper_numbers(study: xr.Dataset) -> xr.Dataset:
     return numbers
 
 
-# --- Where inside the contacts the energy goes ---------------------------------------------------------------------
-
 #: Parts of a row's energy, in the order of the stacked figure.
 PARTS = (
     "inner, curvature", "inner, contact angle", "outer, curvature", "outer, contact angle", "raceways, sliding", "cage",
@@ -280,35 +246,3 @@ def _exponent(load: np.ndarray, energy: np.ndarray) -> float:
     if not (np.isfinite(energy).all() and (load > 0.0).all() and np.unique(load).size > 1):
         return float("nan")
     return float(np.polyfit(np.log(load), np.log(energy), 1)[0])
-
-
-# --- One value at a time -------------------------------------------------------------------------------------------
-
-
-def sensitivity(directory: Path, model: str) -> xr.Dataset:
-    """Energy and peak power with one value changed, over the same in the base case, from the study's folder.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (point, row): energy [1], mean over the rollers; peak_power [1], mean over rollers and orbits of the largest
-        power at any interface per orbit; failed, the number of failed rollers. `reason` over point says why a value is
-        refused, because a contact ellipse would reach past the roller's ends, for example; its numbers are NaN.
-    """
-    study = open_study(directory)
-    points = content("sensitivity", model)["variations"]["list"][1 : study.sizes["case"]]
-    table = xr.Dataset(coords={"row": study.row.values, "point": [_told(point) for point in points]})
-    for name, source in (("energy", "energy_mean"), ("peak_power", "peak_power_mean")):
-        ratio = study[source].values[1:] / study[source].values[0]
-        put(table, name, (("point", "row"), ratio), "1", f"{study[source].long_name}, over the base case")
-    failed = np.nan_to_num(study.failed_rollers.values[1:]).astype(int)
-    put(table, "failed", (("point", "row"), failed), "1", "failed rollers")
-    return table.assign_coords(reason=("point", study.reason.values[1:].astype(str)))
-
-
-def _told(point: Mapping[str, Any]) -> str:
-    """The value that is changed, in words: the last key, of both osculations one."""
-    key, value = list(point.items())[-1] if "laws.starvation" not in point else next(iter(point.items()))
-    name = {"at": "oil temperature", "starvation": "film factor", "osculation_outer": "osculation"}
-    word = key.partition(".")[2]
-    return f"{name.get(word, word.replace('_', ' '))} {str(value).replace('degC', '°C')}"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from macroslip import open_study
 from macroslip.study.outcome import Outcome
 from paper.studies import between_rows, put
-from paper.values import VALUES
+from paper.values import VALUES, sample_places
 from paper.verdicts import ABOUT, DOMINANT
 
 #: Meaning of the variable `outcome`.
@@ -35,9 +35,8 @@ def uncertainty(directory: Path) -> xr.Dataset:
     -------
     xarray.Dataset
         Over (sample, case, row, interface): orbit_energy [J]; over (sample, case, row): peak_power [W]; over (sample, case):
-        window_energy [J], torque [N m] and friction_power [W]; over (sample, parameter): value, in the coordinate `unit`, of
-        a choice its number; over (sample): outcome, the position in `OUTCOMES`, and its reason. What did not complete is NaN.
-        Sample 0 are the base values, which are no part of the statistics.
+        window_energy [J], torque [N m] and friction_power [W]; over (sample): outcome, the position in `OUTCOMES`, and its
+        reason. What did not complete is NaN. Sample 0 are the base values, which are no part of the statistics.
     """
     study = open_study(directory)
     names = list(dict.fromkeys(study.loads.values.tolist()))
@@ -59,12 +58,9 @@ def uncertainty(directory: Path) -> xr.Dataset:
             "case": names,
             "row": study.row.values,
             "interface": interfaces,
-            "parameter": [one.name for one in VALUES],
-            "unit": ("parameter", [one.unit for one in VALUES]),
         },
         attrs={"title": study.attrs["title"]},
     )
-    values = np.stack([one.of_study(parts[0][one.key].values) for one in VALUES], axis=1)
     energies = gathered(*(f"orbit_energy_{name}" for name in interfaces))
     for name, dims, one, units, words in (
         ("orbit_energy", (*of_row, "interface"), energies, "J", "energy per orbit, mean over rollers and orbits"),
@@ -72,7 +68,6 @@ def uncertainty(directory: Path) -> xr.Dataset:
         ("window_energy", of_row[:2], gathered("energy_mean")[..., 0].sum(-1), "J", "energy in the window, both rows"),
         ("torque", of_row[:2], gathered("contact_torque")[..., 0], "N m", "mean sliding torque of all contacts"),
         ("friction_power", of_row[:2], gathered("friction_power")[..., 0], "W", "mean power of the whole bearing"),
-        ("value", ("sample", "parameter"), values, "1", "value set, in the unit of its parameter"),
         ("outcome", "sample", outcomes, "1", f"what became of the sample: {', '.join(OUTCOMES)}"),
         ("reason", "sample", [reason for _, reason in reasons], "1", "why it did not complete"),
     ):
@@ -88,8 +83,6 @@ def _reason(names: list[str], runs: list[xr.Dataset]) -> tuple[int, str]:
     failed = int(sum(float(run.failed_rollers.sum()) for run in runs))
     return (1, f"{failed} rollers failed") if failed else (0, "")
 
-
-# --- Sobol' indices from a sample: a sparse polynomial, fitted to it with a measured error, replaces the model ---------
 
 #: Parts into which the sample is divided to measure the error of the fit.
 _PARTS = 10
@@ -138,25 +131,21 @@ def fit(places: NDArray[np.float64], values: NDArray[np.float64]) -> Polynomial:
     degrees = np.concatenate([0 * unit[:1], unit, 2 * unit, np.array(pairs, dtype=int).reshape(-1, len(unit))])
     columns = _columns(places, degrees)
     chosen, best, least = [0], [0], math.inf
-    basis = columns[:, :1] / np.linalg.norm(columns[:, 0])
-    rest, spans = columns - basis @ (basis.T @ columns), np.linalg.norm(columns, axis=0)
+    norms = np.linalg.norm(columns, axis=0)
     for _ in range(max(1, int(_MOST_TERMS * len(values)))):
+        basis, _ = np.linalg.qr(columns[:, chosen])
         left = values - basis @ (basis.T @ values)
-        leverage = (basis**2).sum(axis=1)
         # Beyond the error of leaving one out: the more terms have been tried, the more one of them fits by chance.
-        error = float(np.mean((left / (1.0 - leverage)) ** 2)) / max(1e-9, 1.0 - basis.shape[1] / len(values))
+        error = float(np.mean((left / (1.0 - (basis**2).sum(axis=1))) ** 2)) / max(
+            1e-9, 1.0 - len(chosen) / len(values)
+        )
         if error < least:
             best, least = chosen.copy(), error
-        norms = np.linalg.norm(rest, axis=0)
-        gain = np.where(norms > 1e-6 * spans, np.abs(left @ rest) / np.maximum(norms, 1e-300), 0.0)
-        gain[chosen] = 0.0
-        k = int(np.argmax(gain))
-        if gain[k] <= 1e-12 * np.linalg.norm(values):
+        rest = np.linalg.norm(columns - basis @ (basis.T @ columns), axis=0)
+        gain = np.where(rest > 1e-6 * norms, np.abs(left @ columns) / np.maximum(rest, 1e-300), 0.0)
+        if gain.max() <= 1e-12 * np.linalg.norm(values):
             break
-        chosen.append(k)
-        new = rest[:, k] / norms[k]
-        basis = np.column_stack([basis, new])
-        rest = rest - np.outer(new, new @ rest)
+        chosen.append(int(np.argmax(gain)))
     coefficients, *_ = np.linalg.lstsq(columns[:, best], values, rcond=None)
     return Polynomial(degrees[best], coefficients)
 
@@ -196,9 +185,6 @@ def sobol_indices(polynomial: Polynomial) -> tuple[NDArray[np.float64], NDArray[
         return np.zeros(acts.shape[1]), np.zeros(acts.shape[1])
     alone = acts & (acts.sum(axis=1) == 1)[:, None]
     return square @ alone / square.sum(), square @ acts / square.sum()
-
-
-# --- What the sample says ------------------------------------------------------------------------------------------
 
 
 def quantities(sample: xr.Dataset) -> xr.Dataset:
@@ -274,16 +260,15 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
     found = quantities(sample)
     drawn = sample.sample > 0
     good = (sample.outcome == 0) & drawn
-    result, values = found.result.values[good], sample.value.values[good]
-    shape = found.sizes["quantity"], values.shape[1]
+    result, places = found.result.values[good], sample_places()[sample.sample.values[good] - 1]
+    shape = found.sizes["quantity"], len(VALUES)
     ranks, chance, first, total = (np.full(shape, np.nan) for _ in range(4))
     explained = np.full(shape[0], np.nan)
-    places = np.stack([one.place(values[:, k]) for k, one in enumerate(VALUES)], axis=1)
     for q, one in enumerate(result.T):
         if len(one) < 3 or np.ptp(one) == 0.0:
             continue  # what does not change has no rank, and no variance to divide
-        for p in np.flatnonzero(np.ptp(values, axis=0) > 0.0):
-            ranks[q, p], chance[q, p] = spearmanr(values[:, p], one)
+        for p in np.flatnonzero(np.ptp(places, axis=0) > 0.0):
+            ranks[q, p], chance[q, p] = spearmanr(places[:, p], one)
         if len(one) > shape[1] and (one > 0.0).all():
             first[q], total[q] = sobol_indices(fit(places, np.log(one)))
             explained[q] = explained_variance(places, np.log(one))
@@ -299,7 +284,7 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
             "units": found.units,
             "quantile": list(QUANTILES),
             "trend": list(shown),
-            "parameter": sample.parameter,
+            "parameter": [one.name for one in VALUES],
             "case": sample.case.values,
         },
         attrs=counts,

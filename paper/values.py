@@ -24,9 +24,8 @@ class UncertainValue:
 
     Examples
     --------
-    >>> viscosity = UncertainValue("", "", "Pa s", 0.1, 10.0, "E", "", "log")
-    >>> round(viscosity.at(0.5), 12), float(viscosity.place(1.0))
-    (1.0, 0.5)
+    >>> round(UncertainValue("", "", "Pa s", 0.1, 10.0, "E", "", "log").at(0.5), 12)
+    1.0
     """
 
     name: str
@@ -49,50 +48,11 @@ class UncertainValue:
             return self.low * (self.high / self.low) ** place
         return self.low + place * (self.high - self.low)
 
-    def place(self, values: NDArray[np.float64] | float) -> NDArray[np.float64]:
-        """Places from 0 to 1 of values; of counts and choices the middle of the places that give them."""
-        given = np.asarray(values, dtype=float)
-        if self.kind in ("count", "choice"):
-            return (given - self.low + 0.5) / (self.high - self.low + 1.0)
-        if self.kind == "log":
-            return np.log(given / self.low) / math.log(self.high / self.low)
-        return (given - self.low) / (self.high - self.low)
-
-    def in_study(self, value: Any) -> Any:
-        """A value as the study has it: twelve digits in SI units.
-
-        Examples
-        --------
-        >>> diameter, inlet = (next(one for one in VALUES if one.key.endswith(key)) for key in ("_diameter", ".at"))
-        >>> diameter.in_study(70.0), inlet.in_study(35.0)
-        ('0.07 m', '308.15 K')
-        """
-        if self.kind in ("count", "choice"):
-            return value
-        unit, factor = UNITS[self.unit]
-        digits = f"{value + 273.15 if unit == 'K' else value * factor:.12g}"
-        return f"{digits} {unit}" if unit else float(digits)
-
-    def of_study(self, values: NDArray) -> NDArray[np.float64]:
-        """Values of a study, which are in SI units, in the unit of the range; choices by number, NaN where not set."""
-        if self.kind == "choice":
-            return np.array([self.choices.index(word) if word in self.choices else math.nan for word in values])
-        unit, factor = UNITS[self.unit]
-        return values - 273.15 if unit == "K" else values / factor
-
     @property
     def range_text(self) -> str:
         """The range in words."""
-        unit = "" if self.unit == "1" else f" {self.unit}"
-        return " or ".join(self.choices) or f"{self.low:g} to {self.high:g}{unit}"
+        return " or ".join(self.choices) or f"{self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
 
-
-#: Units of the ranges in those of a study.
-UNITS = {
-    "mm": ("m", 1e-3), "µm": ("m", 1e-6), "GPa": ("Pa", 1e9), "MPa": ("Pa", 1e6), "1/GPa": ("1/Pa", 1e-9),
-    "°": ("rad", math.pi / 180.0), "1": ("", 1.0), "m": ("m", 1.0), "kg": ("kg", 1.0), "Pa s": ("Pa s", 1.0),
-    "1/K": ("1/K", 1.0), "°C": ("K", 1.0),
-}  # fmt: skip
 
 # fmt: off
 VALUES = tuple(UncertainValue(*one) for one in (
@@ -105,7 +65,7 @@ VALUES = tuple(UncertainValue(*one) for one in (
      "of the outer raceway"),
     ("roller length", "bearing.roller_length", "mm", 101.0, 111.0, "E",
      "as the diameter, within 5 %; two rows and the guide ring have to fit 272 mm"),
-    ("composite roughness", "bearing.composite_roughness", "µm", 0.15, 0.5, "E", "honed and run in, to ground"),
+    ("composite roughness", "bearing.composite_roughness", "um", 0.15, 0.5, "E", "honed and run in, to ground"),
     ("hardness", "bearing.hardness", "GPa", 6.5, 8.0, "E", "58 to 64 HRC"),
     ("cage modulus", "bearing.cage_youngs_modulus", "GPa", 110.0, 210.0, "E", "grey iron to steel"),
     ("limiting shear", "lubricant.limiting_shear", "1", 0.035, 0.05, "R", "reported for PAO"),
@@ -117,7 +77,7 @@ VALUES = tuple(UncertainValue(*one) for one in (
     ("boundary friction", "lubricant.boundary_friction", "1", 0.08, 0.12, "E", "usual for steel with lubricant additives"),
     ("starvation", "lubricant.starvation", "1", 0.5, 1.0, "R",
      "0.7 is reported for a bearing of this size; 1 is flooded"),
-    ("inlet temperature", "lubricant.at", "°C", 20.0, 50.0, "P",
+    ("inlet temperature", "lubricant.at", "degC", 20.0, 50.0, "P",
      "the paper's 35 °C and 15 K either way, cold to warm; viscosity, its coefficients, density and Eyring stress follow"),
     ("viscosity at 35 °C", "lubricant.viscosity", "Pa s", 0.24, 0.80, "D",
      "base oils of main-bearing greases: VG 220 to VG 680"),
@@ -129,7 +89,7 @@ VALUES = tuple(UncertainValue(*one) for one in (
      "how full the gaps of unloaded rollers are is not known; 1 is flooded", "log"),
     ("inlet film", "lubricant.inlet_film", "1", 5.0, 1000.0, "E",
      "how full inlets are is not known; 1000 is flooded", "log"),
-    ("contact angle", "bearing.contact_angle", "°", 10.0, 13.0, "D",
+    ("contact angle", "bearing.contact_angle", "deg", 10.0, 13.0, "D",
      "from the axial factors, which are rounded; pitch radius and row offset follow the sphere, and above about 11.8° "
      "rollers of this length need more than the catalogue's width, which is left out of account"),
     ("rollers of a row", "bearing.rollers_per_row", "1", 26.0, 30.0, "E",
@@ -143,10 +103,25 @@ VALUES = tuple(UncertainValue(*one) for one in (
 # fmt: on
 
 
+def sample_places() -> NDArray[np.float64]:
+    """Places from 0 to 1 in the ranges of `VALUES`, shape (points, values): a scrambled Sobol sequence.
+
+    Of counts and choices the middle of the places that give the same.
+    """
+    from scipy.stats import qmc
+
+    places = qmc.Sobol(len(VALUES), rng=np.random.default_rng(SEED)).random(POINTS)
+    for k, one in enumerate(VALUES):
+        if one.kind in ("count", "choice"):
+            count = one.high - one.low + 1.0
+            places[:, k] = (np.floor(places[:, k] * count) + 0.5) / count
+    return places
+
+
 def sample_points() -> list[dict[str, Any]]:
     """Settings of every point of the sample, as a study has them; the first has none, and is the base case.
 
-    A scrambled Sobol sequence (`scipy.stats.qmc`) over all `VALUES`. Both osculations are the same, and pitch radius and
+    Both osculations are the same, and pitch radius and
     row offset follow roller diameter and contact angle: (R − r) cos α and (R − r) sin α, R the outer raceway's radius.
 
     Examples
@@ -155,13 +130,11 @@ def sample_points() -> list[dict[str, Any]]:
     >>> len(points), points[0], len(points[1]) == len(VALUES) + 4
     (129, {}, True)
     """
-    from scipy.stats import qmc
-
     sphere = Bearing.read("skf-240-600-bc").outer_raceway_radius
     points: list[dict[str, Any]] = [{}]
-    for places in qmc.Sobol(len(VALUES), rng=np.random.default_rng(SEED)).random(POINTS):
+    for places in sample_places():
         drawn = {one.key: one.at(float(place)) for one, place in zip(VALUES, places, strict=True)}
-        point = {one.key: one.in_study(drawn[one.key]) for one in VALUES}
+        point = {one.key: drawn[one.key] if one.unit == "1" else f"{drawn[one.key]:.12g} {one.unit}" for one in VALUES}
         centre = sphere - 0.5e-3 * drawn["bearing.roller_diameter"]
         angle = math.radians(drawn["bearing.contact_angle"])
         points.append(

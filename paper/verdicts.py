@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from paper.experiments import STATIC_LOADS, inflexion_angle
-from paper.studies import DETAILED_CASE, dissipation
+from paper.studies import DETAILED_CASE
 
 AGREES, PARTLY, DIFFERS, UNKNOWN = "agrees", "agrees in part", "differs", "cannot be judged"
 #: Verdict on what was not computed under a model.
@@ -194,24 +194,16 @@ def peak_power_over_wind_speed(numbers: xr.Dataset) -> tuple[Row, ...]:
     return tuple(rows)
 
 
-def peak_power_between_rows(numbers: xr.Dataset, steps: xr.Dataset | None = None) -> tuple[Row, ...]:
-    """Mean peak power of the downwind over the upwind row; `steps` from `step_size` has the effect of a fixed step."""
+def peak_power_between_rows(numbers: xr.Dataset) -> tuple[Row, ...]:
+    """Mean peak power of the downwind over the upwind row."""
     ratio = ends(numbers.peak_power_ratio)
     mean = by_wind_speed(numbers.peak_power_ratio)
     speed = float(mean.wind_speed[int(np.argmax(mean.values))]) if mean.notnull().all() else math.nan
-    rows = [
+    return (
         about("highest", "largest ratio", ratio["highest"], 5.0, "up to 5"),
         Row("highest_at_mps", "wind speed of the largest mean ratio", speed, "m/s", "12 m/s", 12.0, 12.0),
         Row("lowest", "least ratio", ratio["lowest"]),
-    ]
-    if steps is not None:
-        coarse = steps.isel(step=int(np.argmax(steps.step.values)))
-        for key, words, peak in (
-            ("fixed_step", f"in an excerpt, backward Euler at {1e3 * float(coarse.step):g} ms", coarse.mean_peak_power),
-            ("converged", "in the same excerpt, converged", steps.mean_peak_power_converged),
-        ):
-            rows.append(Row(key, words, float(peak.sel(row="downwind") / peak.sel(row="upwind"))))
-    return tuple(rows)
+    )
 
 
 def unloaded_roller(turn: xr.Dataset, inflexion: float) -> tuple[Row, ...]:
@@ -232,24 +224,14 @@ def unloaded_roller(turn: xr.Dataset, inflexion: float) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
-def varying_over_static(
-    numbers: xr.Dataset, static: Mapping[str, Mapping[str, float]], tolerances: xr.Dataset | None = None
-) -> tuple[Row, ...]:
-    """Energy per orbit in the detailed case, over that under its mean load; `static` has it [J] by load and row.
-
-    `tolerances` from `nonlinear_tolerance` shows what an iteration that stops early adds.
-    """
+def varying_over_static(numbers: xr.Dataset, static: Mapping[str, Mapping[str, float]]) -> tuple[Row, ...]:
+    """Energy per orbit in the detailed case, over that under its mean load; `static` has it [J] by load and row."""
     varying = numbers.orbit_energy.sel(case=DETAILED_CASE)
-    rows = [
+    return tuple(
         about(f"{name}_{row}", f"{row}, over static load {name}", float(varying.sel(row=row)) / energy, 100.0)
         for name, by_row in static.items()
         for row, energy in by_row.items()
-    ]
-    if tolerances is not None:
-        one = tolerances.ratio.sel(row="downwind").sel(stopping_tolerance=1e-6, method="nearest")
-        words = f"downwind by an iteration that stops at a change of {float(one.stopping_tolerance):.0e}"
-        rows.append(Row("early_stop", words, float(one)))
-    return tuple(rows)
+    )
 
 
 def cage_dominates(study: xr.Dataset) -> tuple[Row, ...]:
@@ -311,41 +293,14 @@ REASONS = {
 }
 
 
-def inside_contacts(study: xr.Dataset, numbers: xr.Dataset) -> dict[str, tuple[Row, ...]]:
-    """Numbers from inside the contacts that explain what is found, by subject, where microslip was computed."""
-    from scipy.stats import spearmanr
-
-    if "mechanism_energy" not in study or bool((study.status != 0).any()):
-        return {}
-    down = dissipation(study).sel(row="downwind")
-    shares = 100.0 * (down.part_energy / down.part_energy.sum("part")).mean("case")
-    rank = spearmanr(study.thrust.values, numbers.orbit_energy.sel(row="downwind").values).statistic
-    loaded = ends(100.0 * study.loaded_share.sel(row="upwind"))
-    return {
-        "energy": (
-            *(
-                Row(name, f"share of {name} in the downwind energy",
-                    float(shares.sel(part=[f"inner, {name}", f"outer, {name}"]).sum()), "%")
-                for name in ("curvature", "contact angle")
-            ),
-            Row("load_exponent", "exponent of the energy per orbit downwind over load", float(down.load_exponent)),
-            Row("thrust_rank", "rank correlation of the energy per orbit downwind with thrust", float(rank)),
-        ),
-        "rows": tuple(Row(f"loaded_{key}", f"{key} share of time under load, upwind", one, "%") for key, one in loaded.items()),
-    }  # fmt: skip
-
-
 def statements(
     model: str,
     study: xr.Dataset,
     numbers: xr.Dataset,
     static: Mapping[str, xr.Dataset],
-    experiments: Mapping[str, xr.Dataset],
+    stability: xr.Dataset | None,
 ) -> dict[str, Statement]:
-    """The paper's statements by subject, judged by what was computed under one model, as far as it was.
-
-    `static` has the turns under static load by title, `experiments` the numerical ones.
-    """
+    """The paper's statements by subject under one model; `static` has the turns under static load by title."""
     rows = study.row.values.tolist()
     energies = {name: {row: static[f"{name}, {row}"].attrs["energy_J"] for row in rows} for name in STATIC_LOADS}
     downward = static["downward, downwind"]
@@ -353,14 +308,11 @@ def statements(
         "energy": energy_over_wind_speed(numbers, study),
         "rows": energy_between_rows(numbers, energies["downward and thrust"]["downwind"]),
         "peaks": peak_power_over_wind_speed(numbers),
-        "peak ratio": peak_power_between_rows(numbers, experiments.get("step_size")),
+        "peak ratio": peak_power_between_rows(numbers),
         "unloaded": unloaded_roller(downward, inflexion_angle(downward)),
-        "static": varying_over_static(numbers, energies, experiments.get("nonlinear_tolerance")),
+        "static": varying_over_static(numbers, energies),
         "cage": cage_dominates(study),
-        "Euler": euler_stability(experiments["A1"]) if "A1" in experiments else (),
+        "Euler": euler_stability(stability) if stability is not None else (),
     }
-    more, reasons = inside_contacts(study, numbers), REASONS.get(model, {})
-    return {
-        subject: Statement(paper, found[subject] + more.get(subject, ()), reasons.get(subject, ""))
-        for subject, paper in STATED.items()
-    }
+    reasons = REASONS.get(model, {})
+    return {subject: Statement(paper, found[subject], reasons.get(subject, "")) for subject, paper in STATED.items()}

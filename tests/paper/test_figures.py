@@ -145,13 +145,6 @@ def summary():
     )
 
 
-@pytest.fixture
-def table():
-    energy = [[2.0, 1.0], [0.5, 1.1], [np.nan, np.nan]]
-    coords = {"point": ["clearance 0 mm", "clearance 0.4 mm", "osculation 0.99"], "row": ROWS}
-    return xr.Dataset(dict.fromkeys(("energy", "peak_power"), (("point", "row"), energy)), coords)
-
-
 def test_energy_of_a_row_with_the_range_of_its_rollers(axes, numbers):
     draw.plot_by_class(axes, numbers, "energy_normalised", "energy [–]", "upwind")
     speed, energy = line(axes, "C")
@@ -195,13 +188,6 @@ def test_a_turn(axes, turn):
     other = draw.plot_cumulative_energy(new_figure(4.0, 3.0)[1][0], turn)
     np.testing.assert_allclose(other.lines[0].get_ydata(), turn.energy_fraction)
     assert "0.165 J" in other.texts[0].get_text()
-
-
-def test_varying_over_static():
-    ratios = {"downward": {"downwind": 1.07, "upwind": 0.86}, "thrust": {"downwind": 0.0042}}
-    (axes,) = draw.varying_over_static_figure(ratios).axes
-    assert [float(one.get_ydata()[0]) for one in axes.lines] == [1.07, 0.86, 0.0042]
-    assert [text.get_text() for text in axes.texts] == ["1.07", "0.86", "0.0042", "paper: about 100"]
 
 
 def test_stability(stability):
@@ -259,13 +245,6 @@ def test_ranges_correlations_and_indices(axes, summary):
     assert [text.get_text() for text in indices.texts] == ["0.93", "0.50"]
 
 
-def test_bars_of_the_sensitivity_begin_at_the_base_case(table):
-    left, _ = draw.sensitivity_figure(table).axes
-    ends = [bar.get_x() + bar.get_width() for bar in left.containers[0]]
-    np.testing.assert_allclose(ends, [2.0, 0.5, np.nan])
-    assert {bar.get_hatch() for group in left.containers for bar in group} == {"", "///"}
-
-
 def test_torque_over_a_part_of_the_history():
     time = np.arange(10.0)
     histories = {"model": TorqueHistory(time, time + 1.0), "SKF": TorqueHistory(time, time + 5.0)}
@@ -276,13 +255,12 @@ def test_torque_over_a_part_of_the_history():
 
 
 @pytest.mark.slow
-def test_figures_are_written_as_png_and_svg_with_units(tmp_path, numbers, turn, parts, summary, table):
+def test_figures_are_written_as_png_and_svg_with_units(tmp_path, numbers, turn, parts, summary):
     figures = [
         draw.turns_figure({"left": turn, "right": turn}),
         draw.energy_figure(numbers),
         draw.mechanisms_figure(parts),
         draw.uncertainty_figure(summary),
-        draw.sensitivity_figure(table),
     ]
     for k, figure in enumerate(figures):
         for name in save(figure, tmp_path, f"figure_{k}"):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from macroslip import Case, HubLoads, InputError, MacroslipError, Window, simulate
+from macroslip import Case, HubLoads, InputError, Window, simulate
 from macroslip.study.study_file import study_of
 from paper.studies import (
     DETAILED_CASE,
@@ -14,12 +14,9 @@ from paper.studies import (
     dissipation,
     paper_numbers,
     paper_study,
-    sensitivity,
 )
 
 pytestmark = pytest.mark.slow
-
-SHORT = {"rollers": [0, 14], "loads": {"end": "16 s"}}  # holds a roller load of 110 kN
 
 
 def test_the_detailed_case_is_one_of_the_study():
@@ -94,43 +91,3 @@ def test_the_exponent_is_that_of_a_power_law(physical_study):
     found = dissipation(scaled).load_exponent
     assert float(found.sel(row="downwind")) == pytest.approx(1.5)
     assert np.isnan(found.sel(row="upwind"))
-
-
-@pytest.fixture(scope="module")
-def varied(small, tmp_path_factory):
-    directory = tmp_path_factory.mktemp("sensitivity") / "out"
-    made = study_of(small("sensitivity", "paper", **SHORT))
-    with pytest.raises(MacroslipError, match="1 cases of 'Sensitivity of case 14B' failed, case 14B first: .*ellipse"):
-        compute(made, directory)
-    assert not compute(made, directory, may_fail=True), "the others were computed before"
-    return sensitivity(directory, "paper")
-
-
-def test_every_point_is_a_run_of_its_own_over_the_base_case(varied):
-    case = Case(loads=HubLoads.bundled("14B").window(None, 16.0), rollers=[0, 14])
-    warm = Case(loads=case.loads, rollers=case.rollers, lubricant=case.lubricant.at("60 degC"))
-    base, other = (simulate(one).energy.sum("interface").mean("roller") for one in (case, warm))
-    np.testing.assert_allclose(varied.energy.sel(point="oil temperature 60 °C"), other / base, rtol=1e-12)
-    assert (varied.energy.sel(point="oil temperature 20 °C") > 1.0).all()
-    assert (varied.energy.sel(point="film factor 0.7") > 1.0).all()
-    assert (varied.failed == 0).all()
-
-
-def test_a_refused_value_has_its_reason_and_no_number(varied):
-    refused = varied.sel(point="osculation 0.99")
-    assert "contact ellipse would reach beyond the roller's ends" in str(refused.reason.values)
-    assert np.isnan(refused.energy).all()
-    others = varied.drop_sel(point="osculation 0.99")
-    assert not any(others.reason.values)
-    assert np.isfinite(others.energy).all()
-
-
-@pytest.mark.parametrize("model", ["paper", "physical"])
-def test_every_point_changes_one_value_with_what_follows_from_it(model):
-    base, *points = content("sensitivity", model)["variations"]["list"]
-    assert base == {}
-    for point in points:
-        together = {"bearing.osculation_inner", "laws.starvation"}
-        assert len(point.keys() - together) == 1
-        if "bearing.osculation_inner" in point:
-            assert point["bearing.osculation_inner"] == point["bearing.osculation_outer"]

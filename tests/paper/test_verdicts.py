@@ -18,7 +18,6 @@ from paper.verdicts import (
     energy_between_rows,
     energy_over_wind_speed,
     euler_stability,
-    inside_contacts,
     peak_power_between_rows,
     peak_power_over_wind_speed,
     unloaded_roller,
@@ -124,16 +123,3 @@ def test_euler_is_judged_by_its_deviation_or_by_being_stopped():
     assert judged(0.01, 0.01) == PARTLY
     assert judged(0.01, 0.5) == DIFFERS
     assert judged(0.5, math.nan) == UNKNOWN
-
-
-@pytest.mark.slow
-def test_numbers_from_inside_the_contacts_explain_only_what_was_computed(study, physical_study):
-    from paper.studies import paper_numbers
-
-    assert inside_contacts(study, paper_numbers(study)) == {}
-    numbers = paper_numbers(physical_study)
-    found = {row.key: row.value for row in inside_contacts(physical_study, numbers)["energy"]}
-    assert 50.0 < found["curvature"] + found["contact angle"] < 100.0
-    failed = physical_study.copy(deep=True)
-    failed.status[0, 0, 0] = 3
-    assert inside_contacts(failed, numbers) == {}
