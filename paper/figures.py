@@ -357,7 +357,7 @@ def plot_squares(axes: Axes, summary: xr.Dataset, name: str) -> Axes:
     if not rank:
         for q, known in enumerate(summary.explained.values):
             place = values.shape[1] - 0.2, values.shape[0] - 1 - q
-            axes.annotate(f"{known:.2f}", place, va="center", fontsize=8)
+            axes.annotate(f"{known:.2f}" if np.isfinite(known) else "–", place, va="center", fontsize=8)
     names = summary.parameter.values.tolist()
     axes.set_xticks(np.arange(len(names)), names, rotation=60, ha="right", rotation_mode="anchor")
     axes.set_yticks([])

@@ -211,26 +211,6 @@ def as_json(summary: dict[str, Any]) -> str:
     return re.sub(r"\[[\s\d.eE+\-,nul]+\]", lambda found: " ".join(found.group().split()), text) + "\n"
 
 
-CONVENTIONS = (
-    "The window opens when the rollers have completed one orbit and ends with the loads.",
-    "Energy of a row: mean over its rollers of E_in + E_out + E_cage.",
-    "P_max: largest power at any interface in an orbit; mean and population standard deviation over all (roller, orbit) "
-    "samples of a row.",
-    "Each row is normalised by its own value in the reference case (energy 12C, P_max 14A).",
-    "Static loads: means over the samples of case 14B, (0, F_Y0, 0) and (0, F_Y0, F_Z0), at the mean speed.",
-    "Figure 3a: the ninth turn of roller 0 of the downwind row; 3b: the turn of roller 0 of each row whose energy is nearest "
-    "the median over the row's rollers and orbits; 3b_peak: the turn with the row's largest P_max.",
-    "Uncertainty: 128 scrambled Sobol samples over 23 estimated values, the law of shear among them, cases 12B and 24B, "
-    "roller 0 of each row, to 100 s. Ranges are quantiles 5 to 95 %; a driver has a rank correlation at p < 0.001; Sobol' "
-    "indices are those of a sparse polynomial of second degree fitted to the logarithm of a result.",
-    "Friction torque: dissipated power, rolling resistance and drag over shaft speed, all rollers in case 14B.",
-    "Verdicts: agrees where every number with a stated value has it, differs where none has; 'about' allows a factor of 2; a "
-    "trend is a rank correlation with wind speed at p < 0.05; high variance is a median standard deviation of at least half "
-    "the mean; at the top is within 15 degrees of it; a snap is a return to 99 % of pure rolling in 2 % of an orbit; the "
-    "cage dominates where it takes at least half of the energy in every case.",
-)
-
-
 def reproduce(directory: Path, *, threads: int | None = None, progress: Report | None = None) -> dict[str, Any]:
     """Compute, judge and draw the paper's study; return what `summary.json` holds, where NaN is None.
 
@@ -272,7 +252,7 @@ def reproduce(directory: Path, *, threads: int | None = None, progress: Report |
                 "headline": headline(judged, failed, total),
                 "statements": told(judged),
                 "failed_rollers": failed | {"study_by_case": by_case, "study_total": total},
-                "conventions": CONVENTIONS,
+                "conventions": (Path(__file__).parent / "conventions.txt").read_text(encoding="utf-8").splitlines(),
                 "seconds": seconds,
                 "reused": reused,
                 "figures": plotted(runs, made),

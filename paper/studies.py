@@ -29,13 +29,7 @@ ENERGY_REFERENCE, PEAK_REFERENCE = "12C", "14A"
 
 
 def content(stage: str, model: str) -> dict[str, Any]:
-    """Content of a study file: `study`, `detail` or `uncertainty`, under a model.
-
-    Examples
-    --------
-    >>> len(study_of(content("study", "paper"))), len(study_of(content("uncertainty", "physical")))
-    (21, 258)
-    """
+    """Content of a study file: `study`, `detail` or `uncertainty`, under a model."""
     case = {"rating": False, "laws": {"model": model}}
     if stage == "study":
         title = "Frictional energy and peak power of the rollers over wind speed and turbulence"

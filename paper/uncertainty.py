@@ -18,7 +18,7 @@ from paper.values import VALUES, sample_places
 from paper.verdicts import ABOUT, DOMINANT
 
 #: Meaning of the variable `outcome`.
-OUTCOMES = ("completed", "a roller failed", "refused")
+OUTCOMES = ("completed", "failed", "refused")
 #: Quantiles that are given.
 QUANTILES = (0.05, 0.5, 0.95)
 #: Probability below which a rank correlation is taken to name a driver. With 23 values and eleven quantities a smaller
@@ -40,48 +40,39 @@ def uncertainty(directory: Path) -> xr.Dataset:
     """
     study = open_study(directory)
     names = list(dict.fromkeys(study.loads.values.tolist()))
+    stored = np.array([Outcome(outcome).stored for outcome in study.outcome.values])
+    failed = study.failed_rollers.fillna(0.0).sum("row").values > 0
     # All loads have the same points in the same order.
-    parts = [study.isel(case=np.flatnonzero(study.loads.values == name)) for name in names]
-    reasons = [_reason(names, [part.isel(case=k) for part in parts]) for k in range(parts[0].sizes["case"])]
-    outcomes = np.array([outcome for outcome, _ in reasons], dtype=np.int8)
+    parts = [np.flatnonzero(study.loads.values == name) for name in names]
+    refused = np.any([~stored[part] for part in parts], axis=0)
+    outcomes = np.where(refused, 2, np.any([failed[part] for part in parts], axis=0)).astype(np.int8)
+    reasons = [
+        " ".join(filter(None, words)) for words in zip(*(study.reason.values[part] for part in parts), strict=True)
+    ]
 
-    def gathered(*variables: str) -> np.ndarray:
-        """Values over (sample, case, ..., variable); NaN for samples that did not complete."""
-        found = np.stack([np.stack([part[name].values for name in variables], axis=-1) for part in parts], axis=1)
-        found[outcomes != 0] = np.nan
-        return found
+    def gathered(name: str) -> xr.DataArray:
+        """A variable over (sample, case, ...); NaN for samples that did not complete."""
+        found = [
+            study[name].isel(case=part).reset_coords(drop=True).drop_vars("case").rename(case="sample")
+            for part in parts
+        ]
+        found = xr.concat(found, xr.DataArray(names, dims="case", name="case"))
+        return found.where(xr.DataArray(outcomes == 0, dims="sample"))
 
-    interfaces, of_row = ["inner", "outer", "cage"], ("sample", "case", "row")
+    interfaces = xr.DataArray(["inner", "outer", "cage"], dims="interface", name="interface")
     found = xr.Dataset(
-        coords={
-            "sample": np.arange(len(reasons)),
-            "case": names,
-            "row": study.row.values,
-            "interface": interfaces,
+        {
+            "orbit_energy": xr.concat([gathered(f"orbit_energy_{name}") for name in interfaces.values], interfaces),
+            "peak_power": gathered("peak_power_mean"),
+            "window_energy": gathered("energy_mean").sum("row", skipna=False),
+            "torque": gathered("contact_torque"),
+            "friction_power": gathered("friction_power"),
+            "outcome": ("sample", outcomes),
+            "reason": ("sample", reasons),
         },
-        attrs={"title": study.attrs["title"]},
+        {"sample": np.arange(len(outcomes))},
     )
-    energies = gathered(*(f"orbit_energy_{name}" for name in interfaces))
-    for name, dims, one, units, words in (
-        ("orbit_energy", (*of_row, "interface"), energies, "J", "energy per orbit, mean over rollers and orbits"),
-        ("peak_power", of_row, gathered("peak_power_mean")[..., 0], "W", "mean of the largest power per orbit"),
-        ("window_energy", of_row[:2], gathered("energy_mean")[..., 0].sum(-1), "J", "energy in the window, both rows"),
-        ("torque", of_row[:2], gathered("contact_torque")[..., 0], "N m", "mean sliding torque of all contacts"),
-        ("friction_power", of_row[:2], gathered("friction_power")[..., 0], "W", "mean power of the whole bearing"),
-        ("outcome", "sample", outcomes, "1", f"what became of the sample: {', '.join(OUTCOMES)}"),
-        ("reason", "sample", [reason for _, reason in reasons], "1", "why it did not complete"),
-    ):
-        put(found, name, (dims, one), units, words)
-    return found
-
-
-def _reason(names: list[str], runs: list[xr.Dataset]) -> tuple[int, str]:
-    """What became of a sample, as position in `OUTCOMES`, and why."""
-    for name, run in zip(names, runs, strict=True):
-        if not Outcome(run.outcome.item()).stored:
-            return 2, f"bundled case {name}: {run.reason.item()}"
-    failed = int(sum(float(run.failed_rollers.sum()) for run in runs))
-    return (1, f"{failed} rollers failed") if failed else (0, "")
+    return found.transpose("sample", "case", "row", "interface")
 
 
 #: Parts into which the sample is divided to measure the error of the fit.
@@ -275,9 +266,7 @@ def uncertainty_summary(sample: xr.Dataset) -> xr.Dataset:
     shown = {name: flags.values for name, flags in trends(sample).items()}
     shares = [float(flags[good].mean()) if good.any() else np.nan for flags in shown.values()]
     quantile = np.quantile(result, QUANTILES, axis=0).T if len(result) else np.full((shape[0], 3), np.nan)
-    counts = {
-        name: int(((sample.outcome == k) & drawn).sum()) for k, name in enumerate(("completed", "failed", "refused"))
-    }
+    counts = {name: int(((sample.outcome == k) & drawn).sum()) for k, name in enumerate(OUTCOMES)}
     summary = xr.Dataset(
         coords={
             "quantity": found.quantity,

@@ -1,9 +1,12 @@
-"""The values of the base case that are estimates: the range each may have, where that comes from, and a sample of all."""
+"""The values of the base case that are estimates, with their ranges from `values.csv`, and a sample of all."""
 
 from __future__ import annotations
 
+import csv
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,7 +27,7 @@ class UncertainValue:
 
     Examples
     --------
-    >>> round(UncertainValue("", "", "Pa s", 0.1, 10.0, "E", "", "log").at(0.5), 12)
+    >>> round(UncertainValue("", "", "Pa s", 0.1, 10.0, kind="log").at(0.5), 12)
     1.0
     """
 
@@ -33,10 +36,10 @@ class UncertainValue:
     unit: str
     low: float
     high: float
-    tag: str
-    reason: str
+    tag: str = "E"
     kind: str = "even"
-    choices: tuple[str, ...] = ()
+    choices: Sequence[str] = ()
+    reason: str = ""
 
     def at(self, place: float) -> Any:
         """The value at a place from 0 to 1 in its range, in its unit; of a choice its name."""
@@ -54,53 +57,16 @@ class UncertainValue:
         return " or ".join(self.choices) or f"{self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
 
 
-# fmt: off
-VALUES = tuple(UncertainValue(*one) for one in (
-    ("diametral clearance", "bearing.diametral_clearance", "mm", 0.0, 0.4, "E",
-     "0.31 to 0.48 mm unmounted (catalogue); fit and warm inner ring take some or all of it"),
-    ("osculation", "bearing.osculation_outer", "1", 0.97, 0.99, "E",
-     "usual for spherical roller bearings; at 0.99 the largest contacts just reach the roller's ends"),
-    ("roller diameter", "bearing.roller_diameter", "mm", 67.0, 73.0, "E",
-     "back-calculated from the load ratings, which fix it within about 4 %; pitch radius and row offset follow the sphere "
-     "of the outer raceway"),
-    ("roller length", "bearing.roller_length", "mm", 101.0, 111.0, "E",
-     "as the diameter, within 5 %; two rows and the guide ring have to fit 272 mm"),
-    ("composite roughness", "bearing.composite_roughness", "um", 0.15, 0.5, "E", "honed and run in, to ground"),
-    ("hardness", "bearing.hardness", "GPa", 6.5, 8.0, "E", "58 to 64 HRC"),
-    ("cage modulus", "bearing.cage_youngs_modulus", "GPa", 110.0, 210.0, "E", "grey iron to steel"),
-    ("limiting shear", "lubricant.limiting_shear", "1", 0.035, 0.05, "R", "reported for PAO"),
-    ("Eyring stress", "lubricant.eyring_stress", "MPa", 3.3, 8.7, "R",
-     "both are reported for PAO near 1 GPa; used where the law is Eyring's"),
-    ("law of shear", "laws.rheology", "1", 0.0, 1.0, "C",
-     "traction measured on mineral oils and PAO has Eyring's form; polyglycols have a limiting stress",
-     "choice", ("limiting-shear", "eyring")),
-    ("boundary friction", "lubricant.boundary_friction", "1", 0.08, 0.12, "E", "usual for steel with lubricant additives"),
-    ("starvation", "lubricant.starvation", "1", 0.5, 1.0, "R",
-     "0.7 is reported for a bearing of this size; 1 is flooded"),
-    ("inlet temperature", "lubricant.at", "degC", 20.0, 50.0, "P",
-     "the paper's 35 °C and 15 K either way, cold to warm; viscosity, its coefficients, density and Eyring stress follow"),
-    ("viscosity at 35 °C", "lubricant.viscosity", "Pa s", 0.24, 0.80, "D",
-     "base oils of main-bearing greases: VG 220 to VG 680"),
-    ("pressure-viscosity", "lubricant.pressure_viscosity", "1/GPa", 16.5, 22.0, "P",
-     "17 by Gold's law for a PAO, 21 in the paper; oils of a family scatter by more than that"),
-    ("temperature-viscosity", "lubricant.temperature_viscosity", "1/K", 0.050, 0.075, "P",
-     "slope at 35 °C: PAO of viscosity index 170 to mineral oil of index 90"),
-    ("fullness of gaps", "lubricant.fullness", "1", 0.03, 1.0, "E",
-     "how full the gaps of unloaded rollers are is not known; 1 is flooded", "log"),
-    ("inlet film", "lubricant.inlet_film", "1", 5.0, 1000.0, "E",
-     "how full inlets are is not known; 1000 is flooded", "log"),
-    ("contact angle", "bearing.contact_angle", "deg", 10.0, 13.0, "D",
-     "from the axial factors, which are rounded; pitch radius and row offset follow the sphere, and above about 11.8° "
-     "rollers of this length need more than the catalogue's width, which is left out of account"),
-    ("rollers of a row", "bearing.rollers_per_row", "1", 26.0, 30.0, "E",
-     "back-calculated; 30 of the largest diameter just fit, with their cage", "count"),
-    ("shaft mass", "drivetrain.shaft_mass", "kg", 0.0, 6000.0, "E",
-     "none in the paper, 3,026 kg by a scaling law for this rotor; at 1.73 m behind the hub"),
-    ("hub to bearing", "drivetrain.hub_to_bearing", "m", 1.0, 1.5, "E",
-     "the turbine's model gives no bearing position; about 20 % either way"),
-    ("bearing to gearbox", "drivetrain.bearing_to_gearbox", "m", 1.8, 2.6, "E", "as before"),
-))
-# fmt: on
+def _read() -> tuple[UncertainValue, ...]:
+    with (Path(__file__).parent / "values.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    numbers = [
+        {"low": float(row["low"]), "high": float(row["high"]), "choices": row["choices"].split()} for row in rows
+    ]
+    return tuple(UncertainValue(**row | number) for row, number in zip(rows, numbers, strict=True))
+
+
+VALUES = _read()
 
 
 def sample_places() -> NDArray[np.float64]:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from ruamel.yaml import YAML
 
 from paper.experiments import STATIC_LOADS, inflexion_angle
 from paper.studies import DETAILED_CASE
@@ -262,35 +265,8 @@ def euler_stability(stability: xr.Dataset) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
-#: What the paper states, by subject.
-STATED = {
-    "energy": "energy is highest at 12 and 14 m/s",
-    "rows": "the downwind row spends about 10 times the energy of the upwind row",
-    "peaks": "peak power has no trend over wind speed but high variance",
-    "peak ratio": "the downwind row's mean peak power is up to 5 times the upwind row's, most at 12 m/s",
-    "unloaded": "an unloaded roller slows with an inflexion at the top and snaps back in the load zone",
-    "static": "time-varying loads give about 100 times the static energy",
-    "cage": "friction at the cage dominates the energy",
-    "Euler": "explicit Euler is unstable in the load zone, backward Euler is not",
-}
-#: What explains a difference, by model and subject.
-REASONS = {
-    "paper": {
-        "energy": "the energy of an orbit hardly changes; the number of orbits does, least where the shaft is slowest",
-        "rows": "a roller gripped all round spends only the friction of its own weight at the cage, whatever its load",
-        "peaks": "the largest powers are those of unloaded upwind rollers gripped again, more frequent in more wind",
-        "peak ratio": "the largest powers are those of unloaded upwind rollers gripped again; a fixed step misses them",
-        "static": "force balance bounds what a gripped roller's cage carries, however the load varies; an iteration on spin "
-        "that stops early breaks that balance",
-    },
-    "physical": {
-        "rows": "thrust unloads the upwind row; an unloaded roller's energy depends on how much oil is around it",
-        "peaks": "the largest power downwind is microslip at the inner raceway under the largest load, not a snap",
-        "peak ratio": "the upwind row's power rises because it is under load more often; the downwind row's hardly changes",
-        "static": "power at the raceways follows the load of the moment: the static load gives less where it lacks thrust",
-        "cage": "the raceways take most of the energy, by microslip",
-    },
-}
+#: What the paper states, and what explains a difference, by subject.
+STATED: Mapping[str, Any] = YAML(typ="safe").load(Path(__file__).parent / "statements.yaml")
 
 
 def statements(
@@ -314,5 +290,7 @@ def statements(
         "cage": cage_dominates(study),
         "Euler": euler_stability(stability) if stability is not None else (),
     }
-    reasons = REASONS.get(model, {})
-    return {subject: Statement(paper, found[subject], reasons.get(subject, "")) for subject, paper in STATED.items()}
+    return {
+        subject: Statement(words["paper"], found[subject], words.get("reasons", {}).get(model, ""))
+        for subject, words in STATED.items()
+    }
