@@ -8,7 +8,7 @@ from pathlib import Path
 
 from macroslip import MacroslipError
 from macroslip.cli.progress import command_progress
-from paper.reproduce import REPORT, SUMMARY, reproduce
+from paper.reproduce import REPORT, reproduce
 
 
 def main() -> int:
@@ -23,18 +23,9 @@ def main() -> int:
     except MacroslipError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    for line in summary["headline"]:
-        print(line)
-    if summary["reused"]:
-        print(f"used again from the last run, whose inputs are the same: {', '.join(summary['reused'])}")
-    print(f"written: {given.output}; the report: {given.output / REPORT}")
-    failed = summary["failed_rollers"]
-    if any(failed[part] for part in ("study", "single_rollers", "detailed_case")):
-        print(
-            f"failed: some rollers did not reach the end; {given.output / SUMMARY} has their number.", file=sys.stderr
-        )
-        return 3
-    return 0
+    print(*summary["headline"], f"written: {given.output}; the report: {given.output / REPORT}", sep="\n")
+    failed = [summary["failed_rollers"][part] for part in ("study", "single_rollers", "detailed_case")]
+    return 3 if any(failed) else 0
 
 
 if __name__ == "__main__":

@@ -29,17 +29,13 @@ from paper.studies import DETAILED_CASE, put
 STATIC_LOADS = {"downward": False, "downward and thrust": True}
 #: Kept points of a turn, and integrated samples between them: 0.5° and, at 20 rpm, a quarter of a millisecond.
 _POINTS, _FINE = 720, 36
-#: Spin, as a part of pure rolling, from which on a roller counts as recovered.
-_RECOVERED = 0.99
-#: Deviation from the converged spin, as a part of pure rolling, at which a method counts as having lost it.
-_LOST = 0.02
+_RECOVERED = 0.99  # spin, as a part of pure rolling, from which on a roller counts as recovered
+_LOST = 0.02  # deviation from the converged spin, as a part of pure rolling, at which a method counts as having lost it
 TOLERANCES = tuple(10.0**exponent for exponent in range(-14, -4))
 STEPS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 _CONVERGED = ms.Radau(tolerance=1e-8)
-#: Four orbits at 20 rpm [s].
-_STATIC_DURATION = 26.0
-#: Stopping tolerance at which the iteration adds nothing of its own.
-_TIGHT = 1e-12
+_STATIC_DURATION = 26.0  # four orbits at 20 rpm [s]
+_TIGHT = 1e-12  # stopping tolerance at which the iteration adds nothing of its own
 _PAPER = Laws.paper()
 
 

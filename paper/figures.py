@@ -30,10 +30,8 @@ _PART = dict(
 _LINES = ("-", "--", "-.", ":", "-")
 _WIND_SPEED, _ANGLE = "mean wind speed [m/s]", "angle from the bottom [°]"
 _PEAK = r"$P_\mathrm{max}$"
-#: Ratio from which on a point is labelled with it.
-_RAISED = 2.0
-#: Part of the detailed case whose friction torque is drawn [s].
-TORQUE_WINDOW = (300.0, 360.0)
+_RAISED = 2.0  # ratio from which on a point is labelled with it
+TORQUE_WINDOW = (300.0, 360.0)  # part of the detailed case whose friction torque is drawn [s]
 
 
 def mark_level(axes: Axes, low: float, high: float, words: str) -> Axes:

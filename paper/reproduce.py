@@ -59,13 +59,7 @@ class ModelRun:
 
 
 def of_model(name: str, model: str) -> str:
-    """Name of a figure or file of one model; those of the paper's have no ending.
-
-    Examples
-    --------
-    >>> of_model("figure_4a", "paper"), of_model("figure_4a", "physical")
-    ('figure_4a', 'figure_4a_physical')
-    """
+    """Name of a figure or file of one model; those of the paper's have no ending."""
     return name if model == PAPER else f"{name}_{model}"
 
 
@@ -176,19 +170,12 @@ def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dic
             name: {title: turn.to_dict(data="list") for title, turn in run.turns[group].items()}
             for name, group in (("3a", "static"), ("3b", "typical"), ("3b_peak", "peak"))
         }
-        for name, shown in (
-            ("4a", "energy|both_rows"),
-            ("4b", "energy_ratio$"),
-            ("5a", "peak_power_(mean|std)"),
-            ("5b", "peak_power_ratio$"),
-        ):
-            variables = [
-                one for one in run.numbers if re.match(shown, str(one)) and (name != "4a" or one != "energy_ratio")
-            ]
-            of_run[name] = run.numbers[variables].to_dict(data="list")
+        for name, shown in (("4a", "energy$|energy_(?!ratio)|both"), ("5a", "peak_power_(mean|std)")):
+            of_run[name] = run.numbers[[one for one in run.numbers if re.match(shown, str(one))]].to_dict(data="list")
+        for name, shown in (("4b", "energy_ratio"), ("5b", "peak_power_ratio")):
+            of_run[name] = run.numbers[[shown]].to_dict(data="list")
         torque = run.torque.mean("time", keep_attrs=True)
-        tables = {"friction_torque": torque, "mechanisms": run.parts}
-        tables["uncertainty"] = run.uncertainty
+        tables = {"friction_torque": torque, "mechanisms": run.parts, "uncertainty": run.uncertainty}
         of_run |= {name: one.to_dict(data="list") for name, one in tables.items() if one is not None}
         found |= {of_model(name, model): value for name, value in of_run.items()}
     return found | {name: one.to_dict(data="list") for name, one in made.items()}

@@ -20,10 +20,8 @@ from paper.values import sample_points
 
 #: Mechanisms by model.
 MODELS: Mapping[str, Laws] = {"paper": Laws.paper(), "physical": Laws.physical()}
-#: The model of the paper, under which the numerical experiments are computed.
-PAPER = "paper"
-#: The case of the single rollers and the torque; its means are the static load.
-DETAILED_CASE = "14B"
+PAPER = "paper"  # the model of the paper, under which the numerical experiments are computed
+DETAILED_CASE = "14B"  # the case of the single rollers and the torque; its means are the static load
 #: Cases to which the paper refers energy (figure 4) and peak power (figure 5).
 ENERGY_REFERENCE, PEAK_REFERENCE = "12C", "14A"
 

@@ -17,15 +17,11 @@ from paper.studies import between_rows, put
 from paper.values import VALUES, sample_places
 from paper.verdicts import ABOUT, DOMINANT
 
-#: Meaning of the variable `outcome`.
-OUTCOMES = ("completed", "failed", "refused")
-#: Quantiles that are given.
-QUANTILES = (0.05, 0.5, 0.95)
+OUTCOMES = ("completed", "failed", "refused")  # meaning of the variable `outcome`
+QUANTILES = (0.05, 0.5, 0.95)  # quantiles that are given
 #: Probability below which a rank correlation is taken to name a driver. With 23 values and eleven quantities a smaller
-#: one than usual: about one of them in four samples is found by chance.
-DRIVER_LEVEL = 0.001
-#: Part of the variance from which on a Sobol' index is shown.
-TOLD_INDEX = 0.05
+DRIVER_LEVEL = 0.001  # one than usual: about one of them in four samples is found by chance
+TOLD_INDEX = 0.05  # part of the variance from which on a Sobol' index is shown
 
 
 def uncertainty(directory: Path) -> xr.Dataset:
@@ -75,10 +71,8 @@ def uncertainty(directory: Path) -> xr.Dataset:
     return found.transpose("sample", "case", "row", "interface")
 
 
-#: Parts into which the sample is divided to measure the error of the fit.
-_PARTS = 10
-#: Most terms of a fit, as a part of the number of samples.
-_MOST_TERMS = 0.25
+_PARTS = 10  # parts into which the sample is divided to measure the error of the fit
+_MOST_TERMS = 0.25  # most terms of a fit, as a part of the number of samples
 
 
 @dataclass(frozen=True, slots=True, eq=False)

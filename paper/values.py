@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from macroslip import Bearing
 
-#: Seed and number of points of the sample.
-SEED, POINTS = 20261122, 128
+SEED, POINTS = 20261122, 128  # seed and number of points of the sample
 
 
 @dataclass(frozen=True, slots=True)
