@@ -157,7 +157,7 @@ def plot_models(axes: Axes, numbers: Mapping[str, xr.Dataset], quantity: str, la
             mean, low, high = (getattr(by_speed, name)(skipna=False) for name in ("mean", "min", "max"))
             style = ROW[row] if row else {"color": BLACK, "marker": "o"}
             name = f"{model}, {row}" if row else model
-            axes.plot(mean.wind_speed.values, mean.values, markersize=4, label=name, **style | {"linestyle": line})
+            axes.plot(mean.wind_speed.values, mean.values, markersize=4, label=name, **{**style, "linestyle": line})
             band = {"alpha": 0.15, "linewidth": 0.0, "color": style["color"]}
             axes.fill_between(mean.wind_speed.values, low.values, high.values, **band)
             axes.set_xticks(mean.wind_speed.values)

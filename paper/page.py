@@ -60,7 +60,7 @@ def page(
             for name, one in of_uncertainty.items()
         },
         values=VALUES,
-        tags=TAGS | {"C": "choice"},
+        tags={**TAGS, "C": "choice"},
         driver_level=DRIVER_LEVEL,
         torques={
             name: [float(find(one.torque)) for find in (np.nanmean, np.nanmin, np.nanmax)]
