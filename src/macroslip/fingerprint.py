@@ -19,7 +19,7 @@ RESULT_PARTS = ("bearing", "case", "input", "loads", "mechanisms", "rating", "re
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
     "__init__", "cli", "errors", "files", "fingerprint", "hdf5_file", "kernel_cache", "machine", "overview", "plugins", "progress",
-    "report", "reproduction", "study", "torque",
+    "report", "study", "torque",
 )  # fmt: skip
 _ROOT = Path(__file__).parent
 

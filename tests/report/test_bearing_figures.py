@@ -1,4 +1,4 @@
-"""Figures of the whole bearing and of the sensitivity: the numbers they are given, units, and what grey leaves."""
+"""Figures of the whole bearing: the numbers they are given, units, and what grey leaves."""
 
 import io
 
@@ -8,10 +8,7 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 
 from macroslip.report import bearing_figures as draw
-from macroslip.report.style import INTERFACE, ROW, TURBULENCE, new_figure
-from macroslip.reproduction import bearing_sets
-from macroslip.reproduction.sensitivity_figures import plot_tornado
-from macroslip.reproduction.solver_figures import plot_cage_energy
+from macroslip.report.style import INTERFACE, ROW, new_figure
 from macroslip.result.orbit_profile import orbit_profile
 
 pytestmark = pytest.mark.slow
@@ -27,21 +24,6 @@ def profile(result):
 @pytest.fixture
 def axes():
     return new_figure(4.0, 3.0)[1][0]
-
-
-@pytest.fixture
-def table():
-    value = np.array([[0.0, 0.2, 0.4], [0.7, 1.0, 1.0]])
-    energy = np.array([[[2.0, 1.0], [1.0, 1.0], [0.5, 1.0]], [[1.1, 4.0], [1.0, 1.0], [1.0, 1.0]]])
-    return xr.Dataset(
-        {"value": (("variation", "level"), value), "energy": (("variation", "level", "row"), energy)},
-        {
-            "variation": ["clearance", "film"],
-            "level": ["low", "base", "high"],
-            "row": ROWS,
-            "unit": ("variation", ["mm", "1"]),
-        },
-    )
 
 
 def in_grey(colour):
@@ -113,32 +95,6 @@ def test_peak_exceedance_begins_at_one_and_counts_orbits(axes, result):
     assert share[-1] == pytest.approx(1.0 / peak.size)
 
 
-def test_tornado_has_the_widest_bar_on_top_and_both_ends(axes, table):
-    assert plot_tornado(axes, table, "energy", "downwind") is axes
-    assert [text.get_text() for text in axes.get_yticklabels()] == ["film", "clearance [mm]"]
-    ends = sorted((round(bar.get_y() + 0.31), round(bar.get_x() + bar.get_width(), 6)) for bar in axes.patches)
-    assert ends == [(0, 1.1), (1, 0.5), (1, 2.0)]
-    assert [text.get_text() for text in axes.texts] == ["0.7", "0", "0.4"]
-    hatches = {bar.get_hatch() for bar in axes.patches}
-    assert hatches == {"///", ""}
-    other = plot_tornado(new_figure(4.0, 3.0)[1][0], table, "energy", "upwind")
-    assert [text.get_text() for text in other.get_yticklabels()] == ["clearance [mm]", "film"]
-
-
-def test_cage_energy_stands_beside_the_converged_one(axes):
-    experiment = xr.Dataset(
-        {
-            "cage_energy": (("stopping_tolerance", "row"), [[0.2, 0.1], [20.0, 0.1]]),
-            "cage_energy_converged": ("row", [0.2, 0.1]),
-        },
-        {"stopping_tolerance": [1e-12, 1e-7], "row": ROWS},
-    )
-    plot_cage_energy(axes, experiment)
-    assert [text.get_text() for text in axes.texts] == ["100 × converged"]
-    levels = [line.get_ydata()[0] for line in axes.lines if line.get_marker() == "None"]
-    assert levels == [0.2, 0.1]
-
-
 def test_cases_of_a_study(axes, result):
     names = xr.DataArray(["a", "b"], dims="case", name="case")
     study = xr.concat([result[["energy"]], 2.0 * result[["energy"]]], names)
@@ -150,7 +106,7 @@ def test_cases_of_a_study(axes, result):
 
 def test_lines_and_markers_differ_without_their_colours():
     both = ("linestyle", "marker")
-    for group, marks in ((INTERFACE, ("linestyle",)), (ROW, both), (TURBULENCE, both)):
+    for group, marks in ((INTERFACE, ("linestyle",)), (ROW, both)):
         for mark in marks:
             assert len({one[mark] for one in group.values()}) == len(group)
         # None vanishes on white paper.
@@ -166,18 +122,3 @@ def test_bars_differ_in_grey(result):
     axes.figure.savefig(content, format="raw", dpi=100)
     pixels = np.frombuffer(content.getvalue(), np.uint8).reshape(-1, 4)[:, :3] @ np.array([0.299, 0.587, 0.114])
     assert (pixels < 130).sum() > 1000 < (pixels > 250).sum()
-
-
-def test_every_set_of_figures_has_units_on_every_axis(profile, table):
-    figures = [
-        bearing_sets.film_over_orbit_figure(profile),
-        bearing_sets.load_zone_figure(profile),
-        bearing_sets.roller_spread_figure(profile),
-        bearing_sets.outside_film_range_figure(profile),
-        bearing_sets.sensitivity_figure(table.assign(peak_power=table.energy)),
-        bearing_sets.energy_over_orbit_figure(profile),
-    ]
-    for figure in figures[:-1]:
-        labels = [label for one in figure.axes for label in (one.get_xlabel(), one.get_ylabel()) if label]
-        assert labels and all("[" in label or label == "interface" for label in labels), labels
-    assert all("[mJ/°]" in one.get_title(loc="left") for one in figures[-1].axes)

@@ -26,7 +26,6 @@ SCHEDULER = Need("--scheduler", ("dask", "distributed"), "cluster")
 COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
     {
         "macroslip report": (FIGURES,),
-        "macroslip reproduce": (FIGURES,),
         "macroslip loads inspect -o": (PICTURE,),
         "macroslip bearing draw": (PICTURE,),
         "macroslip study --scheduler": (SCHEDULER,),

@@ -15,14 +15,6 @@ if TYPE_CHECKING:
 #: From Okabe and Ito's palette.
 BLACK, BLUE, ORANGE, GREEN, GREY = "#000000", "#0072B2", "#D55E00", "#009E73", "#6E6E6E"
 
-#: Line and marker of each turbulence class.
-TURBULENCE: Mapping[str, Mapping[str, object]] = MappingProxyType(
-    {
-        "A": {"color": ORANGE, "marker": "s", "linestyle": "-"},
-        "B": {"color": BLUE, "marker": "o", "linestyle": "--"},
-        "C": {"color": GREEN, "marker": "^", "linestyle": ":"},
-    }
-)
 #: Line and marker of each row.
 ROW: Mapping[str, Mapping[str, object]] = MappingProxyType(
     {
@@ -38,8 +30,6 @@ INTERFACE: Mapping[str, Mapping[str, object]] = MappingProxyType(
         "cage": {"color": GREEN, "linestyle": "-."},
     }
 )
-#: Steps from one turbulence class to the next along the wind-speed axis [m/s], so that bars do not hide each other.
-CLASS_OFFSET: Mapping[str, float] = MappingProxyType({"A": -0.35, "B": 0.0, "C": 0.35})
 
 
 def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list]:
