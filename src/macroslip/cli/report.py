@@ -70,7 +70,7 @@ def _inputs(results: Path, output: Path) -> Iterable[Path]:
 
 def _of_results(results: Path, title: str | None, weibull: tuple[float, float] | None) -> tuple[str, str]:
     """The page on results, and what failed."""
-    from macroslip.report.read import read_results
+    from macroslip.report.accessor import read_results
     from macroslip.report.results_page import results_page
 
     if weibull:

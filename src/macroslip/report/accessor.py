@@ -12,7 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
+from macroslip.errors import InputError, MacroslipError
+from macroslip.files import check_regular
+from macroslip.hdf5_file import check_hdf5
 from macroslip.overview import html_overview
+from macroslip.result.stored import REMEDY, check_result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,13 +41,51 @@ def open_result(path: str | Path) -> xr.Dataset:
     InputError
         If there is no such file, or it cannot be read.
     """
-    from macroslip.errors import InputError
-    from macroslip.report.read import read_results
-
     if Path(path).is_dir():
         raise InputError("this is a folder", where=str(path), allowed="one netCDF file that macroslip run wrote")
     (result,) = read_results(Path(path)).values()
     return result
+
+
+def read_results(path: Path) -> dict[str, xr.Dataset]:
+    """The datasets of a netCDF file, or of all netCDF files in a folder, by the name of the file.
+
+    Parameters
+    ----------
+    path : Path
+        A file that `macroslip run` wrote, or a folder of such files; subfolders are not searched.
+
+    Raises
+    ------
+    InputError
+        If there is no such path, the folder holds no netCDF file, or a file cannot be read or holds no result.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError("there is no such file or folder", where=str(path), remedy="Name what macroslip run wrote.")
+    files = sorted(path.glob("*.nc")) if path.is_dir() else [path]
+    if not files:
+        raise InputError(
+            "the folder holds no netCDF file", where=str(path), allowed="files that macroslip run wrote (*.nc)"
+        )
+    for file in files:
+        check_regular(file, REMEDY)
+    check_hdf5(files, REMEDY)
+    return {file.stem: _read(file) for file in files}
+
+
+def _read(file: Path) -> xr.Dataset:
+    try:
+        # Units of seconds are units, not times of day.
+        found = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(
+            f"the file cannot be read as netCDF ({error})",
+            where=str(file),
+            remedy=REMEDY,
+        ) from None
+    check_result(found, str(file))
+    return found
 
 
 @xr.register_dataset_accessor("macroslip")
@@ -106,7 +148,7 @@ class Plot:
 
     def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
         """Spin of a roller over time, with that of pure rolling; the first roller if none is named. Needs traces."""
-        from macroslip.report.trace_figures import plot_spin_over_time
+        from macroslip.report.bearing_figures import plot_spin_over_time
 
         number = int(self._result.roller[0]) if roller is None else roller
         return plot_spin_over_time(axes or _new_axes(), self._result, row, number)
@@ -135,8 +177,7 @@ class Plot:
 
         Needs a result of a model with microslip. Axes of your own are four: outer and inner raceway of each row.
         """
-        from macroslip.errors import InputError
-        from macroslip.report.surface_section import plot_map, raceways
+        from macroslip.report.bearing_figures import plot_map, raceways
         from macroslip.result.surface_maps import energy_density
 
         if quantity not in ("energy", "power"):
@@ -153,8 +194,6 @@ class Plot:
 
 def _new_axes(projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any) -> Any:
     """Axes in a new figure, which a notebook shows by itself."""
-    from macroslip.errors import MacroslipError
-
     try:
         from matplotlib import pyplot
     except ModuleNotFoundError:
