@@ -89,7 +89,9 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(_QUARTERS)
     scale = 1e-6 * float((orbit.film_parameter / orbit.film_thickness).median())
-    right = axes.secondary_yaxis("right", functions=(lambda h: h * scale, lambda ratio: ratio / scale))
+    right = axes.secondary_yaxis(
+        "right", functions=(lambda h: np.multiply(h, scale), lambda ratio: np.divide(ratio, scale))
+    )
     decade_ticks(right.yaxis)
     right.set_ylabel("film parameter Λ [–]")
     right.tick_params(labelsize=9)

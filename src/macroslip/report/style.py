@@ -39,7 +39,7 @@ INTERFACE: _Styles = MappingProxyType(
 #: Size of a picture [inches]: what a telephone held upright shows without making letters smaller than the text's.
 WIDTH, HEIGHT = 4.2, 3.1
 #: Options of `picture` on the first screen of a page: four of them and five sentences fit there.
-OPENING = MappingProxyType({"width": 3.5, "height": 2.55, "legend": "above"})
+OPENING: Mapping[str, Any] = MappingProxyType({"width": 3.5, "height": 2.55, "legend": "above"})
 
 
 def three_digits(value: float) -> str:
