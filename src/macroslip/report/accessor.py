@@ -16,6 +16,7 @@ from macroslip.errors import InputError, MacroslipError
 from macroslip.files import check_regular
 from macroslip.hdf5_file import check_hdf5
 from macroslip.overview import html_overview
+from macroslip.report import bearing_figures as draw
 from macroslip.result.stored import REMEDY, check_result
 
 if TYPE_CHECKING:
@@ -130,45 +131,35 @@ class Plot:
 
     def energy(self, *, axes: Axes | None = None) -> Axes:
         """Energy of a mean roller of each row, by interface."""
-        from macroslip.report.bearing_figures import plot_energy_by_interface
-
-        return _legend(plot_energy_by_interface(axes or _new_axes(), self._result.energy))
+        return _legend(draw.plot_energy_by_interface(axes or _new_axes(), self._result.energy))
 
     def rollers(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
         """Energy of every roller of a row, over the mean of the row."""
-        from macroslip.report.bearing_figures import plot_roller_spread
-
-        return plot_roller_spread(axes or _new_axes(), self._result.energy, row)
+        return draw.plot_roller_spread(axes or _new_axes(), self._result.energy, row)
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
         """Share of orbits whose largest power exceeds a value, for both rows."""
-        from macroslip.report.bearing_figures import plot_peak_exceedance
-
-        return _legend(plot_peak_exceedance(axes or _new_axes(), self._result))
+        return _legend(draw.plot_peak_exceedance(axes or _new_axes(), self._result))
 
     def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
         """Spin of a roller over time, with that of pure rolling; the first roller if none is named. Needs traces."""
-        from macroslip.report.bearing_figures import plot_spin_over_time
-
         number = int(self._result.roller[0]) if roller is None else roller
-        return plot_spin_over_time(axes or _new_axes(), self._result, row, number)
+        return draw.plot_spin_over_time(axes or _new_axes(), self._result, row, number)
 
     def load_zone(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
         """Roller load over angle and time. Needs traces that begin with the loads."""
-        from macroslip.report.bearing_figures import plot_load_zone
         from macroslip.result.orbit_profile import load_zone
 
-        return plot_load_zone(axes or _new_axes(), load_zone(self._result), row)
+        return draw.plot_load_zone(axes or _new_axes(), load_zone(self._result), row)
 
     def orbit(self, row: str = "downwind", *, axes: PolarAxes | None = None) -> PolarAxes:
         """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
 
         Needs traces that begin with the loads.
         """
-        from macroslip.report.bearing_figures import plot_energy_over_orbit
         from macroslip.result.orbit_profile import energy_over_orbit
 
-        drawn = plot_energy_over_orbit(axes or _new_axes("polar"), energy_over_orbit(self._result), row)
+        drawn = draw.plot_energy_over_orbit(axes or _new_axes("polar"), energy_over_orbit(self._result), row)
         drawn.legend(frameon=False, fontsize=9, loc="upper left", bbox_to_anchor=(1.05, 1.0))
         return drawn
 
@@ -177,7 +168,6 @@ class Plot:
 
         Needs a result of a model with microslip. Axes of your own are four: outer and inner raceway of each row.
         """
-        from macroslip.report.bearing_figures import plot_map, raceways
         from macroslip.result.surface_maps import energy_density
 
         if quantity not in ("energy", "power"):
@@ -186,10 +176,12 @@ class Plot:
         units = "J/mm²"
         if quantity == "power":
             density, units = self._result.surface_power_density, "W/mm²"
-        shown = raceways(density)
+        shown = draw.raceways(density)
         if axes is None:
             axes = _new_axes(rows=len(shown) // 2, columns=2, figsize=(9.0, 6.0)).ravel()
-        return [plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)]
+        return [
+            draw.plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)
+        ]
 
 
 def _new_axes(projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any) -> Any:

@@ -47,7 +47,8 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
         Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface` with the largest
         energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W], the median over the orbits; `spin`
         [1], the lowest over pure rolling; `loaded` [%], share of time with load; `outside` [%], share of loaded time
-        outside the film formula's range, of the raceway with more; and how many `failed` of the `rollers`.
+        outside the film formula's range, of the raceway with more, and `outside_most` [%] of any roller and interface; and
+        how many `failed` of the `rollers`.
     """
     found = []
     for name in result.row.values.tolist():
@@ -72,6 +73,7 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
                 "spin": _known(row.min_spin_ratio.min()) if "min_spin_ratio" in row else None,
                 "loaded": 100.0 * float((row.roller_load > 0.0).mean()) if "roller_load" in row else None,
                 "outside": _outside(share) if share is not None else None,
+                "outside_most": _known(100.0 * share.max()) if share is not None else None,
                 "failed": int((row.status != 0).sum()),
                 "rollers": int(row.sizes["roller"]),
             }

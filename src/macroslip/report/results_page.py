@@ -152,7 +152,7 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
         ("energy", "energy of a mean roller [J]", np.nanargmax),
         ("peak", "largest frictional power [W]", np.nanargmax),
         ("spin", "lowest spin / pure rolling [–]", np.nanargmin),
-        ("outside", "loaded time outside film range [%]", np.nanargmax),
+        ("outside_most", "loaded time outside film range [%]", np.nanargmax),
     ):
         lines = [{row["name"]: row[key] for row in one} for one in found.values()]
         values = np.array([[line.get(row) for row in rows] for line in lines], dtype=float)

@@ -47,7 +47,8 @@ def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, group: int) -> Ax
     for row in curves.row.values.tolist():
         one = values.sel(row=row)
         one = one[one.values > 0.0]
-        axes.plot(one.threshold.values, one.values, label=row, color=ROW[row]["color"])
+        style = {key: ROW[row][key] for key in ("color", "linestyle")}
+        axes.plot(one.threshold.values, one.values, label=row, **style)
     axes.set_yscale("log")
     drawn = curves.threshold.values[(values > 0.0).any("row").values]
     if drawn.size and drawn.max() > 50.0 * drawn.min():
