@@ -300,12 +300,12 @@ def test_no_part_makes_the_page_scroll_sideways(browser, tmp_path, width):
     drawn = [picture(lambda axes: axes.plot([0.0, 1.0]), "a line", wide=size > 5.0, width=size) for size in (4.2, 9.0)]
     long, parts = "word " * 40 + "a" * 80, words("parts.html")
     call = "{% from 'parts.html' import pictures %}{% call pictures(shown) %}{{ long }}{% endcall %}"
-    body = environment().from_string(call).render(shown=drawn, long=long)
+    body = Markup(environment().from_string(call).render(shown=drawn, long=long))
     body += parts.verbatim(f"@misc{{a, note = {{{long}}}}}", long)
     body += parts.table(Table(tuple("abcdefgh"), (("a long cell of text",) * 8,), long))
     path = tmp_path / "page.html"
     opening = Opening(Markup("<p>{}</p>").format(long) * 5, (drawn[0],) * 4)
-    path.write_text(render("Title", long, opening, (Section("one", long, Markup(body), long, long),)), encoding="utf-8")
+    path.write_text(render("Title", long, opening, (Section("one", long, body, long, long),)), encoding="utf-8")
     context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
     try:
         page = context.new_page()

@@ -261,11 +261,12 @@ def _estimate_lubricant(
     force: Force = False,
 ) -> None:
     """Write a lubricant file from two viscosities and the base oil; what is estimated has the tag E and a range."""
+    from macroslip.catalogue.quantity import parse_quantity
     from macroslip.catalogue.units import KINEMATIC_VISCOSITY as VISCOSITY
     from macroslip.lubricant.estimate import estimate_lubricant
 
-    viscosities: list[Any] = [si("--v40", v40, VISCOSITY), si("--v100", v100, VISCOSITY)]
-    oil = estimate_lubricant(*viscosities, base, name)
+    at_40, at_100 = (parse_quantity(text, VISCOSITY, key) for text, key in ((v40, "--v40"), (v100, "--v100")))
+    oil = estimate_lubricant(VISCOSITY.to_si(*at_40), VISCOSITY.to_si(*at_100), base, name)
     if output is None:
         typer.echo(oil.as_yaml(), nl=False)
         return

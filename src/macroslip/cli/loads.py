@@ -179,17 +179,18 @@ def _print(found: dict[str, Any]) -> None:
     step = found["step [s]"]
     uneven = step["max"] - step["min"] > 1e-3 * step["median"]
     spread = f" (median; {step['min']:.6g} s to {step['max']:.6g} s)" if uneven else ""
-    lines = {"source": found["source"], "kind": found["kind"]}
-    if "reading" in found:
-        lines["taken"] = "\n          ".join(found["reading"])
     start, end = found["time [s]"]
-    lines |= {
+    lines = {
+        "source": found["source"],
+        "kind": found["kind"],
+        "taken": "\n          ".join(found.get("reading", ())),
         "samples": f"{found['samples']}",
         "time": f"{start:.6g} s to {end:.6g} s",
         "step": f"{step['median']:.6g} s{spread}",
     }
     for name, text in lines.items():
-        typer.echo(f"{name:<10}{text}")
+        if text:
+            typer.echo(f"{name:<10}{text}")
     typer.echo()
     _table("statistics over the samples", found["statistics"])
     if "main bearing" in found:
@@ -202,20 +203,18 @@ def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
     print_table(title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows)
 
 
-def _words(drivetrain: dict[str, Any]) -> str:
-    mass = drivetrain["shaft_mass [kg]"]
-    shaft = (
-        f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub" if mass else "no shaft mass"
+def _words(given: dict[str, Any]) -> str:
+    """The drivetrain in a line."""
+    shaft = "no shaft mass"
+    if mass := given["shaft_mass [kg]"]:
+        shaft = f"a shaft of {mass:g} kg {given['shaft_mass_station [m]']:g} m behind the hub"
+    start = (
+        f"{'the default' if given['default'] else 'your'} drivetrain ({given['hub_to_bearing [m]']:g} m from hub to "
     )
-    whose = "the default" if drivetrain["default"] else "your"
-    hub = drivetrain["hub_to_bearing [m]"]
-    if drivetrain["mount"] == "four-point":
-        return (
-            f"{whose} drivetrain ({hub:g} m from hub to front bearing, {drivetrain['front_to_rear [m]']:g} m from front to "
-            f"rear bearing, {drivetrain['locating']} locating, {shaft}): the {drivetrain['bearing']} bearing"
-        )
-    gearbox = drivetrain["bearing_to_gearbox [m]"]
-    return f"{whose} drivetrain ({hub:g} m from hub to bearing, {gearbox:g} m from bearing to gearbox, {shaft})"
+    if given["mount"] == "four-point":
+        rear = f"{given['front_to_rear [m]']:g} m from front to rear bearing, {given['locating']} locating"
+        return f"{start}front bearing, {rear}, {shaft}): the {given['bearing']} bearing"
+    return f"{start}bearing, {given['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
 
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:

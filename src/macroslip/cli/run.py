@@ -128,14 +128,12 @@ def _summary(dataset: xr.Dataset) -> None:
 
 def _tell_failures(dataset: xr.Dataset) -> bool:
     """Print of every roller that failed when and how; returns whether there is one."""
-    from macroslip.integrate.status import Status
+    from macroslip.report.result_numbers import failures
 
-    failed = [roller for roller in dataset.status.stack(one=("row", "roller")) if roller != Status.COMPLETED]
-    for roller in failed:
-        row, index = str(roller.row.values), int(roller.roller)
-        ended = dataset.sel(row=row, roller=index)
+    failed = failures("", dataset)
+    for one in failed:
         to_stderr(
-            f"failed: roller {index} of the {row} row at t = {float(ended.end_time):.6g} s with a slip of "
-            f"{float(ended.end_slip):.4g} m/s: {Status(int(roller)).sentence}."
+            f"failed: roller {one['roller']} of the {one['row']} row at t = {one['time']:.6g} s with a slip of "
+            f"{one['slip']:.4g} m/s: {one['how']}."
         )
     return bool(failed)

@@ -25,17 +25,7 @@ if TYPE_CHECKING:
 
 
 def open_result(path: str | Path) -> xr.Dataset:
-    """Read what `macroslip run` wrote; the result has `result.macroslip.plot`.
-
-    Parameters
-    ----------
-    path : path
-        A netCDF file.
-
-    Returns
-    -------
-    xarray.Dataset
-        In memory.
+    """Read a netCDF file that `macroslip run` wrote into memory; the result has `result.macroslip.plot`.
 
     Raises
     ------
@@ -51,10 +41,7 @@ def open_result(path: str | Path) -> xr.Dataset:
 def read_results(path: Path) -> dict[str, xr.Dataset]:
     """The datasets of a netCDF file, or of all netCDF files in a folder, by the name of the file.
 
-    Parameters
-    ----------
-    path : Path
-        A file that `macroslip run` wrote, or a folder of such files; subfolders are not searched.
+    Subfolders are not searched.
 
     Raises
     ------
@@ -80,11 +67,7 @@ def _read(file: Path) -> xr.Dataset:
         # Units of seconds are units, not times of day.
         found = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
     except (OSError, ValueError, KeyError) as error:
-        raise InputError(
-            f"the file cannot be read as netCDF ({error})",
-            where=str(file),
-            remedy=REMEDY,
-        ) from None
+        raise InputError(f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY) from None
     check_result(found, str(file))
     return found
 

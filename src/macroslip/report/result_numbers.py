@@ -131,6 +131,7 @@ def failures(name: str, result: xr.Dataset) -> list[dict[str, Any]]:
             "row": one.row.item(),
             "roller": one.roller.item(),
             "time": float(one.end_time),
+            "slip": float(one.end_slip),
             "how": Status(int(one.status)).sentence,
         }
         for one in ends
