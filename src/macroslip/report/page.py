@@ -98,17 +98,9 @@ def words(template: str) -> Any:
 
 
 def sections(template: str, bodies: Mapping[str, Any], *, suffix: str = "", group: str = "") -> list[Section]:
-    """Sections whose titles and gists are in the dictionary `titles` of a template.
+    """Sections from bodies by name; titles and gists are in the dictionary `titles` of the template.
 
-    Parameters
-    ----------
-    template : str
-    bodies : mapping
-        From its macros, by the name of the section.
-    suffix : str
-        Added to the names of the sections where a page shows several results.
-    group : str
-        As of `Section`.
+    A suffix is added to the names where a page shows several results.
     """
     titles = words(template).titles
     return [Section(f"{name}{suffix}", titles[name][0], body, titles[name][1], group) for name, body in bodies.items()]

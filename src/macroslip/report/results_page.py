@@ -175,9 +175,9 @@ def view_section(profiles: Mapping[str, Profile]) -> Section:
     scenes = {
         title: scene_data(profile["scene"], run_input(profile["result"]).bearing) for title, profile in profiles.items()
     }
-    first = next(iter(profiles.values()))["scene"]
+    first = next(iter(profiles.values()))["scene"].time
     pockets = any("pocket_offset" in profile["scene"] for profile in profiles.values())
-    body = words(_TEMPLATE).motion(scenes, float(first.time[0]), float(first.time[-1]), pockets)
+    body = words(_TEMPLATE).motion(scenes, float(first[0]), float(first[-1]), pockets)
     return sections(_TEMPLATE, {"bearing": body})[0]
 
 
@@ -190,22 +190,10 @@ def roller_sections(
     intro: str = "",
     no_traces: str = "",
 ) -> list[Section]:
-    """Sections on all rollers of a result: energy, power, load zone, films.
+    """Sections on all rollers: energy, power, load zone, films.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `macroslip.simulate`.
-    profile : mapping, optional
-        From `orbit_profile`; without it what needs traces is left out.
-    suffix : str
-        Added to the names of the sections where a page shows several results.
-    group : str
-        What the sections belong to.
-    intro : str
-        Heads the first section.
-    no_traces : str
-        Why there is no profile.
+    Without a profile, from `orbit_profile`, some pictures are left out; `no_traces` says why there is none. `intro`
+    heads the first section.
     """
     text, energy = words(_TEMPLATE), result.energy
     about = "Bars of a mean roller's energy by interface and row"
