@@ -14,14 +14,14 @@ from functools import partial
 
 import numpy as np
 import xarray as xr
+from macroslip.integrate.held_contact import relaxation_rate
 
 import macroslip as ms
 from macroslip import BearingLoads, Laws
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
-from macroslip.integrate.held_contact import relaxation_rate
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.machine import usable_processors
-from macroslip.ring.travel import travel
+from macroslip.ring.orbit import travel
 from macroslip.roller.model import roller_model
 from paper.studies import DETAILED_CASE, put
 

@@ -13,9 +13,9 @@ import xarray as xr
 
 from macroslip import Case, HubLoads, InputError, Laws, MacroslipError, open_study, run_study
 from macroslip.result.row_loads import row_loads
-from macroslip.study.outcome import Outcome
 from macroslip.study.reader import stored_results
-from macroslip.study.study import Study
+from macroslip.study.store import Outcome
+from macroslip.study.study_file import Study
 from paper.values import sample_points
 
 #: Mechanisms by model.

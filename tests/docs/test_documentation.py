@@ -12,7 +12,7 @@ from macroslip.input.fields import Choice
 from macroslip.input.section import fields_of, form_of, keys_of
 from macroslip.imposed.status import Status
 from macroslip.study.export import tables
-from macroslip.study.outcome import Outcome
+from macroslip.study.store import Outcome
 from macroslip.study.study_file import study_of
 from macroslip.study.study_keys import KINDS, StudyFile
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES

@@ -7,7 +7,7 @@ import pytest
 
 from macroslip import HubLoads, MacroslipError, simulate
 from macroslip.result.thermal_balance import bearing_friction_power
-from macroslip.study.build import template
+from macroslip.study.settings import template
 from macroslip.study.study_file import study_of
 from paper.studies import compute
 from paper.uncertainty import drivers, quantities, robust, strongest, uncertainty, uncertainty_summary

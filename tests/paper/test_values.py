@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from macroslip import Case
-from macroslip.study.build import template
+from macroslip.study.settings import template
 from macroslip.study.study_file import study_of
 from paper.studies import content
 from paper.values import POINTS, SEED, VALUES

@@ -237,7 +237,11 @@ def _spread(details, interface, way, energy, mean_time):
 def _raise(details, orbit, interface, density, ratio, film_ratio):
     if orbit >= 0:
         extreme = details.extreme[orbit, interface]
-        extreme[1], extreme[2], extreme[3] = max(extreme[1], density), max(extreme[2], ratio), min(extreme[3], film_ratio)
+        extreme[1], extreme[2], extreme[3] = (
+            max(extreme[1], density),
+            max(extreme[2], ratio),
+            min(extreme[3], film_ratio),
+        )
 
 
 @jit
@@ -344,7 +348,8 @@ def _cage_powers(body, tables, loads, speeds, found):
     for n in range(loads.size):
         if loads[n] > 0.0:
             found[n] = abs(
-                speeds[n] * cage_traction(body, tables, loads[n], log_load(loads[n]), speeds[n], log_speed(speeds[n]))[0]
+                speeds[n]
+                * cage_traction(body, tables, loads[n], log_load(loads[n]), speeds[n], log_speed(speeds[n]))[0]
             )
 
 

@@ -41,7 +41,8 @@ def films(result: xr.Dataset) -> xr.Dataset:
     window = in_window(result)
     window = window.isel(time=slice(None, None, max(1, math.ceil(window.sizes["time"] / _FILM_SAMPLES))))
     angle = angles.sel(time=window.time)
-    bearing, models, _ = run_input(result)
+    given = run_input(result)
+    bearing, models = given.bearing, given.models
     load = np.empty((*angle.shape, result.sizes["interface"]))
     radius = geometry.roller_radius(bearing)
     for r, row in enumerate(window.row.values.tolist()):

@@ -13,7 +13,8 @@ import numpy as np
 from macroslip.bearing.geometry import ROWS
 from macroslip.errors import InputError
 from macroslip.imposed.status import Status
-from macroslip.result.variables import INTERFACES, VARIABLES
+from macroslip.measures.totals import INTERFACES
+from macroslip.result.variables import VARIABLES
 
 if TYPE_CHECKING:
     import xarray as xr

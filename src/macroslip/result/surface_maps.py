@@ -83,7 +83,7 @@ def energy_density(result: xr.Dataset) -> xr.DataArray:
     Parameters
     ----------
     result : xarray.Dataset
-        From `simulate`, with microslip; or from `macroslip.study.surface.weighted_maps`.
+        From `simulate`, with microslip; or from `macroslip.study.lifetime.weighted_maps`.
 
     Returns
     -------

@@ -239,7 +239,9 @@ def with_tables(
     return found, TableReport(typical, worst, flat.nbytes, seconds)
 
 
-def _write_contact(record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float) -> list[TableErrors]:
+def _write_contact(
+    record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float
+) -> list[TableErrors]:
     """Write the tables and numbers of one contact; the errors of its traction's table, if it has one."""
     errors = []
     record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
