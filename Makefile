@@ -10,8 +10,8 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: reproduce test test-fast test-lowest test-deep lint docs bench clean
 
-reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/
-	$(BIN)/macroslip reproduce -o results
+reproduce: $(VENV)/.figures  ## the paper's study: report.html, figures and summary.json in results/
+	$(BIN)/python -m paper -o results
 
 test: lint  ## everything that has to hold, some sixteen minutes on two processors where nothing is compiled yet
 	$(PYTEST) $(ARGS)
@@ -24,7 +24,7 @@ test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs;
 
 test-lowest:  ## input, a computed case and results with the lowest versions that pyproject.toml allows
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
-	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/catalogue tests/case tests/loads tests/lubricant tests/bearing tests/integrate/test_sealed.py src/macroslip/result/simulate.py
+	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing tests/integrate/test_sealed.py src/macroslip/result/simulate.py
 
 lint: $(VENV)/.ready  ## format, lint and types
 	$(BIN)/ruff format --check .
@@ -38,10 +38,14 @@ bench: $(VENV)/.ready  ## the integrator against its rivals, measured here and n
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
 	$(BIN)/python -m benchmarks $(ARGS)
 
-$(VENV)/.ready: pyproject.toml
+$(VENV)/.figures: pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "macroslip needs Python 3.11 or newer; name one with: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --editable '.[figures]' $(CONSTRAINTS)
+	touch $@
+
+$(VENV)/.ready: $(VENV)/.figures
 	$(BIN)/python -m pip install --quiet --editable '.[test]' $(CONSTRAINTS)
 	touch $@
 

@@ -9,7 +9,7 @@ from benchmarks.outcome import Reference, Solution
 from macroslip.integrate.fixed_step import integrate_fixed_step
 from macroslip.integrate.path import FixedStep, Path
 from macroslip.integrate.record import new_record
-from macroslip.integrate.status import COMPLETED
+from macroslip.imposed.status import COMPLETED
 
 
 def solve(history: History, reference: Reference, step: float, tolerance: float) -> Solution:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.case.case import Case
 from macroslip.integrate.entries import sealed
 from macroslip.integrate.load_zone import EDGE, classify, edge_time, empty_classes, interference_at
@@ -117,7 +117,7 @@ def histories_of(
     Returns
     -------
     list of History
-        Row by row, in the order of `macroslip.bearing.frames.ROWS`.
+        Row by row, in the order of `macroslip.bearing.geometry.ROWS`.
 
     Raises
     ------

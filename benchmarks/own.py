@@ -10,7 +10,7 @@ from macroslip.integrate.load_zone import empty_classes
 from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import RollerRecord, new_record
-from macroslip.integrate.status import COMPLETED
+from macroslip.imposed.status import COMPLETED
 
 #: Tolerance of the reference.
 REFERENCE_TOLERANCE = 1e-9

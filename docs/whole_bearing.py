@@ -270,7 +270,7 @@ def accuracy(laws: Laws) -> None:
         loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + span)
         case = Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
         found = []
-        for integrator in (Radau(), Radau(tolerance=fine, tables=False)):
+        for integrator in (Radau(), Radau(tolerance=fine)):
             result = simulate(replace(case, integrator=integrator))
             found.append(np.append(energies(result).ravel(), float(result.rolling_energy.sum())))
             if len(found) == 1:

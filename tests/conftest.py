@@ -36,7 +36,7 @@ FIRST = (
     "tests/docs/test_pages.py",
     "tests/torque/test_rings.py",
     "tests/study/test_cluster.py",
-    "tests/reproduction/",
+    "tests/paper/",
     "tests/docs/",
 )
 

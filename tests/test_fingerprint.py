@@ -42,7 +42,7 @@ def key():
     [
         ("traction/rheology.py", True), ("roller/forces.py", True), ("loads/openfast.py", True),
         ("result/simulate.py", True), ("study/summary.py", True), ("study/cycles.py", True),
-        ("reproduction/verdicts.py", False), ("report/results_page.py", False), ("torque/handbooks.py", False),
+        ("report/results_page.py", False), ("torque/handbooks.py", False),
         ("study/run.py", False), ("study/lifetime.py", False), ("cli/run.py", False),
     ],
 )  # fmt: skip

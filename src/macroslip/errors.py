@@ -49,6 +49,8 @@ class InputError(MacroslipError, ValueError):
 
     #: Letters of each part; what a file or a name holds may be of any length.
     longest: ClassVar[int] = 1500
+    #: Whether `where` is the place in the user's input, and not what a reader without its file knows.
+    is_placed: bool = False
 
     def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = ""):
         what, where, allowed, remedy = (legible(part, self.longest) for part in (what, where, allowed, remedy))

@@ -22,14 +22,6 @@ SPECIAL = "it is a pipe, a socket or a device, not a file"
 def write_durably(path: Path, content: bytes) -> None:
     """Write a file in one step: when this returns it is on the disk; until then the old content stays.
 
-    The content goes to a temporary file in the same folder, is flushed to the disk (fsync), takes its name, and the
-    folder, which holds the name, is flushed as well. The folder is made if need be.
-
-    Parameters
-    ----------
-    path : Path
-    content : bytes
-
     Raises
     ------
     OSError
@@ -42,21 +34,18 @@ def write_durably(path: Path, content: bytes) -> None:
             file.write(content)
             flush(file.fileno())
         temporary.replace(path)
-    except BaseException:
+    finally:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
-        raise
     flush_folder(path.parent)
 
 
 def make_folder(folder: Path) -> None:
     """Make a folder with its parents, so that a power cut does not undo it."""
-    if folder.is_dir():
-        return
-    make_folder(folder.parent)
-    with contextlib.suppress(FileExistsError):
-        folder.mkdir()
-    flush_folder(folder.parent)
+    if not folder.is_dir():
+        make_folder(folder.parent)
+        folder.mkdir(exist_ok=True)
+        flush_folder(folder.parent)
 
 
 def flush(descriptor: int) -> None:
@@ -66,13 +55,12 @@ def flush(descriptor: int) -> None:
 
 def flush_folder(folder: Path) -> None:
     """The same for the names in a folder; systems without such a thing, as Windows, keep them by themselves."""
-    if os.name != "posix":
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+    if os.name == "posix":
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 def is_special(path: Path) -> bool:
@@ -91,17 +79,6 @@ def check_regular(path: Path, remedy: str) -> None:
     """Refuse a pipe, a socket or a device in the place of a file, before it is opened.
 
     What is not there, and a folder, pass: their reader reports them.
-
-    Parameters
-    ----------
-    path : Path
-        A path that was named, or that is used where a file should be.
-    remedy : str
-        What to do about it.
-
-    Raises
-    ------
-    InputError
     """
     special = False
     with contextlib.suppress(OSError, ValueError):
@@ -111,12 +88,7 @@ def check_regular(path: Path, remedy: str) -> None:
 
 
 def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
-    """Refuse to replace a file that the output is made from, by whatever name; those that do not exist are passed over.
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse to replace a file that the output is made from, by whatever name; those that do not exist are passed over."""
     if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
         what = "this is a file that the output is made from"
         raise InputError(what, where=str(path), remedy="Choose another name; it would be lost.")
@@ -164,17 +136,8 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
 def new_file(path: Path, *, force: bool) -> Iterator[Path]:
     """Give a temporary path to write to; it takes its proper name when the block is left without an error.
 
-    Parameters
-    ----------
-    path : Path
-        The file to make.
-    force : bool
-        Whether it may replace a file; otherwise one that has appeared meanwhile is kept.
-
-    Yields
-    ------
-    Path
-        In the same folder, so that the change of name is one step. It is removed if the block fails.
+    The path is in the same folder, so that the change of name is one step; it is removed if the block fails. Without
+    `force` a file that has appeared meanwhile is kept.
 
     Raises
     ------
@@ -185,9 +148,14 @@ def new_file(path: Path, *, force: bool) -> Iterator[Path]:
     try:
         yield temporary
         if force:
-            os.replace(temporary, path)
-        else:
-            _take_name(temporary, path)
+            temporary.replace(path)
+            return
+        try:
+            os.link(temporary, path)  # in one step, where the file system has hard links
+        except OSError:
+            if path.exists():
+                raise FileExistsError from None
+            temporary.replace(path)
     except FileExistsError:
         raise InputError(
             "the file has appeared since this command began, and is kept",
@@ -204,30 +172,13 @@ def new_file(path: Path, *, force: bool) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def _take_name(temporary: Path, path: Path) -> None:
-    """Give a file its name unless the name is taken, in one step where the file system has hard links."""
-    try:
-        os.link(temporary, path)
-    except FileExistsError:
-        raise
-    except OSError:
-        if path.exists():
-            raise FileExistsError from None
-        os.replace(temporary, path)
-
-
 def unfinished(path: Path) -> Path:
     """A name in the same folder for a file that is being written; no other command has it."""
     return path.with_name(f".{path.name}.{uuid.uuid4().hex}{UNFINISHED}")
 
 
 def check_no_zero_byte(name: str) -> None:
-    """Refuse a character that no path may contain, before anything is computed for it.
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse a character that no path may contain, before anything is computed for it."""
     if "\0" in name:
         raise InputError(f"{name!r} holds a zero byte", allowed="text without it", remedy="Write the name anew.")
 
@@ -236,17 +187,7 @@ def check_no_zero_byte(name: str) -> None:
 def reading(path: Path, remedy: str) -> Iterator[None]:
     """Turn any error of the libraries that read a file or folder into one that names it as damaged.
 
-    Parameters
-    ----------
-    path : Path
-        What is read.
-    remedy : str
-        What to do about a damaged one.
-
-    Raises
-    ------
-    InputError
-        In place of anything but an error of the system or of memory, which are reported elsewhere.
+    Errors of the system and of memory are reported elsewhere.
     """
     try:
         yield

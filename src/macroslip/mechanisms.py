@@ -5,14 +5,50 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import fields, replace
+from typing import Annotated, Any
 
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Flag
+from macroslip.input.messages import unknown_name
+from macroslip.input.section import input_section
+
+_OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+# Names are looked up only when a file or a call gives one, so that kernels need not be imported to read a case.
+def _film_laws() -> list[str]:
+    from macroslip.contact.registry import FILM_LAWS
+
+    return FILM_LAWS.names()
+
+
+def _rheologies() -> list[str]:
+    from macroslip.contact.traction import RHEOLOGIES
+
+    return list(RHEOLOGIES)
+
+
+def _asperity_laws() -> list[str]:
+    from macroslip.contact import asperities
+
+    return sorted(asperities.REFERENCES)
+
+
+def _rolling_laws() -> list[str]:
+    from macroslip.contact.rolling import REFERENCES
+
+    return list(REFERENCES)
+
+
+def _traction_laws() -> list[str]:
+    from macroslip.contact.registry import TRACTION_LAWS
+
+    return [MECHANISMS, *TRACTION_LAWS.names()]
+
+
+@input_section("laws", "physics in the contacts: a named set, and mechanisms that differ from it")
 class Laws:
     """Mechanisms in the contacts of a roller. The defaults are the paper's model.
 
@@ -55,31 +91,20 @@ class Laws:
     'paper, but rheology limiting-shear, viscosity roelands'
     """
 
-    film: str = "masjedi-khonsari"
-    starvation: bool = False
-    inlet_heating: bool = False
-    viscosity: str = "barus"
-    rheology: str = "newtonian"
-    heating: bool = True
-    microslip: bool = False
-    asperities: str = "none"
-    rolling: str = "none"
-    traction: str = MECHANISMS
+    film: Annotated[str, Choice("film thickness", _film_laws, _OWN_LAW)] = "masjedi-khonsari"
+    starvation: Annotated[bool, Flag("film thinned by the lubricant's starvation factor")] = False
+    inlet_heating: Annotated[bool, Flag("film thinned by shear heating in the inlet")] = False
+    viscosity: Annotated[str, Choice("how viscosity rises with pressure", lambda: VISCOSITY_LAWS)] = "barus"
+    rheology: Annotated[str, Choice("how the film's stress falls behind the Newtonian one", _rheologies)] = "newtonian"
+    heating: Annotated[bool, Flag("shear heating of the film")] = True
+    microslip: Annotated[bool, Flag("slip that varies along the roller")] = False
+    asperities: Annotated[str, Choice("share of the load that asperities carry", _asperity_laws)] = "none"
+    rolling: Annotated[str, Choice("rolling resistance, and films of rollers with play", _rolling_laws)] = "none"
+    traction: Annotated[
+        str, Choice("mechanisms, or a traction law of your own in their place", _traction_laws, _OWN_LAW)
+    ] = MECHANISMS
 
     def __post_init__(self) -> None:
-        for name, choices in (
-            ("viscosity", viscosity_laws),
-            ("rheology", rheologies),
-            ("asperities", asperity_laws),
-            ("rolling", rolling_laws),
-        ):
-            value = getattr(self, name)
-            # Names are looked up only when one is not the default, so that kernels need not be imported to read a case.
-            if value != _DEFAULTS[name] and value not in choices():
-                raise InputError(f"'{value}' does not exist", where=f"laws.{name}", allowed=", ".join(choices()))
-        for name in ("starvation", "inlet_heating", "heating", "microslip"):
-            if not isinstance(getattr(self, name), bool):
-                raise InputError(f"it is {getattr(self, name)!r}", where=f"laws.{name}", allowed="true or false")
         if self.traction != MECHANISMS:
             void = [name for name in _REPLACED if getattr(self, name) != _DEFAULTS[name]]
             if void:
@@ -114,16 +139,7 @@ class Laws:
         Vengudusamy, Enekes and Spallek, Friction (2019), doi:10.1007/s40544-019-0267-5; Jacod, Venner and Lugt,
         J. Tribol. 123 (2001) 248, doi:10.1115/1.1308021.
         """
-        return cls(
-            film="masjedi-khonsari-moes",
-            starvation=True,
-            inlet_heating=True,
-            viscosity="roelands",
-            rheology="eyring",
-            microslip=True,
-            asperities="masjedi-khonsari",
-            rolling="whole-film",
-        )
+        return cls(**PRESETS["physical"])
 
     @classmethod
     def named(cls, name: str) -> Laws:
@@ -134,9 +150,10 @@ class Laws:
         InputError
             For any other name.
         """
-        if name not in NAMED_SETS:
-            raise InputError(f"'{name}' does not exist", where="laws.model", allowed=", ".join(NAMED_SETS))
-        return cls.paper() if name == "paper" else cls.physical()
+        if name not in PRESETS:
+            problem = unknown_name(name, list(PRESETS))
+            raise InputError(problem.what, where="laws.model", allowed=problem.allowed, remedy=problem.remedy)
+        return cls(**PRESETS[name])
 
     def but(self, **changes: Any) -> Laws:
         """The same with some choices changed."""
@@ -146,7 +163,7 @@ class Laws:
     def name(self) -> str:
         """The set's name, or the one it is nearest to with what differs."""
         differences = {}
-        for model in NAMED_SETS:
+        for model in PRESETS:
             other = Laws.named(model)
             names = [one.name for one in fields(self) if getattr(self, one.name) != getattr(other, one.name)]
             differences[model] = sorted(f"{name} {_word(getattr(self, name))}" for name in names)
@@ -162,34 +179,21 @@ class Laws:
 #: Mechanisms that a traction law of one's own replaces.
 _REPLACED = ("viscosity", "rheology", "heating", "microslip")
 _DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
-#: Named sets.
-NAMED_SETS = ("paper", "physical")
-
-
-def viscosity_laws() -> list[str]:
-    """Names of the laws for viscosity under pressure."""
-    return ["barus", "roelands"]
-
-
-def rheologies() -> list[str]:
-    """Names of the film's rheologies."""
-    from macroslip.contact.traction import RHEOLOGIES
-
-    return list(RHEOLOGIES)
-
-
-def asperity_laws() -> list[str]:
-    """Names of the laws for the share of the load that asperities carry."""
-    from macroslip.contact import asperities
-
-    return sorted(asperities.REFERENCES)
-
-
-def rolling_laws() -> list[str]:
-    """Names of the laws for rolling resistance."""
-    from macroslip.contact.rolling import REFERENCES
-
-    return list(REFERENCES)
+VISCOSITY_LAWS = ("barus", "roelands")
+#: Choices of each named set that differ from the defaults.
+PRESETS: dict[str, dict[str, Any]] = {
+    "paper": {},
+    "physical": {
+        "film": "masjedi-khonsari-moes",
+        "starvation": True,
+        "inlet_heating": True,
+        "viscosity": "roelands",
+        "rheology": "eyring",
+        "microslip": True,
+        "asperities": "masjedi-khonsari",
+        "rolling": "whole-film",
+    },
+}
 
 
 def _word(value: Any) -> str:

@@ -196,7 +196,7 @@ def test_laws_are_not_imported_unless_they_are_named(write):
 def accepts(schema, value):
     """Check a value against the words of JSON Schema that the schema uses, and against no others."""
     known = {"$schema", "title", "description", "type", "properties", "required", "additionalProperties", "enum",
-             "const", "pattern", "items", "minItems", "maxItems", "minimum", "uniqueItems", "oneOf",
+             "const", "pattern", "minLength", "items", "minItems", "maxItems", "minimum", "uniqueItems", "oneOf",
              "anyOf"}  # fmt: skip
     assert schema.keys() <= known, schema.keys() - known
     kinds = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int, "number": (int, float)}

@@ -68,14 +68,6 @@ def test_a_process_does_not_look_in_the_current_folder(hostile, monkeypatch, ent
     assert str(hostile / "other") in done.stdout and repr(str(hostile / "sent")) not in done.stdout
 
 
-def test_the_page_of_the_reproduction_is_written_without_them(hostile):
-    from macroslip.reproduction.page_process import page_written
-
-    with pytest.raises(RuntimeError, match="reproduction_page"), page_written(hostile / "page.html", "nothing"):
-        pass
-    assert ran(hostile) == ""
-
-
 @pytest.mark.skipif(os.name != "posix", reason="Windows keeps the current folder")
 def test_a_current_folder_that_is_gone(hostile):
     (hostile / "gone").mkdir()

@@ -3,8 +3,8 @@
 import pytest
 from ruamel.yaml import YAML
 
-from macroslip.case.keys import CaseFile
-from macroslip.catalogue.section_forms import keys_of
+from macroslip.case.case import Case
+from macroslip.input.section import keys_of
 
 pytestmark = pytest.mark.slow
 
@@ -40,7 +40,7 @@ def test_the_template_shows_every_key_with_a_comment_above(folder, macroslip):
     macroslip("init")
     lines = (folder / "case.yaml").read_text().splitlines()
 
-    for key in {name.rpartition(".")[2] for name, _ in keys_of(CaseFile)}:
+    for key in {name.rpartition(".")[2] for name, _ in keys_of(Case)}:
         places = [n for n, line in enumerate(lines) if line.lstrip(" #").startswith(f"{key}:")]
         assert places, f"{key} is not in the template"
         explained = (line for n in places for line in reversed(lines[:n]) if not line.lstrip(" #").startswith("force:"))

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from macroslip.cli.interrupt import interrupts_kept
+from macroslip.cli.failure import interrupts_kept
 
 
 class Interrupted:

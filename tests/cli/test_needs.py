@@ -33,14 +33,6 @@ def test_the_message_names_package_and_remedy(without):
         require(FIGURES, WORKERS)
 
 
-def test_several_needs_are_one_message_with_one_remedy(without):
-    without("jinja2", "distributed")
-    with pytest.raises(MacroslipError) as error:
-        require(WORKERS, FIGURES)
-    assert "--workers and --scheduler and a page or a picture: distributed, jinja2." in str(error.value)
-    assert str(error.value).endswith("pip install 'macroslip[cluster,figures]'")
-
-
 def test_a_dry_run_refuses_what_the_run_would_refuse(folder, macroslip, without):
     (folder / "study.yaml").write_text("loads: {bundled: [14B]}\n")
     without("distributed")

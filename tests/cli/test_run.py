@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 from macroslip import Case, HubLoads, simulate
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.result.rating import with_rating
 
 pytestmark = pytest.mark.slow

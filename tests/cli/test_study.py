@@ -137,9 +137,9 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
     main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
     command = [sys.executable, "-c", main, "study", "study.yaml", "-o", "out"]
     process = subprocess.Popen([*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True)
-    journal = folder / "out" / "journal.jsonl"
+    log = folder / "out" / "log.txt"
     end = time.monotonic() + 120
-    while not journal.exists() or journal.stat().st_size == 0:
+    while not log.exists() or ": completed" not in log.read_text():
         assert time.monotonic() < end
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from macroslip import Bearing
 from macroslip.contact import film
 from macroslip.contact.film import log_moes, masjedi_khonsari_thickness, moes_thickness
-from macroslip.lubricant.density import dowson_higginson
+from macroslip.lubricant.viscosity import dowson_higginson
 
 RATED_SURFACE_SPEED = 0.39594  # Ω r~_out at 20.463 rpm [m/s]
 NUMBERS = pytest.mark.parametrize("number", [0, 1, 2], ids=["inner", "outer", "cage"])

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
-from macroslip.case.keys import INTEGRATORS, CaseFile, LawsKeys
-from macroslip.catalogue.forms import Choice
-from macroslip.catalogue.section_forms import fields_of, form_of, keys_of
-from macroslip.integrate.status import Status
+from macroslip.case.parts import INTEGRATORS
+from macroslip.input.fields import Choice
+from macroslip.input.section import fields_of, form_of, keys_of
+from macroslip.imposed.status import Status
 from macroslip.study.export import tables
-from macroslip.study.outcome import Outcome
+from macroslip.study.store import Outcome
 from macroslip.study.study_file import study_of
 from macroslip.study.study_keys import KINDS, StudyFile
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
@@ -43,7 +43,7 @@ def test_index_names_every_page_and_every_example():
 def test_input_page_names_every_key_of_a_case():
     quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
     sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
-    names = [key for key, _ in keys_of(CaseFile) if key not in sections]
+    names = [key for key, _ in keys_of(Case) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
     names = [key.removeprefix("loads.hub.").removeprefix("loads.main_bearing.") for key in names]
     assert [name for name in names if name not in quoted] == []
@@ -97,7 +97,7 @@ def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
 
 def test_input_page_names_every_law_and_method():
     text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
-    laws = [form_of(field) for field in fields_of(LawsKeys).values()]
+    laws = [form_of(field) for field in fields_of(Laws).values()]
     choices = [name for choice in laws if isinstance(choice, Choice) for name in choice.names()]
     names = [*choices, *INTEGRATORS, bundled_cases()[0], bundled_cases()[-1]]
     missing = [name for name in names if f"`{name}`" not in text]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from macroslip.bearing import Bearing
 from macroslip.film import film_law as law
 from macroslip.film.masjedi_khonsari_moes import prepare
-from macroslip.lubricant.density import dowson_higginson
+from macroslip.lubricant.viscosity import dowson_higginson
 
 RATED_SURFACE_SPEED = 0.39594  # Ω r~_out at 20.463 rpm [m/s]
 NUMBERS = pytest.mark.parametrize("number", [0, 1, 2], ids=["inner", "outer", "cage"])

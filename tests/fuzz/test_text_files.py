@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import Bearing, Lubricant
-from macroslip.catalogue.source import parse
+from macroslip.input.files import parse
 from macroslip.study.study_file import read_study
 from tests.fuzz.mutations import damaged, misshapen
 from tests.fuzz.oracle import app_of, ends_well, examples

@@ -13,7 +13,7 @@ from macroslip.integrate.load_zone import empty_classes, firm_interference
 from macroslip.integrate.path import Limits, Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.roller.model import roller_model
 

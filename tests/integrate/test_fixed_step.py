@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from macroslip import BackwardEuler, BearingLoads, Case, ExplicitEuler, HubLoads, Radau, Window, simulate
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 
 pytestmark = pytest.mark.slow
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Laws, Radau, Traces, Window, main_bearing_load, simulate
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 
 pytestmark = pytest.mark.slow
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, Case, Laws, Window, simulate
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 
 pytestmark = pytest.mark.slow
 

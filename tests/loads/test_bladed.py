@@ -6,7 +6,7 @@ import pytest
 from macroslip.case.case_file import read_case
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads
-from macroslip.study.build import read_loads
+from macroslip.study.settings import read_loads
 from macroslip.study.study_file import read_study
 
 HUB = ["Mx", "My", "Mz", "Myz", "Fx", "Fy", "Fz", "Fyz"]

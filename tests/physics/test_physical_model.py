@@ -18,14 +18,14 @@ from scipy.optimize import brentq
 
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, simulate
 from macroslip.bearing import Bearing
-from macroslip.bearing.frames import initial_angles
+from macroslip.bearing.geometry import initial_angles
 from macroslip.errors import InputError
 from macroslip.integrate.entries import sealed
 from macroslip.integrate.load_zone import empty_classes
 from macroslip.integrate.path import Path
 from macroslip.integrate.radau import integrate_radau
 from macroslip.integrate.record import new_record
-from macroslip.integrate.status import Status
+from macroslip.imposed.status import Status
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
 from macroslip.result.simulate import radau_limits

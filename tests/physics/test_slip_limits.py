@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, main_bearing_load, simulate
-from macroslip.bearing import Bearing, geometry, inertia
+from macroslip.bearing import Bearing, geometry
 
 pytestmark = pytest.mark.slow
 
@@ -95,7 +95,7 @@ def test_coast_down_rate_by_hand():
     heating = 0.056 * viscosity * u1**2 / (8 * 0.125)
     stress = viscosity * u1 / h * np.arcsinh(np.sqrt(heating)) / np.sqrt(heating * (1 + heating))
     friction = 2 * math.pi * a * b * np.sum(weight * s * stress)
-    mass = inertia.roller_mass(7850.0, 0.035, 0.106)
+    mass = geometry.roller_mass(7850.0, 0.035, 0.106)
     slope = float((found.slip.sel(row="downwind").isel(time=1) - found.slip.sel(row="downwind").isel(time=0)) / 0.001)
     assert slope == pytest.approx(-2.0 / mass * friction, rel=2e-3)
 
@@ -106,7 +106,7 @@ def test_traction_balances_inertia_and_cage_friction(gusty):
     gripped = (found.roller_load > 20e3) & (abs(found.slip) < 1e-7)
     assert int(gripped.sum()) > 1000
     total = found.traction.sel(interface="inner") + found.traction.sel(interface="outer")
-    mass = inertia.roller_mass(7850.0, 0.035, 0.106)
+    mass = geometry.roller_mass(7850.0, 0.035, 0.106)
     sample = np.clip(np.searchsorted(loads.time, found.time.values, side="left") - 1, 0, loads.time.size - 2)
     acceleration = np.diff(loads.shaft_speed)[sample] / np.diff(loads.time)[sample]
     spin_rate = -ORBIT_RATIO * acceleration * 0.4070334304372217 / 0.035
@@ -126,7 +126,7 @@ def test_gripped_rollers_carry_only_weight_and_drag_at_the_cage(gusty):
 def test_spin_equation_holds_along_a_coast(gusty):
     """I_z' dω/dt = r (F_i + F_o + F_c), by central differences of the traces."""
     _, found = gusty
-    mass = inertia.roller_mass(7850.0, 0.035, 0.106)
+    mass = geometry.roller_mass(7850.0, 0.035, 0.106)
     rate = found.spin.differentiate("time")
     force = found.traction.sum("interface") / (0.5 * mass * 0.035)
     calm = (abs(found.slip) > 1e-2) & (found.roller_load == 0.0)

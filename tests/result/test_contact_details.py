@@ -9,7 +9,7 @@ from macroslip import BackwardEuler, Case, HubLoads, InputError, Laws, Traces, s
 from macroslip.result import thermal_balance
 from macroslip.result.surface_maps import energy_density
 from macroslip.result.variables import CONTACT_DETAILS
-from macroslip.study.build import template
+from macroslip.study.settings import template
 
 LOADS = HubLoads.bundled("14B").window(30.0, 42.0)
 CASE = Case(loads=LOADS, laws=Laws.physical(), rollers=[7], traces=Traces(step=0.5))

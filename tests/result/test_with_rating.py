@@ -5,7 +5,7 @@ import pytest
 
 from macroslip import Bearing, BearingLoads, Case, rate_case, simulate
 from macroslip.result.rating import with_rating
-from macroslip.study.rating_values import VARIABLES, rating_values
+from macroslip.study.summary import VARIABLES, rating_values
 
 pytestmark = pytest.mark.slow
 

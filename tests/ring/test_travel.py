@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from macroslip.ring.travel import orbit_times, travel
+from macroslip.ring.orbit import orbit_times, travel
 
 RATIO = 0.4539
 

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from macroslip import InputError
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
+from macroslip.study.loads_list import Load
 from macroslip.study.summary import ROW_VARIABLES
-from macroslip.study.weights import YEAR, Given, Weibull, binned
+from macroslip.study.weights import YEAR, Given, Weibull, Weighting, binned
 
 SPEEDS = [12.0, 12.4, 11.6, 14.0, 14.0, 12.0, 14.0]
 CLEARANCES = [0.0] * 5 + [0.2] * 2
@@ -93,6 +94,19 @@ def test_bins_and_groups():
     # A parameter that some runs leave to the base case is one value of it.
     some = study().assign_coords({"bearing.diametral_clearance": ("case", [math.nan] * 5 + [0.2] * 2)})
     assert len(binned(some, "wind_speed", 2.0).groups) == 2
+
+
+def test_a_bin_reaches_half_its_width_to_either_side():
+    """10.9 m/s counts as 10, 11.0 and 12.9 as 12, 13.0 as 14: the same for the weights of loads and the bins of results."""
+    speeds = [10.9, 11.0, 12.9, 13.0]
+    above = [math.exp(-((edge / 9.5) ** 2)) for edge in (9.0, 11.0, 13.0, 15.0)]
+    low, middle, high = (above[k] - above[k + 1] for k in range(3))
+    expected = np.array([low, 0.5 * middle, 0.5 * middle, high]) / (low + middle + high)
+    loads = [Load(str(speed), {"wind_speed": speed}) for speed in speeds]
+    np.testing.assert_allclose(Weighting(scale=9.5, shape=2.0).of(loads), expected, rtol=1e-12)
+    found = binned(study().isel(case=slice(4)).assign_coords(wind_speed=("case", speeds)), "wind_speed", 2.0)
+    assert (found.centres.tolist(), found.bin.tolist()) == ([10.0, 12.0, 14.0], [0, 1, 1, 2])
+    np.testing.assert_allclose(found.probabilities(Weibull(9.5, 2.0)), [low, middle, high], rtol=1e-12)
 
 
 @pytest.mark.parametrize(

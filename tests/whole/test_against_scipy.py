@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from macroslip.bearing.frames import initial_angles
+from macroslip.bearing.geometry import initial_angles
 from macroslip.compiled import jit
 from macroslip.contact.look_up import log_load, log_speed
 from macroslip.mechanisms import Laws

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from macroslip.catalogue.forms import Flag, Whole
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
+from macroslip.input.fields import Quantity, Whole
+from macroslip.input.section import input_section
+from macroslip.input.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
 
-_Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0, name="step")]
+_Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0)]
 
 
-@input_section("integrator", "error-controlled, implicit, in the slip")
+@input_section(
+    "integrator",
+    "error-controlled, implicit, in the slip",
+    gone={"tables": "Contacts are always looked up in tables now; remove the key."},
+)
 class Radau:
     """The production integrator: Radau IIA in the slip, L-stable, order 5, error-controlled.
 
@@ -22,19 +25,16 @@ class Radau:
         Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
     max_steps : int
         Steps and rejections after which a roller counts as failed.
-    tables : bool
-        Whether contacts with microslip are looked up in tables where these save time.
     """
 
     tolerance: Annotated[
         float,
         Quantity(
-            "relative tolerance per step", NUMBER, 1e-10, 1e-2, name="tolerance",
-            remedy="2e-4 gives energies and spin to 1e-4 and peak power to 1 %",
+            "relative tolerance per step", NUMBER, 1e-10, 1e-2,
+            remedy="2e-4 gives energies and spin to 1e-4 and peak power to 1 %.",
         ),
     ] = 2e-4  # fmt: skip
-    max_steps: Annotated[int, Whole("steps after which a roller counts as failed", 1)] = 100_000_000
-    tables: Annotated[bool, Flag("whether contacts with microslip are looked up in tables")] = True
+    max_steps: Annotated[int, Whole("number of steps after which a roller counts as failed", 1)] = 100_000_000
 
 
 @input_section("integrator", "fixed step, explicit, on the spin")
@@ -58,9 +58,11 @@ class BackwardEuler:
 
     step: _Step
     tolerance: Annotated[
-        float,
-        Quantity("relative change of spin at which the iteration stops", NUMBER, 1e-16, 1e-2, name="tolerance"),
+        float, Quantity("relative change of spin at which the iteration stops", NUMBER, 1e-16, 1e-2)
     ] = 1e-12
+
+
+INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
 
 
 @input_section("window", "part of the time over which energies and peaks are taken")
@@ -94,7 +96,7 @@ class Traces:
         First and last time [s] on the loads' time axis; None: first and last sample of the loads.
     """
 
-    step: Annotated[float, Quantity("time between samples", TIME, 0.0, above=True, name="step")]
+    step: Annotated[float, Quantity("time between samples", TIME, 0.0, above=True)]
     start: Annotated[float | None, Quantity("first time", TIME)] = None
     end: Annotated[float | None, Quantity("last time", TIME)] = None
 
@@ -111,9 +113,5 @@ class Heat:
         Temperature of the surroundings [K].
     """
 
-    conductance: Annotated[
-        float, Quantity("heat flow to the surroundings per kelvin", CONDUCTANCE, 0.0, above=True, name="conductance")
-    ]
-    ambient: Annotated[
-        float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15, name="ambient temperature")
-    ]
+    conductance: Annotated[float, Quantity("heat flow to the surroundings per kelvin", CONDUCTANCE, 0.0, above=True)]
+    ambient: Annotated[float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15)]

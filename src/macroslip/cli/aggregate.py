@@ -92,7 +92,7 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
     from macroslip.cli.printing import number, print_table
-    from macroslip.study.safe_text import safe_text
+    from macroslip.study.loads_list import safe_text
 
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
     title = f"energy of a roller in {years:g} years, mean over the row"

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
 DELAY = 1.0
-"""What is done within this time [s] shows no bar."""
+"""Work that is done within this time [s] shows no bar."""
 
 
 @contextmanager
@@ -21,8 +21,8 @@ def command_progress(
     quiet : bool
         Whether to show nothing.
     stages : mapping, optional
-        Labels of the work in their order, and what each takes of the time, in proportion. The bar and the time left
-        are then those of all of it; without, each label has a bar of its own.
+        Labels of the work in their order, and their parts of the time. The bar and the time left are then those of the
+        whole; without, each label has a bar of its own.
 
     Yields
     ------
@@ -42,12 +42,13 @@ def command_progress(
 
     def report(label: str, done: int, total: int) -> None:
         if stages is not None:
-            part, whole = share_done(stages, label, done / total), sum(stages.values())
-            bar.update(task, description=label, completed=round(100 * part / whole), total=100)
-            return
-        if label != bar.tasks[0].description:  # another piece of work: its speed is its own
-            bar.reset(task, description=label, total=total)
-        bar.update(task, completed=done)
+            known = list(stages)
+            before = sum(stages[name] for name in known[: known.index(label)]) if label in known else 0.0
+            done = round(100 * (before + stages.get(label, 0.0) * done / total) / sum(stages.values()))
+            total = 100
+        elif label != bar.tasks[0].description:  # another piece of work: its speed is its own
+            bar.reset(task)
+        bar.update(task, description=label, completed=done, total=total)
 
     start = threading.Timer(DELAY, bar.start)
     start.daemon = True
@@ -58,16 +59,3 @@ def command_progress(
         start.cancel()
         start.join()
         bar.stop()
-
-
-def share_done(stages: Mapping[str, float], label: str, part: float) -> float:
-    """What is done of all stages when `part` of the stage `label` is; a label that is not known counts nothing itself.
-
-    Examples
-    --------
-    >>> share_done({"first": 3.0, "second": 1.0}, "second", 0.5)
-    3.5
-    """
-    known = list(stages)
-    before = known.index(label) if label in known else 0
-    return sum(stages[name] for name in known[:before]) + stages.get(label, 0.0) * part

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
+from macroslip.cli.failure import MEMORY, ROLLERS_FAILED, to_stderr
 from macroslip.cli.progress import command_progress
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
@@ -39,7 +39,9 @@ def run(
 
         load_laws(path)
     checked = read_case(case)
+    from macroslip.integrate.ahead import compile_ahead
 
+    compile_ahead(physical=checked.laws.microslip)
     from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
     from macroslip.result.stored import to_netcdf
@@ -64,7 +66,7 @@ def run(
 
 @contextmanager
 def _named(case: Path, loads: str) -> Iterator[None]:
-    """Name the case file, and the key of its loads, in what is found wrong while it is computed."""
+    """Name the case file, and the key of its loads, in errors of the computation."""
     try:
         yield
     except InputError as problem:
@@ -73,8 +75,7 @@ def _named(case: Path, loads: str) -> Iterator[None]:
         raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
     except MemoryError:
         what = "the computer has not enough memory for this case"
-        remedy = "Use shorter loads, fewer rollers or no traces."
-        raise InputError(what, where=f"{case}, loads, rollers or traces", remedy=remedy) from None
+        raise InputError(what, where=f"{case}, loads, rollers or traces", remedy=MEMORY) from None
 
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
@@ -82,29 +83,25 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     rows = {}
     for name in dataset.row.values:
         row = dataset.sel(row=name)
-        # Rollers that failed have no results; a window without a complete orbit has no peaks.
-        values = (row.energy.sum("interface", skipna=False).dropna("roller"), row.peak_power, row.min_spin_ratio)
-        energy, peak, spin = (value.values[~value.isnull().values] for value in values)
+        # Rollers that failed have no results; a window without a complete orbit has no peaks: the means are then NaN.
+        energy = row.energy.sum("interface", skipna=False)
         rows[str(name)] = {
-            "mean energy per roller [J]": energy.mean() if energy.size else float("nan"),
-            "highest peak power [W]": peak.max() if peak.size else float("nan"),
-            "lowest spin / pure rolling [1]": spin.min() if spin.size else float("nan"),
+            "mean energy per roller [J]": float(energy.mean()),
+            "highest peak power [W]": float(row.peak_power.max()) if row.peak_power.size else float("nan"),
+            "lowest spin / pure rolling [1]": float(row.min_spin_ratio.min()),
             "rollers": row.sizes["roller"],
             "failed rollers": int((row.status != 0).sum()),
         }
-    return {
-        "title": dataset.attrs["title"],
-        "window": {
-            "start [s]": dataset.attrs["window_start"],
-            "end [s]": dataset.attrs["window_end"],
-            "complete orbits": dataset.sizes["orbit"],
-        },
-        "rows": rows,
+    window = {
+        "start [s]": dataset.attrs["window_start"],
+        "end [s]": dataset.attrs["window_end"],
+        "complete orbits": dataset.sizes["orbit"],
     }
+    return {"title": dataset.attrs["title"], "window": window, "rows": rows}
 
 
 def _summary(dataset: xr.Dataset) -> None:
-    """Print the main results, row by row."""
+    """Print the main results row by row, and the numbers beside slip in a line."""
     from macroslip.cli.printing import number, print_table
 
     found = _numbers(dataset)
@@ -114,39 +111,29 @@ def _summary(dataset: xr.Dataset) -> None:
         rows.append([name, *map(number, values), f"{failed} of {rollers}"])
     start, end, orbits = found["window"].values()
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
-    numbers = "mean energy per roller [J]", "highest peak power [W]", "lowest spin / pure rolling [1]", "failed rollers"
-    headings = [("row", False), *((heading, True) for heading in numbers)]
-    print_table(f"{found['title']}, {window}", headings, rows)
-    _beside(dataset)
-
-
-def _beside(dataset: xr.Dataset) -> None:
-    """Print the numbers beside slip in a line, or why there are none."""
-    from macroslip.cli.printing import number
-
+    numbers = [name for name in next(iter(found["rows"].values())) if name != "rollers"]
+    print_table(f"{found['title']}, {window}", [("row", False), *((heading, True) for heading in numbers)], rows)
     if "rating_problem" in dataset.attrs:
         typer.echo(f"not rated: {dataset.attrs['rating_problem']}")
     if "static_safety" not in dataset:
         return
-    life = float(dataset.modified_reference_life.sel(load_along_roller="hertz"))
+    safety, life, kappa = (number(float(dataset[name])) for name in ("static_safety", "basic_life", "viscosity_ratio"))
+    modified = number(float(dataset.modified_reference_life.sel(load_along_roller="hertz")))
     typer.echo(
-        f"beside slip: static safety {number(float(dataset.static_safety))}, L10h {number(float(dataset.basic_life))} h, "
-        f"modified reference life {number(life)} h, largest pressure {number(float(dataset.largest_pressure.max()) / 1e9)} "
-        f"GPa, kappa {number(float(dataset.viscosity_ratio))}, "
+        f"beside slip: static safety {safety}, L10h {life} h, modified reference life {modified} h, largest pressure "
+        f"{number(float(dataset.largest_pressure.max()) / 1e9)} GPa, kappa {kappa}, "
         f"below the minimum load {number(100.0 * float(dataset.share_below_minimum_load))} % of the time"
     )
 
 
 def _tell_failures(dataset: xr.Dataset) -> bool:
     """Print of every roller that failed when and how; returns whether there is one."""
-    from macroslip.imposed.status import Status
+    from macroslip.report.result_numbers import failures
 
-    failed = [roller for roller in dataset.status.stack(one=("row", "roller")) if roller != Status.COMPLETED]
-    for roller in failed:
-        row, index = str(roller.row.values), int(roller.roller)
-        ended = dataset.sel(row=row, roller=index)
+    failed = failures("", dataset)
+    for one in failed:
         to_stderr(
-            f"failed: roller {index} of the {row} row at t = {float(ended.end_time):.6g} s with a slip of "
-            f"{float(ended.end_slip):.4g} m/s: {Status(int(roller)).sentence}."
+            f"failed: roller {one['roller']} of the {one['row']} row at t = {one['time']:.6g} s with a slip of "
+            f"{one['slip']:.4g} m/s: {one['how']}."
         )
     return bool(failed)

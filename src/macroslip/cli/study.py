@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
-from macroslip.cli.needs import WORKERS, require
+from macroslip.cli.needs import SCHEDULER, require
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
-    from macroslip.study.progress import Progress
-    from macroslip.study.session import Ended
-    from macroslip.study.study import Study
+    from macroslip.study.run import Ended, Progress
+    from macroslip.study.study_file import Study
 
 #: Failures that are listed; the log and the summary have all.
 _LISTED = 30
@@ -49,7 +48,7 @@ def study(
     checked = read_study(study)
     for remark in checked.loads.remarks:
         to_stderr(f"note: {remark}")
-    require(*([WORKERS] if workers or scheduler else []))
+    require(*([SCHEDULER] if scheduler else []))
     if dry_run:
         _dry_run(checked, workers, threads, as_json)
         return
@@ -86,9 +85,9 @@ def study(
 def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:
     from macroslip.cli.printing import print_json, print_table
     from macroslip.machine import usable_processors
-    from macroslip.study.estimate import estimate_study
-    from macroslip.study.progress import duration
-    from macroslip.study.safe_text import safe_text
+    from macroslip.study.loads_list import safe_text
+    from macroslip.study.run import duration
+    from macroslip.study.work import estimate_study
 
     found = estimate_study(checked)
     parts = [
@@ -171,7 +170,7 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
 
 
 def _summary(ended: Ended, output: Path) -> None:
-    from macroslip.study.progress import duration
+    from macroslip.study.run import duration
 
     counts = ended.progress
     left = counts.total - counts.done
@@ -205,7 +204,7 @@ def _failures(ended: Ended, output: Path) -> None:
     from rich.table import Table
 
     from macroslip.cli.printing import PIPE_WIDTH
-    from macroslip.study.safe_text import safe_text
+    from macroslip.study.loads_list import safe_text
 
     shown = Table(box=None, padding=(0, 2, 0, 0))
     for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):

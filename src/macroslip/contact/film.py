@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.contact.interface import Interface
-from macroslip.lubricant.density import dowson_higginson
+from macroslip.lubricant.viscosity import dowson_higginson
 
 MASJEDI_KHONSARI_REFERENCE = "Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514"
 MOES_REFERENCE = (

@@ -265,7 +265,9 @@ def fine_power(patch: Patch, fluid: Fluid, load: float, film: float, ring_speed:
     weight = (lengths[:, None] * _FINE_WEIGHTS).ravel()
     station, cosine = across * place, np.sqrt(1.0 - place**2)
     local = slip + station * (bend * station - spin)
-    stress = chord_stress(fluid, patch.pressure * root * np.maximum(cosine, 1e-9), film, np.maximum(np.abs(local), _NO_SLIP))
+    stress = chord_stress(
+        fluid, patch.pressure * root * np.maximum(cosine, 1e-9), film, np.maximum(np.abs(local), _NO_SLIP)
+    )
     part = 2.0 * across * patch.along * root * weight * cosine * np.copysign(stress, local)
     lag = part * station**2 * 0.5 / (patch.contour_radius * patch.roller_radius)
     return _power(patch, part.sum(), lag.sum(), (part * station).sum(), ring_speed, slip)

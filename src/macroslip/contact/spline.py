@@ -228,9 +228,7 @@ def splines_in_cube(typingctx, table, start, strides, places):
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         write = _Vectors(builder)
         corner = _place(context, builder, table, arguments[0], arguments[1])
-        first, second = (
-            builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8)) for k in range(2)
-        )
+        first, second = (builder.mul(builder.extract_value(arguments[2], k), ir.Constant(_SIZE, 8)) for k in range(2))
         (w, dw), (z, dz), (v, dv) = (
             [write.weights(terms, builder.extract_value(arguments[3], k)) for terms in (_CUBIC, _QUADRATIC)]
             for k in range(3)

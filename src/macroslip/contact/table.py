@@ -22,7 +22,7 @@ from macroslip.contact.table_store import remembered, stored, table_key
 from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST_PRESSURE, chord_table
 
 if TYPE_CHECKING:
-    from macroslip.contact.laws import ContactLaws, RollerLaws
+    from macroslip.contact.laws import ContactLaws
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of √w for the
 #: fastest speed of the box of 1 m/s.
@@ -232,7 +232,10 @@ def tractions(
     film = contact.film_thickness(load, entrainment)
     share = contact.asperity_share(load, entrainment, film)
     if contact.fluid is not None:
-        flat = (np.ascontiguousarray(np.broadcast_to(one, load.shape)).ravel() for one in (load, film, share, ring_speed, slip))
+        flat = (
+            np.ascontiguousarray(np.broadcast_to(one, load.shape)).ravel()
+            for one in (load, film, share, ring_speed, slip)
+        )
         found = patch_tractions(patch_of(contact), chords_for(contact), *flat).reshape(*load.shape, 4)
         return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
     rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
@@ -360,13 +363,17 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
     shape = (grid.load.cells + 1, grid.ratio.cells + 1, CHANNELS)
     sheets, seconds = [], 0.0
     for root_speed in grid.speed.nodes:
-        name = table_key(key, grid.load, grid.ratio, grid.stretch, grid.middle, grid.scale, round(float(root_speed), 12))
+        name = table_key(
+            key, grid.load, grid.ratio, grid.stretch, grid.middle, grid.scale, round(float(root_speed), 12)
+        )
         (found,) = stored(name, lambda speed=float(root_speed) ** 2: [_sheet(contact, grid, speed)])
         sheets.append(found[:-1].reshape(shape))
         seconds += float(found[-1])
     nodes = np.stack(sheets, axis=1)
     coefficients = spline_coefficients(nodes, 3)
-    return _Made(coefficients, _rising(grid, nodes), _errors(contact, grid, coefficients, box)._replace(build_time=seconds))
+    return _Made(
+        coefficients, _rising(grid, nodes), _errors(contact, grid, coefficients, box)._replace(build_time=seconds)
+    )
 
 
 def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:

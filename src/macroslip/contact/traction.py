@@ -30,7 +30,7 @@ from macroslip.contact.hertz import HertzContact
 from macroslip.contact.spline import axis, spline_coefficients
 from macroslip.contact.table_store import stored, table_key
 from macroslip.errors import InputError
-from macroslip.lubricant.roelands_index import ROELANDS_PRESSURE, roelands_index
+from macroslip.lubricant.temperature import ROELANDS_PRESSURE, roelands_index
 
 if TYPE_CHECKING:
     from macroslip.lubricant import Lubricant

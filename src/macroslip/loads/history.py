@@ -13,9 +13,9 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from macroslip.catalogue.entry import is_finite_number
 from macroslip.errors import InputError
 from macroslip.files import reading
+from macroslip.input.units import is_finite_number
 from macroslip.loads.bladed import read_bladed
 from macroslip.loads.hawc2 import read_hawc2
 from macroslip.loads.openfast import read_openfast

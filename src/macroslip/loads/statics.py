@@ -9,12 +9,11 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from macroslip.catalogue.forms import Choice
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import ANGLE, LENGTH, MASS
 from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Quantity
+from macroslip.input.section import input_section
+from macroslip.input.units import ANGLE, LENGTH, MASS
 from macroslip.loads.history import BearingLoads, HubLoads
 
 MOUNTS = ("three-point", "four-point")

@@ -15,7 +15,7 @@ class BaseOil(NamedTuple):
     title : str
         Its name in words.
     gold_factor, gold_exponent : float
-        s and t of `macroslip.lubricant.gold.gold` [1/GPa at 1 mm2/s, -].
+        s and t of `macroslip.lubricant.temperature.gold` [1/GPa at 1 mm2/s, -].
     density_15 : float
         Density at 15 degC [kg/m3].
     density_scatter : float

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from macroslip.catalogue.problems import shown
 from macroslip.errors import InputError
+from macroslip.input.messages import shown
 from macroslip.lubricant.base_oil import BASE_OILS
-from macroslip.lubricant.eyring import eyring_stress
-from macroslip.lubricant.gold import gold
 from macroslip.lubricant.inlet import T15, T40, T100, viscosities
 from macroslip.lubricant.lubricant import Lubricant
-from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity, pressure_viscosity_at
-from macroslip.lubricant.roelands_index import roelands_index
-from macroslip.lubricant.thermal_density import density_at
-from macroslip.lubricant.walther import walther_line_through
+from macroslip.lubricant.temperature import (
+    density_at,
+    eyring_stress,
+    gold,
+    mean_pressure_viscosity,
+    pressure_viscosity_at,
+    roelands_index,
+    walther_line_through,
+)
 
 PRESSURE_VISCOSITY_SCATTER = 0.2
 """Share by which single oils of a family differ from the mean pressure-viscosity coefficient; the same oil differs by as

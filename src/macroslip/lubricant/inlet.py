@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from macroslip.catalogue import Provenance
-from macroslip.lubricant.pressure_viscosity import pressure_viscosity_at
-from macroslip.lubricant.roelands_index import roelands_index
-from macroslip.lubricant.thermal_density import THERMAL_EXPANSION, density_at
-from macroslip.lubricant.walther import (
+from macroslip.input.record import Provenance
+from macroslip.lubricant.temperature import (
+    THERMAL_EXPANSION,
     WaltherLine,
+    density_at,
+    pressure_viscosity_at,
+    roelands_index,
     walther_coefficient,
     walther_line_through,
     walther_line_with_slope,

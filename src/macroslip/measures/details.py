@@ -1,5 +1,7 @@
-"""Where on the contacts energy is dissipated, and their extremes: stations along the roller, places of the raceways, flash
-temperature, power per area, slide-roll ratio and least film ratio.
+"""Details of the contacts: where on them energy is dissipated, and their extremes.
+
+By stations along the roller and places of the raceways; and the largest flash temperature, power per area and slide-roll ratio
+and the least film ratio in each orbit.
 
 A contact is evaluated station by station (a look) where its power has changed, a value is a new highest one, or some way has been
 travelled: at every step it would cost more than the forces. Between two looks the energies of the raceways are kept, and when
@@ -18,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
-from macroslip.contact import flash
+from macroslip.contact.flash import flash_temperature
 from macroslip.contact.look_up import log_load, log_speed
 from macroslip.contact.patch import Chords, Patch, chord_stress_at, fine_power, patch_power
 from macroslip.contact.table import chords_for, patch_of
@@ -32,7 +34,6 @@ if TYPE_CHECKING:
     from macroslip.ring.orbit import Motion
     from macroslip.roller.model import Roller
 
-flash_temperature = jit(flash.flash_temperature)
 #: Sectors of a raceway, 5° each, and stations along the roller's length.
 SECTORS, STATIONS = 72, 24
 #: Meaning of `Details.surface_energy` by its last two positions, and of `Details.extreme` by its last.
@@ -233,16 +234,25 @@ def _spread(details, interface, way, energy, mean_time):
 
 
 @jit_inline
-def _raise(details, orbit, interface, flash, density, ratio, film_ratio):
+def _raise(details, orbit, interface, density, ratio, film_ratio):
     if orbit >= 0:
         extreme = details.extreme[orbit, interface]
-        extreme[0], extreme[1] = max(extreme[0], flash), max(extreme[1], density)
-        extreme[2], extreme[3] = max(extreme[2], ratio), min(extreme[3], film_ratio)
+        extreme[1], extreme[2], extreme[3] = (
+            max(extreme[1], density),
+            max(extreme[2], ratio),
+            min(extreme[3], film_ratio),
+        )
 
 
 @jit
 def _look_along(details, interface, contact, way, orbit, load, film, share, ring_speed, slip, power):
-    """Find how power lies along the roller at a loaded raceway, and raise the extremes."""
+    """Find how power lies along the roller at a loaded raceway, and raise the extremes.
+
+    Returns
+    -------
+    tuple of 2 float
+        Power per length [W/m] and half-width [m] of the station with the highest flash temperature.
+    """
     patch, powers = contact.patch, details.along[interface]
     root = load ** (1.0 / 3.0)
     across, along, pressure = patch.across * root, patch.along * root, patch.pressure * root
@@ -279,10 +289,9 @@ def _look_along(details, interface, contact, way, orbit, load, film, share, ring
             place = details.surface_density[interface, int(sector % SECTORS)]
             place[k] = max(place[k], density)
     powers[STATIONS] = 1.0 if film >= contact.roughness else 0.0
-    steel = contact.effusivity
-    flash = flash_temperature(flash_power, flash_width, ring_speed - slip, ring_speed, steel, steel)
     entrainment = max(abs(ring_speed - 0.5 * slip), LOWEST_SPEED)
-    _raise(details, orbit, interface, flash, densest, fastest / entrainment, film / contact.roughness)
+    _raise(details, orbit, interface, densest, fastest / entrainment, film / contact.roughness)
+    return flash_power, flash_width
 
 
 @jit
@@ -290,8 +299,11 @@ def _look(steps, j, looks, states, contacts, start_angle, orbit_ratio, details):
     """Spread the energies of a buffer's looks and raise the extremes.
 
     `states` are load [N], film [m] and asperities' share of the three contacts at each look, and the power of the cage's [W], shape
-    (looks, 3, 4).
+    (looks, 3, 4). Returned are power per length [W/m] and half-width [m] where contacts are hottest, and the speeds of roller and
+    counterpart [m/s], shape (looks, 3, 4).
     """
+    hottest = np.zeros((looks.size, 3, 4))
+    hottest[:, :, 1] = 1.0
     per_angle = SECTORS / (2.0 * math.pi)
     for n in range(looks.size):
         look = looks[n]
@@ -313,9 +325,10 @@ def _look(steps, j, looks, states, contacts, start_angle, orbit_ratio, details):
                 after = 0.0 if load <= 0.0 else 1.0
             _spread(details, i, way, (1.0 - after) * look.energy[i], look.mean_time[i])
             if load > 0.0:
-                _look_along(
+                hottest[n, i, 0], hottest[n, i, 1] = _look_along(
                     details, i, contact, way, look.orbit, load, film, share, ring, slip, step.power[last, i]
                 )
+                hottest[n, i, 2], hottest[n, i, 3] = ring - slip, ring
                 _spread(details, i, way, after * look.energy[i], look.mean_time[i])
         load = states[n, 2, 0]
         if load > 0.0:
@@ -323,9 +336,10 @@ def _look(steps, j, looks, states, contacts, start_angle, orbit_ratio, details):
             root = load ** (1.0 / 3.0)
             per_length = 0.75 * states[n, 2, 3] / (contact.patch.across * root)
             half_width, entrainment = contact.patch.along * root, max(0.5 * abs(surface), LOWEST_SPEED)
-            flash = flash_temperature(per_length, half_width, surface, 0.0, contact.effusivity, contact.effusivity)
+            hottest[n, 2, 0], hottest[n, 2, 1], hottest[n, 2, 2] = per_length, half_width, surface
             density, film = per_length / (2.0 * half_width), states[n, 2, 1]
-            _raise(details, look.orbit, 2, flash, density, abs(surface) / entrainment, film / contact.roughness)
+            _raise(details, look.orbit, 2, density, abs(surface) / entrainment, film / contact.roughness)
+    return hottest
 
 
 @jit
@@ -334,7 +348,8 @@ def _cage_powers(body, tables, loads, speeds, found):
     for n in range(loads.size):
         if loads[n] > 0.0:
             found[n] = abs(
-                speeds[n] * cage_traction(body, tables, loads[n], log_load(loads[n]), speeds[n], log_speed(speeds[n]))[0]
+                speeds[n]
+                * cage_traction(body, tables, loads[n], log_load(loads[n]), speeds[n], log_speed(speeds[n]))[0]
             )
 
 
@@ -388,7 +403,10 @@ class Looker:
 
     def _look(self, steps: np.ndarray, j: int, looks: np.ndarray) -> None:
         states, ratio = self._states(steps[looks["step"], j]), float(self._roller.body[0]["orbit_ratio"])
-        _look(steps, j, looks, states, self._contacts, self._start_angle, ratio, self.details)
+        hottest = _look(steps, j, looks, states, self._contacts, self._start_angle, ratio, self.details)
+        steel, inside = self._contacts[0].effusivity, looks["orbit"] >= 0
+        flash = flash_temperature(*np.moveaxis(hottest[inside], -1, 0), steel, steel)
+        np.maximum.at(self.details.extreme[..., 0], looks["orbit"][inside], flash)
         self._check_quadrature(steps[looks["step"], j], looks, states)
 
     def _states(self, steps: np.ndarray) -> np.ndarray:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.bearing.load_ratings import fatigue_load_limit
-from macroslip.errors import InputError
 from macroslip.contact.interface import highest_load, interfaces
 from macroslip.contact.registry import FILM_LAWS
+from macroslip.errors import InputError
 from macroslip.loads import BearingLoads
 from macroslip.mechanisms import Laws
 from macroslip.rating import iso

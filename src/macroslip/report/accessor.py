@@ -12,7 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
+from macroslip.errors import InputError, MacroslipError
+from macroslip.files import check_regular
+from macroslip.hdf5_file import check_hdf5
 from macroslip.overview import html_overview
+from macroslip.report import bearing_figures as draw
+from macroslip.result.stored import REMEDY, check_result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,30 +25,51 @@ if TYPE_CHECKING:
 
 
 def open_result(path: str | Path) -> xr.Dataset:
-    """Read what `macroslip run` wrote; the result has `result.macroslip.plot`.
-
-    Parameters
-    ----------
-    path : path
-        A netCDF file.
-
-    Returns
-    -------
-    xarray.Dataset
-        In memory.
+    """Read a netCDF file that `macroslip run` wrote into memory; the result has `result.macroslip.plot`.
 
     Raises
     ------
     InputError
         If there is no such file, or it cannot be read.
     """
-    from macroslip.errors import InputError
-    from macroslip.report.read import read_results
-
     if Path(path).is_dir():
         raise InputError("this is a folder", where=str(path), allowed="one netCDF file that macroslip run wrote")
     (result,) = read_results(Path(path)).values()
     return result
+
+
+def read_results(path: Path) -> dict[str, xr.Dataset]:
+    """The datasets of a netCDF file, or of all netCDF files in a folder, by the name of the file.
+
+    Subfolders are not searched.
+
+    Raises
+    ------
+    InputError
+        If there is no such path, the folder holds no netCDF file, or a file cannot be read or holds no result.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError("there is no such file or folder", where=str(path), remedy="Name what macroslip run wrote.")
+    files = sorted(path.glob("*.nc")) if path.is_dir() else [path]
+    if not files:
+        raise InputError(
+            "the folder holds no netCDF file", where=str(path), allowed="files that macroslip run wrote (*.nc)"
+        )
+    for file in files:
+        check_regular(file, REMEDY)
+    check_hdf5(files, REMEDY)
+    return {file.stem: _read(file) for file in files}
+
+
+def _read(file: Path) -> xr.Dataset:
+    try:
+        # Units of seconds are units, not times of day.
+        found = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY) from None
+    check_result(found, str(file))
+    return found
 
 
 @xr.register_dataset_accessor("macroslip")
@@ -88,45 +114,35 @@ class Plot:
 
     def energy(self, *, axes: Axes | None = None) -> Axes:
         """Energy of a mean roller of each row, by interface."""
-        from macroslip.report.bearing_figures import plot_energy_by_interface
-
-        return _legend(plot_energy_by_interface(axes or _new_axes(), self._result.energy))
+        return _legend(draw.plot_energy_by_interface(axes or _new_axes(), self._result.energy))
 
     def rollers(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
         """Energy of every roller of a row, over the mean of the row."""
-        from macroslip.report.bearing_figures import plot_roller_spread
-
-        return plot_roller_spread(axes or _new_axes(), self._result.energy, row)
+        return draw.plot_roller_spread(axes or _new_axes(), self._result.energy, row)
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
         """Share of orbits whose largest power exceeds a value, for both rows."""
-        from macroslip.report.bearing_figures import plot_peak_exceedance
-
-        return _legend(plot_peak_exceedance(axes or _new_axes(), self._result))
+        return _legend(draw.plot_peak_exceedance(axes or _new_axes(), self._result))
 
     def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
         """Spin of a roller over time, with that of pure rolling; the first roller if none is named. Needs traces."""
-        from macroslip.report.trace_figures import plot_spin_over_time
-
         number = int(self._result.roller[0]) if roller is None else roller
-        return plot_spin_over_time(axes or _new_axes(), self._result, row, number)
+        return draw.plot_spin_over_time(axes or _new_axes(), self._result, row, number)
 
     def load_zone(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
         """Roller load over angle and time. Needs traces that begin with the loads."""
-        from macroslip.report.bearing_figures import plot_load_zone
         from macroslip.result.orbit_profile import load_zone
 
-        return plot_load_zone(axes or _new_axes(), load_zone(self._result), row)
+        return draw.plot_load_zone(axes or _new_axes(), load_zone(self._result), row)
 
     def orbit(self, row: str = "downwind", *, axes: PolarAxes | None = None) -> PolarAxes:
         """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
 
         Needs traces that begin with the loads.
         """
-        from macroslip.report.bearing_figures import plot_energy_over_orbit
         from macroslip.result.orbit_profile import energy_over_orbit
 
-        drawn = plot_energy_over_orbit(axes or _new_axes("polar"), energy_over_orbit(self._result), row)
+        drawn = draw.plot_energy_over_orbit(axes or _new_axes("polar"), energy_over_orbit(self._result), row)
         drawn.legend(frameon=False, fontsize=9, loc="upper left", bbox_to_anchor=(1.05, 1.0))
         return drawn
 
@@ -135,8 +151,6 @@ class Plot:
 
         Needs a result of a model with microslip. Axes of your own are four: outer and inner raceway of each row.
         """
-        from macroslip.errors import InputError
-        from macroslip.report.surface_section import plot_map, raceways
         from macroslip.result.surface_maps import energy_density
 
         if quantity not in ("energy", "power"):
@@ -145,16 +159,16 @@ class Plot:
         units = "J/mm²"
         if quantity == "power":
             density, units = self._result.surface_power_density, "W/mm²"
-        shown = raceways(density)
+        shown = draw.raceways(density)
         if axes is None:
             axes = _new_axes(rows=len(shown) // 2, columns=2, figsize=(9.0, 6.0)).ravel()
-        return [plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)]
+        return [
+            draw.plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)
+        ]
 
 
 def _new_axes(projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any) -> Any:
     """Axes in a new figure, which a notebook shows by itself."""
-    from macroslip.errors import MacroslipError
-
     try:
         from matplotlib import pyplot
     except ModuleNotFoundError:

@@ -82,17 +82,8 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
             low = -high
         else:
             low, high = 0.0, max(1e-6, finite.max(initial=0.0))
-        codes = base64.b64encode(quantise(values, low, high)).decode("ascii")
-        quantities.append(
-            {
-                "heading": heading,
-                "unit": unit,
-                "logarithmic": logarithmic,
-                "low": float(low),
-                "high": float(high),
-                "codes": codes,
-            }
-        )
+        about = {"heading": heading, "unit": unit, "logarithmic": logarithmic, "low": float(low), "high": float(high)}
+        quantities.append(about | {"codes": _text(quantise(values, low, high))})
     ramp = colormaps["cividis"](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
     return {
         "rows": scene.row.values.tolist(),
@@ -102,7 +93,7 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         "count": int(time.size),
         "first": _opening(scene),
         "angle": np.round(scene.angle.values, 3).tolist(),
-        "travelled": base64.b64encode(scene.travelled.values.astype("<f4").tobytes()).decode("ascii"),
+        "travelled": _text(scene.travelled.values.astype("<f4").tobytes()),
         "radii": {
             "roller": 1e3 * geometry.roller_radius(bearing),
             "pitch": 1e3 * bearing.pitch_radius,
@@ -115,6 +106,10 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     }
 
 
+def _text(content: bytes) -> str:
+    return base64.b64encode(content).decode("ascii")
+
+
 def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     """Places of the rollers in their pockets, drawn enlarged so that neighbouring pockets do not meet."""
     offsets = 1e3 * scene.pocket_offset.transpose("row", "roller", "time").values.astype(float)
@@ -123,8 +118,8 @@ def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     return {
         "reach": reach,
         "enlarged": float(min(_ENLARGED, 0.35 * free / reach)),
-        "codes": base64.b64encode(quantise(offsets, -reach, reach)).decode("ascii"),
-        "lead": base64.b64encode(scene.cage_lead.values.astype("<f4").tobytes()).decode("ascii"),
+        "codes": _text(quantise(offsets, -reach, reach)),
+        "lead": _text(scene.cage_lead.values.astype("<f4").tobytes()),
         "force": [name for name, *_ in QUANTITIES if name in scene].index("cage_force"),
     }
 

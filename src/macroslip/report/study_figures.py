@@ -1,8 +1,11 @@
-"""A study over a lifetime: energy by wind speed, and how often an orbit exceeds an energy or a power."""
+"""Figures of several results: energy by wind speed, how often an orbit exceeds an energy or a power, values by result.
+
+Every function draws on the axes that it takes, and returns them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -19,10 +22,12 @@ EXCEEDED: Mapping[str, str] = MappingProxyType(
     {"energy_orbits": "energy of an orbit [J]", "power_orbits": "peak power of an orbit [W]"}
 )
 _MOST_GROUPS = 4
+#: Letters of a result's name that fit under a figure.
+_NAME_LENGTH = 16
 
 
 def plot_lifetime(axes: Axes, life: xr.Dataset, group: int) -> Axes:
-    """What each wind speed adds to the energy of a roller over the lifetime.
+    """Energy of a roller over the lifetime by wind speed.
 
     Takes the dataset of `macroslip.study.lifetime.lifetime_energy` and one of its groups.
     """
@@ -30,7 +35,7 @@ def plot_lifetime(axes: Axes, life: xr.Dataset, group: int) -> Axes:
         one = life.bin_energy.isel(group=group).sel(row=row)
         axes.plot(one.bin.values, 1e-6 * one.values, label=row, **{key: ROW[row][key] for key in ("color", "marker")})
     axes.set_ylim(bottom=0.0)
-    return finish(axes, "wind speed [m/s]", "energy in the lifetime [MJ]", _group_title(life, group))
+    return finish(axes, "wind speed [m/s]", "energy in the lifetime [MJ]", "\n".join(group_labels(life, group)))
 
 
 def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, group: int) -> Axes:
@@ -38,15 +43,52 @@ def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, group: int) -> Ax
 
     Takes the dataset of `macroslip.study.exceedance.exceedance` and one of its groups.
     """
+    values = curves[name].isel(group=group)
     for row in curves.row.values.tolist():
-        one = curves[name].isel(group=group).sel(row=row)
-        some = one.values > 0.0
-        axes.plot(one.threshold.values[some], one.values[some], label=row, color=ROW[row]["color"])
+        one = values.sel(row=row)
+        one = one[one.values > 0.0]
+        style = {key: ROW[row][key] for key in ("color", "linestyle")}
+        axes.plot(one.threshold.values, one.values, label=row, **style)
     axes.set_yscale("log")
-    drawn = curves.threshold.values[(curves[name].isel(group=group) > 0.0).any("row").values]
+    drawn = curves.threshold.values[(values > 0.0).any("row").values]
     if drawn.size and drawn.max() > 50.0 * drawn.min():
         axes.set_xscale("log")
-    return finish(axes, EXCEEDED[name], "orbits a year above it", _group_title(curves, group))
+    return finish(axes, EXCEEDED[name], "orbits a year above it", "\n".join(group_labels(curves, group)))
+
+
+def plot_by_result(axes: Axes, names: Sequence[str], rows: Sequence[str], values: np.ndarray, label: str) -> Axes:
+    """A value of every result and row, over the results.
+
+    Takes values over (result, row); one that is missing is left out.
+    """
+    places = np.arange(len(names))
+    for k, row in enumerate(rows):
+        style = {**ROW.get(row, {}), "linestyle": "none"}
+        axes.plot(places + 0.16 * (k - 0.5), values[:, k], markersize=5, label=f"{row} row", **style)
+    shown = [name if len(name) <= _NAME_LENGTH else f"{name[: _NAME_LENGTH - 1]}…" for name in names]
+    upright = len(names) > 4 or sum(map(len, shown)) > 32
+    axes.set_xticks(places, shown, rotation=90 if upright else 0)
+    axes.set_xlim(-0.5, len(names) - 0.5)
+    axes.set_ylim(0.0, 1.08 * max(float(np.nanmax(values, initial=0.0)), 1e-12))
+    return finish(axes, "", label)
+
+
+def plot_case_energies(axes: Axes, study: xr.Dataset) -> Axes:
+    """Energy of each case of a study, mean over the rollers of both rows, with the range of the rollers.
+
+    Takes a dataset with `energy` [J] over (case, row, roller, interface).
+    """
+    total = study.energy.sum("interface", skipna=False)
+    places = np.arange(study.sizes["case"])
+    for k, row in enumerate(study.row.values.tolist()):
+        one = total.sel(row=row)
+        mean = one.mean("roller", skipna=False).values
+        bars = [mean - one.min("roller").values, one.max("roller").values - mean]
+        style = {**ROW[row], "linestyle": "none", "elinewidth": 1.0, "capsize": 2.5, "markersize": 5}
+        axes.errorbar(places + 0.16 * (k - 0.5), mean, yerr=bars, label=f"{row} row", **style)
+    axes.set_xticks(places, [str(name) for name in study.case.values], rotation=90 if study.sizes["case"] > 8 else 0)
+    axes.set_ylim(0.0, 1.08 * max(axes.get_ylim()[1], 1e-12))
+    return finish(axes, "case", "energy of a roller [J]")
 
 
 def groups(values: xr.DataArray) -> list[int]:
@@ -75,7 +117,3 @@ def _short(value: str) -> str:
         return f"{float(value):.3g}"
     except ValueError:
         return value
-
-
-def _group_title(dataset: xr.Dataset, group: int) -> str:
-    return "\n".join(group_labels(dataset, group))

@@ -1,45 +1,56 @@
-"""The look of the figures: one typeface, colours for the colour-blind, markers and line styles that differ in grey."""
+"""The look of figures and numbers: colours for the colour-blind, marks that differ in grey, numbers of three digits."""
 
 from __future__ import annotations
 
+import base64
+import io
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from pathlib import Path
 
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 #: From Okabe and Ito's palette.
 BLACK, BLUE, ORANGE, GREEN, GREY = "#000000", "#0072B2", "#D55E00", "#009E73", "#6E6E6E"
 
-#: Line and marker of each turbulence class.
-TURBULENCE: Mapping[str, Mapping[str, object]] = MappingProxyType(
-    {
-        "A": {"color": ORANGE, "marker": "s", "linestyle": "-"},
-        "B": {"color": BLUE, "marker": "o", "linestyle": "--"},
-        "C": {"color": GREEN, "marker": "^", "linestyle": ":"},
-    }
-)
+_Styles = Mapping[str, Mapping[str, Any]]
 #: Line and marker of each row.
-ROW: Mapping[str, Mapping[str, object]] = MappingProxyType(
+ROW: _Styles = MappingProxyType(
     {
         "downwind": {"color": BLUE, "marker": "o", "linestyle": "-"},
         "upwind": {"color": ORANGE, "marker": "s", "linestyle": "--"},
     }
 )
 #: Line of each interface.
-INTERFACE: Mapping[str, Mapping[str, object]] = MappingProxyType(
+INTERFACE: _Styles = MappingProxyType(
     {
         "inner": {"color": BLUE, "linestyle": "-"},
         "outer": {"color": ORANGE, "linestyle": "--"},
         "cage": {"color": GREEN, "linestyle": "-."},
     }
 )
-#: Steps from one turbulence class to the next along the wind-speed axis [m/s], so that bars do not hide each other.
-CLASS_OFFSET: Mapping[str, float] = MappingProxyType({"A": -0.35, "B": 0.0, "C": 0.35})
+#: Size of a picture [inches]: what a telephone held upright shows without making letters smaller than the text's.
+WIDTH, HEIGHT = 4.2, 3.1
+#: Options of `picture` on the first screen of a page: four of them and five sentences fit there.
+OPENING: Mapping[str, Any] = MappingProxyType({"width": 3.5, "height": 2.55, "legend": "above"})
+
+
+def three_digits(value: float) -> str:
+    """A number with three digits, without a power of ten where one can do without.
+
+    Examples
+    --------
+    >>> three_digits(0.21014), three_digits(1925.7)
+    ('0.21', '1,926')
+    """
+    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
 
 
 def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list]:
@@ -72,14 +83,18 @@ def legend_above(figure: Figure, axes: Axes, **options: object) -> None:
 
 def log_ticks(axes: Axes, which: str = "y") -> Axes:
     """A logarithmic axis, vertical or `which` is "x", with plain numbers at 1, 2 and 5 of every decade."""
+    axes.set(**{f"{which}scale": "log"})
+    decade_ticks(axes.yaxis if which == "y" else axes.xaxis)
+    return axes
+
+
+def decade_ticks(axis: Axis) -> None:
+    """Plain numbers at 1, 2 and 5 of every decade."""
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axes.set(**{f"{which}scale": "log"})
-    axis = axes.yaxis if which == "y" else axes.xaxis
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(NullFormatter())
-    return axes
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[str]:
@@ -90,3 +105,70 @@ def save(figure: Figure, folder: Path, name: str) -> list[str]:
     figure.set_layout_engine("none")
     figure.savefig(folder / files[1], metadata={"Date": None})
     return files
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A figure for a page: its data URI, its content for those who cannot see it, its size [px], as `picture` has it."""
+
+    source: str
+    words: str
+    width: int
+    height: int
+    wide: bool = False
+
+
+def picture(
+    plot: Callable[..., object],
+    about: str,
+    *data: Any,
+    width: float = WIDTH,
+    height: float = HEIGHT,
+    polar: bool = False,
+    legend: str = "",
+    wide: bool = False,
+) -> Picture:
+    """Draw one axes as SVG inside the page, so that it stays sharp without another file.
+
+    Parameters
+    ----------
+    plot : callable
+        A plot function, called with the axes and `data`.
+    about : str
+        The content, for those who cannot see it.
+    width, height : float
+        [inches].
+    polar : bool
+        Whether the axes are polar.
+    legend : str
+        "" for none, "above", or "below" (one entry a line).
+    wide : bool
+        Whether the picture keeps its width where the page is narrower, and is moved sideways in a frame.
+    """
+    import matplotlib
+
+    figure, axes = new_figure(width, height, subplot_kw={"projection": "polar" if polar else None})
+    plot(axes[0], *data)
+    handles, labels = axes[0].get_legend_handles_labels()
+    if legend == "above":
+        # Long names do not fit beside each other.
+        legend_above(figure, axes[0], ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 else 2))
+    elif legend:
+        figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=9)
+    content = io.BytesIO()
+    # Names inside the file follow from its content: the same numbers give the same page.
+    with matplotlib.rc_context({"svg.hashsalt": "macroslip"}):
+        figure.savefig(content, format="svg", metadata={"Date": None}, dpi=160)
+    # Without comments and metadata, which a page does not show, and outlines to a hundredth of a point.
+    svg = re.sub(rb"<!--.*?-->|<metadata>.*?</metadata>", b"", content.getvalue(), flags=re.DOTALL)
+    svg = re.sub(rb' d="[^"]*"', lambda outline: re.sub(rb"(\.\d\d)\d+", rb"\1", outline[0]), svg)
+    encoded = base64.b64encode(re.sub(rb"\n\s*", b"\n", svg)).decode("ascii")
+    source = f"data:image/svg+xml;base64,{encoded}"
+    return Picture(source, about, round(96 * width), round(96 * height), wide)
+
+
+def row_pictures(
+    plot: Callable[..., object], about: str, data: Any, rows: Sequence[str], **options: Any
+) -> list[Picture]:
+    """The same picture of every row; `about` has braces where the name of the row belongs."""
+    return [picture(plot, about.format(row), data, row, **options) for row in rows]

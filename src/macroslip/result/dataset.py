@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 import macroslip
-from macroslip.bearing.frames import ROWS, initial_angles
+from macroslip.bearing.geometry import ROWS, initial_angles
 from macroslip.case.parts import Radau
 from macroslip.contact.laws import references
 from macroslip.imposed.run import Outcome

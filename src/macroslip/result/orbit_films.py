@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from macroslip.bearing import geometry
+from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED
 from macroslip.result.orbit_position import in_window, position
 from macroslip.result.run_input import run_input
-from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED
 from macroslip.roller.model import RollerModel
 
 if TYPE_CHECKING:
@@ -41,7 +41,8 @@ def films(result: xr.Dataset) -> xr.Dataset:
     window = in_window(result)
     window = window.isel(time=slice(None, None, max(1, math.ceil(window.sizes["time"] / _FILM_SAMPLES))))
     angle = angles.sel(time=window.time)
-    bearing, models, _ = run_input(result)
+    given = run_input(result)
+    bearing, models = given.bearing, given.models
     load = np.empty((*angle.shape, result.sizes["interface"]))
     radius = geometry.roller_radius(bearing)
     for r, row in enumerate(window.row.values.tolist()):

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.case.case import Case
 from macroslip.case.parts import Radau
 from macroslip.contact.interface import highest_load, interfaces, truncated_share, truncation_load
@@ -16,8 +16,7 @@ from macroslip.contact.table import Box, table_box
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.ring.motion import ring_motion
-from macroslip.ring.orbit import Motion
-from macroslip.ring.travel import orbit_times
+from macroslip.ring.orbit import Motion, orbit_times
 from macroslip.roller.model import RollerModel, TableReport, body_force, ring_geometry, roller_model
 
 #: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
+from macroslip.contact.interface import highest_load
 from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.ring.balance import roller_loads
 from macroslip.ring.motion import ring_motion
-from macroslip.contact.interface import highest_load
 from macroslip.roller.model import ring_geometry, roller_model
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS, initial_angles
+from macroslip.bearing.geometry import ROWS, initial_angles
 from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
 from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.contact.table import larger
@@ -68,9 +68,7 @@ def simulate(
     if case.temperature == BALANCE:
         case = case_at_balance(case, lambda known: simulate(known, threads=threads))
     ready = prepare(case)
-    wanted = Wanted(
-        ready.edges, ready.highest_speed, ready.trace_time, case.contact_details and ready.model.curved
-    )
+    wanted = Wanted(ready.edges, ready.highest_speed, ready.trace_time, case.contact_details and ready.model.curved)
     stop = threading.Event()
     run = _whole_bearing if case.dynamics == WHOLE_BEARING else _imposed_orbits
     try:
@@ -81,7 +79,7 @@ def simulate(
         raise
 
 
-class _Interrupted(Exception):
+class _InterruptedError(Exception):
     """The simulation was ended; what is under way is thrown away."""
 
 
@@ -118,7 +116,10 @@ def _imposed_orbits(
             ready = replace(ready, box=larger(ready.box))
             for job in left:
                 results.pop(job)
-        results |= {job: results.get(job) or _roller(problems[job[0]], rows[job[0]], float(angles[job[0]][job[1]]), stop) for job in left}
+        results |= {
+            job: results.get(job) or _roller(problems[job[0]], rows[job[0]], float(angles[job[0]][job[1]]), stop)
+            for job in left
+        }
     return to_dataset(ready, wanted, results, report or TableReport(0.0, 0.0, 0, 0.0))
 
 
@@ -157,7 +158,7 @@ def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Even
     outcome, measures = Outcome(), RollerMeasures(row, start_angle)
     for steps in steps_of(problem, start_angle, outcome):
         if stop.is_set():
-            raise _Interrupted
+            raise _InterruptedError
         measures.add(steps, 0)
     measures.finish()
     return Measured(measures, outcome)
@@ -200,7 +201,8 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     chosen = [(row, number) for row in ROWS for number in case.roller_numbers]
     places = [ROWS.index(row) * count + number for row, number in chosen]
     measures = [
-        RollerMeasures(rows[row], float(bearing.places["angle"][place])) for (row, _), place in zip(chosen, places, strict=True)
+        RollerMeasures(rows[row], float(bearing.places["angle"][place]))
+        for (row, _), place in zip(chosen, places, strict=True)
     ]
     start = float(motion.time[0])
     times = ready.trace_time
@@ -214,7 +216,7 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
         tolerance=float(case.integrator.tolerance), max_steps=case.integrator.max_steps,
     ):  # fmt: skip
         if stop.is_set():
-            raise _Interrupted
+            raise _InterruptedError
         cages.add(part)
         for place, one in zip(places, measures, strict=True):
             one.add(part.steps, place)

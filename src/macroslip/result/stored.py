@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.errors import InputError
 from macroslip.imposed.status import Status
-from macroslip.result.variables import INTERFACES, VARIABLES
+from macroslip.measures.totals import INTERFACES
+from macroslip.result.variables import VARIABLES
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.errors import InputError
 from macroslip.measures.details import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS
 
@@ -83,7 +83,7 @@ def energy_density(result: xr.Dataset) -> xr.DataArray:
     Parameters
     ----------
     result : xarray.Dataset
-        From `simulate`, with microslip; or from `macroslip.study.surface.weighted_maps`.
+        From `simulate`, with microslip; or from `macroslip.study.lifetime.weighted_maps`.
 
     Returns
     -------

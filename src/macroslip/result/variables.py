@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from macroslip.measures.totals import INTERFACES
 from macroslip.result import surface_maps
 
 #: What an integrator counts.

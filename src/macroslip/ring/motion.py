@@ -9,8 +9,7 @@ import numpy as np
 from macroslip.compiled import jit
 from macroslip.errors import InputError, MacroslipError
 from macroslip.ring.balance import RingGeometry, balance_series, roller_loads
-from macroslip.ring.orbit import Motion, shaft_angle
-from macroslip.ring.travel import travel
+from macroslip.ring.orbit import Motion, shaft_angle, travel
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing

@@ -1,11 +1,13 @@
-"""The imposed motion: shaft speed, shaft angle and ring displacement between load samples.
+"""The imposed motion: shaft speed, shaft angle and ring displacement between load samples, and when orbits are completed.
 
 Shaft speed and ring displacement are linear between samples; the shaft angle is the exact integral of the speed. So a
-roller's path and load are functions of time alone and do not depend on the integrator's steps.
+roller's path and load are functions of time alone and do not depend on the integrator's steps. Rollers complete orbits
+whatever the shaft does: the path they travel counts, forth and back.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -119,3 +121,81 @@ def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
     since = time - motion.time[k]
     rise = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
     return motion.shaft_angle[k] + (motion.shaft_speed[k] + 0.5 * rise * since) * since
+
+
+def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
+    """Angle travelled by the rollers along their orbit, ∫|Ω| dt, exact for piecewise linear shaft speed [rad].
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,)
+        [s].
+    shaft_speed : ndarray, shape (n,)
+        Ω_in [rad/s].
+    orbit_ratio : float
+        Ω/Ω_in.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Zero at the first sample, never falling.
+
+    Examples
+    --------
+    >>> travel(np.array([0.0, 2.0]), np.array([1.0, -1.0]), 0.5).tolist()
+    [0.0, 0.5]
+    """
+    near, far = shaft_speed[:-1] * orbit_ratio, shaft_speed[1:] * orbit_ratio
+    span = np.diff(time)
+    straight = 0.5 * np.abs(near + far) * span
+    with np.errstate(invalid="ignore", divide="ignore"):
+        turning = 0.5 * (near**2 + far**2) / np.abs(far - near) * span
+    return np.concatenate([[0.0], np.cumsum(np.where(near * far < 0.0, turning, straight))])
+
+
+def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
+    """Times at which the rollers have completed 1, 2, 3, … orbits [s].
+
+    Parameters are those of `travel`.
+
+    Returns
+    -------
+    ndarray
+        Rising; empty if not one orbit is completed.
+
+    Examples
+    --------
+    >>> orbit_times(np.array([0.0, 10.0]), np.full(2, 2.0 * math.pi), 0.25).tolist()
+    [4.0, 8.0]
+    """
+    path = travel(time, shaft_speed, orbit_ratio)
+    found = []
+    # What the rounding of the sum takes from the last orbit of a whole number is given back.
+    rounding = 4e-16 * (time.size + 10)
+    for orbit in range(1, math.floor(path[-1] / (2.0 * math.pi) * (1.0 + rounding)) + 1):
+        target = min(2.0 * math.pi * orbit, path[-1])
+        k = min(int(np.searchsorted(path, target, side="left")), time.size - 1) - 1
+        found.append(_time_in_interval(time, shaft_speed * orbit_ratio, path, k, target))
+    return np.array(found)
+
+
+def _time_in_interval(time: np.ndarray, speed: np.ndarray, path: np.ndarray, k: int, target: float) -> float:
+    """Time at which the path reaches `target` inside interval k, by bisection on the exact integral."""
+    start, end = float(time[k]), float(time[k + 1])
+    first = float(speed[k])
+    rate = (float(speed[k + 1]) - first) / (end - start)
+    wanted = target - float(path[k])
+    low, high = start, end
+    while True:
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            return high
+        last = first + rate * (middle - start)
+        if first * last < 0.0:
+            here = 0.5 * (first * first + last * last) / abs(rate)
+        else:
+            here = 0.5 * abs(first + last) * (middle - start)
+        if here < wanted:
+            low = middle
+        else:
+            high = middle

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry, inertia
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing import geometry
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
 from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
@@ -177,7 +177,7 @@ def roller_model(
     The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
     """
     radius = geometry.roller_radius(bearing)
-    mass = inertia.roller_mass(bearing.density, radius, bearing.roller_length)
+    mass = geometry.roller_mass(bearing.density, radius, bearing.roller_length)
     prepared = prepare(laws, bearing, lubricant, axial_sign)
     inner_radius = geometry.inner_contact_radius(bearing)
     outer_radius = geometry.outer_contact_radius(bearing)
@@ -186,7 +186,7 @@ def roller_model(
     area = 2.0 * radius * bearing.roller_length
     return RollerModel(
         radius=radius,
-        mobility=radius**2 / inertia.spin_inertia(mass, radius),
+        mobility=radius**2 / geometry.spin_inertia(mass, radius),
         stiffness=series_stiffness(prepared.inner.interface.hertz, prepared.outer.interface.hertz),
         cos_contact_angle=math.cos(bearing.contact_angle),
         sin_contact_angle=axial_sign * math.sin(bearing.contact_angle),
@@ -239,7 +239,9 @@ def with_tables(
     return found, TableReport(typical, worst, flat.nbytes, seconds)
 
 
-def _write_contact(record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float) -> list[TableErrors]:
+def _write_contact(
+    record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float
+) -> list[TableErrors]:
     """Write the tables and numbers of one contact; the errors of its traction's table, if it has one."""
     errors = []
     record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip

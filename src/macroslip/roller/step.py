@@ -67,5 +67,11 @@ def write_stage(row, k, body, at, forces, slip, power):
     for i in range(3):
         row.power[k, i], row.rolling[k, i], row.rough[k, i] = power[i], forces.rolling[i], forces.rough[i]
     ring = at.ring_speed
-    row.lag_power[k, 0], row.skew_power[k, 0] = ring * body.inner.curvature * forces.lag[0], -ring * body.inner.spin * forces.skew[0]
-    row.lag_power[k, 1], row.skew_power[k, 1] = ring * body.outer.curvature * forces.lag[1], -ring * body.outer.spin * forces.skew[1]
+    row.lag_power[k, 0], row.skew_power[k, 0] = (
+        ring * body.inner.curvature * forces.lag[0],
+        -ring * body.inner.spin * forces.skew[0],
+    )
+    row.lag_power[k, 1], row.skew_power[k, 1] = (
+        ring * body.outer.curvature * forces.lag[1],
+        -ring * body.outer.spin * forces.skew[1],
+    )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.errors import InputError
-from macroslip.study.weights import YEAR, Weights, binned
+from macroslip.study.weights import YEAR, Weights, binned, weighted
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,12 +18,7 @@ THRESHOLDS = np.logspace(-9.0, 9.0, 721)
 
 
 def exceedance(
-    study: xr.Dataset,
-    weights: Weights,
-    *,
-    field: str = "wind_speed",
-    width: float = 2.0,
-    by: Sequence[str] = (),
+    study: xr.Dataset, weights: Weights, *, field: str = "wind_speed", width: float = 2.0, by: Sequence[str] = ()
 ) -> xr.Dataset:
     """How many orbits a year of one roller exceed an energy, and a peak power.
 
@@ -36,11 +31,8 @@ def exceedance(
 
     Parameters
     ----------
-    study : xarray.Dataset
-        From `open_study`.
-    weights : Weibull or Given
-    field, width, by
-        As in `macroslip.study.weights.binned`.
+    study, weights, field, width, by
+        As in `macroslip.study.lifetime.lifetime_energy`.
 
     Returns
     -------
@@ -66,7 +58,7 @@ def exceedance(
         )
     bins = binned(study, field, width, by)
     shape = (len(bins.groups), bins.centres.size, study.sizes["row"])
-    counts = {name: np.zeros((*shape, THRESHOLDS.size)) for name in ("energy", "power")}
+    counts = np.zeros((2, *shape, THRESHOLDS.size))
     orbits, seconds = np.zeros(shape), np.zeros(shape)
     used, left_out = np.zeros(shape[:2]), np.zeros(shape[:2])
     for case in range(study.sizes["case"]):
@@ -82,24 +74,23 @@ def exceedance(
         length = (one.orbit_end - one.orbit_start).values
         for row in range(shape[2]):
             present = np.isfinite(energy[row])
-            for name, values in (("energy", energy), ("power", power)):
-                counts[name][*cell, row] += present.sum() - np.searchsorted(
-                    np.sort(values[row][present]), THRESHOLDS, side="right"
-                )
+            for kind, values in enumerate((energy, power)):
+                above = np.sort(values[row][present])
+                counts[kind][*cell, row] += present.sum() - np.searchsorted(above, THRESHOLDS, side="right")
             orbits[*cell, row] += present.sum()
             seconds[*cell, row] += np.broadcast_to(length, present.shape)[present].sum()
-    with np.errstate(invalid="ignore", divide="ignore"):
-        per_second = {name: values / seconds[..., None] for name, values in counts.items()}
-        all_per_second = orbits / seconds
     weight = bins.probabilities(weights)
-    found = {name: YEAR * _weighted(values, weight) for name, values in per_second.items()}
-    every = YEAR * _weighted(all_per_second, weight)
-    kept = _where_something_happens(np.stack(list(found.values())), every)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        found = np.stack([YEAR * weighted(values / seconds[..., None], weight) for values in counts])
+        every = YEAR * weighted(orbits / seconds, weight)
+        # Thresholds that some orbits exceed and some do not, and one more at either end.
+        some = (found > 0.0) & (found < every[None, ..., None] * (1.0 - 1e-12))
+    kept = _span(some.any(axis=(0, 1, 2)))
     dims = ("group", "row", "threshold")
     return xr.Dataset(
         {
-            "energy_orbits": (dims, found["energy"][..., kept], _about("1/year", "orbits whose energy exceeds it")),
-            "power_orbits": (dims, found["power"][..., kept], _about("1/year", "orbits whose peak power exceeds it")),
+            "energy_orbits": (dims, found[0][..., kept], _about("1/year", "orbits whose energy exceeds it")),
+            "power_orbits": (dims, found[1][..., kept], _about("1/year", "orbits whose peak power exceeds it")),
             "orbits": (dims[:2], every, _about("1/year", "orbits of a roller")),
             "runs": (("group", "bin"), used, _about("1", "runs that were counted")),
             "left_out": (("group", "bin"), left_out, _about("1", "runs without a result, or without an orbit")),
@@ -113,29 +104,14 @@ def exceedance(
 
 
 def load_spectrum(
-    study: xr.Dataset,
-    weights: Weights,
-    *,
-    years: float = 20.0,
-    field: str = "wind_speed",
-    width: float = 2.0,
+    study: xr.Dataset, weights: Weights, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
     by: Sequence[str] = (),
-) -> xr.Dataset:
+) -> xr.Dataset:  # fmt: skip
     """Cycles of the bearing's load in a lifetime by their range, of a study that counts cycles.
 
         n = T Σ_b p_b (1/N_b) Σ_{c in b} n_c / t_c
 
-    as in `lifetime_energy`, with the cycles n_c and the length t_c of each load history.
-
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    weights : Weibull or Given
-    years : float
-        T [years of 365.25 days].
-    field, width, by
-        As in `macroslip.study.weights.binned`.
+    as in `macroslip.study.lifetime.lifetime_energy`, with the cycles n_c and the length t_c of each load history.
 
     Returns
     -------
@@ -151,21 +127,12 @@ def load_spectrum(
     import xarray as xr
 
     if "load_cycles" not in study:
-        raise InputError(
-            "the study has not counted cycles", remedy="Set `cycles: true` in the study file and run it again."
-        )
+        remedy = "Set `cycles: true` in the study file and run it again."
+        raise InputError("the study has not counted cycles", remedy=remedy)
     bins = binned(study, field, width, by)
-    counts = study.load_cycles
-    shape = (len(bins.groups), bins.centres.size)
-    total, used = np.zeros((*shape, *counts.shape[1:])), np.zeros(shape)
-    for case in range(study.sizes["case"]):
-        values = counts.isel(case=case).values / study.loads_length.values[case]
-        if np.isfinite(values).all():
-            total[bins.group[case], bins.bin[case]] += values
-            used[bins.group[case], bins.bin[case]] += 1
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean = total / used[..., None, None]
-    cycles = years * YEAR * _weighted(mean, bins.probabilities(weights))
+    lengths = study.loads_length.values
+    rates = (study.load_cycles.isel(case=case).values / lengths[case] for case in range(study.sizes["case"]))
+    cycles = years * YEAR * weighted(bins.means(rates)[0], bins.probabilities(weights))
     kept = _span(np.nan_to_num(cycles).any(axis=(0, 1)))
     about = _about("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(
@@ -175,22 +142,9 @@ def load_spectrum(
     )
 
 
-def _where_something_happens(numbers: np.ndarray, every: np.ndarray) -> slice:
-    """Thresholds that some orbits exceed and some do not, and one more at either end."""
-    with np.errstate(invalid="ignore"):
-        some = (numbers > 0.0) & (numbers < every[None, ..., None] * (1.0 - 1e-12))
-    return _span(some.any(axis=(0, 1, 2)))
-
-
 def _span(some: np.ndarray) -> slice:
     places = np.flatnonzero(some)
     return slice(max(int(places[0]) - 1, 0), int(places[-1]) + 2) if places.size else slice(0, 1)
-
-
-def _weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
-    """Sum of values (groups, bins, ...) over bins by their probability; a bin of no weight may be NaN."""
-    some = probability > 0.0
-    return np.tensordot(probability[some], values[:, some], axes=(0, 1))
 
 
 def _about(units: str, long_name: str) -> dict[str, Any]:

@@ -11,8 +11,7 @@ import numpy as np
 from macroslip.files import write_durably
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
-from macroslip.study.outcome import Outcome
-from macroslip.study.safe_text import cell
+from macroslip.study.store import Outcome
 from macroslip.study.weights import Weights
 
 if TYPE_CHECKING:
@@ -23,17 +22,7 @@ FORMATS = ("csv", "parquet")
 
 
 def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
-    """Some variables of a dataset with all coordinates they have, one line a value; units are in the headings.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    names : sequence of str
-        Variables with the same dimensions.
-
-    Returns
-    -------
-    pandas.DataFrame
+    """Variables of the same dimensions with all coordinates they have, one line a value; units are in the headings.
 
     Examples
     --------
@@ -51,14 +40,9 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
 
 
 def tables(
-    study: xr.Dataset,
-    weights: Weights | None,
-    *,
-    years: float = 20.0,
-    field: str = "wind_speed",
-    width: float = 2.0,
+    study: xr.Dataset, weights: Weights | None, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
     by: Sequence[str] = (),
-) -> dict[str, pd.DataFrame]:
+) -> dict[str, pd.DataFrame]:  # fmt: skip
     """All tables of a study by name; docs/studies.md lists their columns.
 
     Parameters
@@ -103,20 +87,7 @@ _OF_BINS = ("probability", "runs", "left_out")
 
 
 def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> list[Path]:
-    """Write tables, each to a file of its name; text in CSV is made harmless to spreadsheets.
-
-    Parameters
-    ----------
-    found : dict of str to DataFrame
-    folder : Path
-        Made if need be; files of the same names are replaced.
-    form : str
-        `csv` or `parquet`.
-
-    Returns
-    -------
-    list of Path
-    """
+    """Write tables, each to a file of its name in the folder, as `csv` or `parquet`; files of the same names are replaced."""
     import io
 
     written = []
@@ -134,4 +105,5 @@ def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> lis
 
 
 def _harmless(value: Any) -> Any:
-    return cell(value) if isinstance(value, str) else value
+    """Text with an apostrophe in front of what a spreadsheet would take as a formula; anything else as it is."""
+    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from macroslip.catalogue.forms import Text
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import NUMBER
 from macroslip.errors import InputError
+from macroslip.input.fields import Quantity, Text
+from macroslip.input.section import input_section
+from macroslip.input.units import NUMBER
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from pandas.api.typing import DataFrameGroupBy
+    from numpy.typing import ArrayLike
 
     from macroslip.study.loads_list import Load
 
@@ -115,17 +114,7 @@ Weights = Weibull | Given
 
 @input_section("weights", "what each load history counts in the mean friction power, for temperature: balance")
 class Weighting:
-    """How much each load history counts, by how likely its wind speed is.
-
-    Parameters
-    ----------
-    field : str
-        Label of the loads.
-    width : float
-        Of a bin [unit of the field], above 0. Load histories of a bin share its probability.
-    scale, shape : float
-        Of the Weibull distribution of the field.
-    """
+    """How much each load history counts, by how likely its wind speed is; those of a bin share its probability."""
 
     field: Annotated[str, Text("label of the loads to sort into bins")] = "wind_speed"
     width: Annotated[float, Quantity("width of a bin, in the unit of the field", NUMBER, 0.0, above=True)] = 2.0
@@ -158,71 +147,88 @@ class Weighting:
                 where="weights.field",
                 allowed=", ".join(loads[0].fields) or "a field in the names of the load files",
             )
-        bins = [math.floor(value / self.width + 0.5) for value in values]
+        bins = bin_numbers(values, self.width).tolist()
         weibull = Weibull(self.scale, self.shape)
         shares = [weibull.probability(one * self.width, self.width) / bins.count(one) for one in bins]
         return [share / sum(shares) for share in shares]
 
 
+def bin_numbers(values: ArrayLike, width: float) -> np.ndarray:
+    """Number of the bin of each value; bin k reaches from (k − ½) to (k + ½) widths, its lower edge included.
+
+    Examples
+    --------
+    >>> bin_numbers([10.9, 11.0, 12.9, 13.0], 2.0).tolist()
+    [5.0, 6.0, 6.0, 7.0]
+    """
+    return np.floor(np.asarray(values, dtype=float) / width + 0.5)
+
+
 @dataclass(frozen=True)
 class Binning:
-    """The runs of a study by group and bin.
+    """The runs of a study by group and bin."""
 
-    Parameters
-    ----------
-    groups : list of dict
-        Labels of each group: runs that differ in more than loads and seeds are not pooled.
-    group : ndarray of int, shape (runs,)
-        Group of each run.
-    centres : ndarray, shape (bins,)
-        [unit of the field].
-    bin : ndarray of int, shape (runs,)
-        Bin of each run.
-    width : float
-        [unit of the field].
-    field : str
-    """
-
-    groups: list[dict[str, Any]]
+    #: Labels of each group: runs that differ in more than loads and seeds are not pooled.
+    groups: pd.DataFrame
+    #: Group and bin of each run, shape (runs,).
     group: np.ndarray
-    centres: np.ndarray
     bin: np.ndarray
+    #: Shape (bins,), in the unit of the field, as the width.
+    centres: np.ndarray
     width: float
     field: str
 
     def coordinates(self, study: xr.Dataset, *, bins: bool = True) -> dict[str, Any]:
         """Coordinates of a dataset over `group` and `bin`."""
-        import pandas as pd
-
-        found: dict[str, Any] = {}
-        for name in self.groups[0] if self.groups else ():
-            values = [group[name] for group in self.groups]
-            texts = any(isinstance(value, str) for value in values)
-            array = pd.Series(values, dtype=object if texts else None).to_numpy()
-            found[name] = ("group", array, dict(study[name].attrs))
+        found: dict[Any, Any] = {
+            name: (
+                "group",
+                column.to_numpy(dtype=object if column.dtype.kind not in "biuf" else None),
+                dict(study[name].attrs),
+            )
+            for name, column in self.groups.items()
+        }
         if bins:
             units = study[self.field].attrs["units"]
             about = {"units": units, "long_name": f"centre of the bin of {self.field}, {self.width:g} {units} wide"}
             found["bin"] = ("bin", self.centres, about)
         return found
 
-    def by_cell(self, values: np.ndarray) -> DataFrameGroupBy:
-        """Values (runs, k) or (runs,) by group and bin."""
-        import pandas as pd
+    def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Mean of the values of each run in each cell, over runs without NaN; their number, and that of the others.
 
-        return pd.DataFrame(values).groupby([self.group, self.bin])
+        Values are taken one run after the other, so that those of a large study need not fit into memory.
 
-    def as_array(self, cells: pd.DataFrame, empty: float = math.nan) -> np.ndarray:
-        """What was made of each cell's values, shape (groups, bins, k); `empty` where a cell has no runs."""
-        import pandas as pd
-
+        Returns
+        -------
+        ndarray, shape (groups, bins, ...)
+            Means; NaN in a cell without runs.
+        ndarray, ndarray, shape (groups, bins)
+            Number of runs in the mean, and of runs left out.
+        """
         shape = len(self.groups), self.centres.size
-        every = pd.MultiIndex.from_product(map(range, shape))
-        return cells.reindex(every, fill_value=empty).to_numpy(dtype=float).reshape(*shape, -1)
+        used, left_out = np.zeros(shape), np.zeros(shape)
+        total = np.zeros(shape)
+        for cell, value in zip(zip(self.group, self.bin, strict=True), map(np.asarray, values), strict=True):
+            if total.ndim == 2 and value.ndim:
+                total = np.zeros((*shape, *value.shape))
+            if np.isfinite(value).all():
+                total[cell] += value
+                used[cell] += 1
+            else:
+                left_out[cell] += 1
+        with np.errstate(invalid="ignore"):
+            return total / used.reshape(*shape, *[1] * (total.ndim - 2)), used, left_out
 
     def probabilities(self, weights: Weights) -> np.ndarray:
         """Probability of each bin, shape (bins,)."""
         return np.array([weights.probability(float(centre), self.width) for centre in self.centres])
+
+
+def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
+    """Sum of values (groups, bins, ...) over bins by their probability; a bin of no weight may be NaN."""
+    some = probability > 0.0
+    return np.tensordot(probability[some], values[:, some], axes=(0, 1))
 
 
 def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) -> Binning:
@@ -254,23 +260,19 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
         if name not in labels:
             raise InputError(f"the study has no label '{name}'", allowed=", ".join(map(str, labels)))
     if study[field].dtype.kind not in "if":
-        raise InputError(
-            f"the label '{field}' is not a number", remedy="Read it as one: {" + field + ":g} in the pattern."
-        )
+        remedy = "Read it as one: {" + field + ":g} in the pattern."
+        raise InputError(f"the label '{field}' is not a number", remedy=remedy)
     if not (math.isfinite(width) and width > 0.0):
         raise InputError(f"the width of the bins is {width!r}", allowed="a number above 0")
-    parameters = [name for name in labels if "." in str(name)]
-    separate = [*_CHOICES, *parameters, *(name for name in by if name not in _CHOICES)]
+    separate = list(dict.fromkeys([*_CHOICES, *(name for name in labels if "." in str(name)), *by]))
     labels_of_runs = pd.DataFrame({name: study[name].values for name in separate})
-    distinct = labels_of_runs.drop_duplicates()
-    values = np.floor(study[field].values / width + 0.5)
-    found = np.unique(values)
+    centres, places = np.unique(bin_numbers(study[field].values, width), return_inverse=True)
     return Binning(
-        groups=[dict(zip(distinct, row, strict=True)) for row in distinct.itertuples(index=False, name=None)],
+        groups=labels_of_runs.drop_duplicates(ignore_index=True),
         # A parameter that a run leaves as it is in the base case is NaN, and the same in all such runs.
         group=labels_of_runs.groupby(separate, sort=False, dropna=False).ngroup().to_numpy(),
-        centres=found * width,
-        bin=np.searchsorted(found, values),
+        centres=centres * width,
+        bin=places,
         width=width,
         field=field,
     )

@@ -64,7 +64,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     if "power" not in result or "time" not in result.power.dims or not result.sizes["time"]:
         what = "the result has no traces"
         raise InputError(what, where="friction torque", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
-    bearing, models, _ = run_input(result)
+    given = run_input(result)
+    bearing, models = given.bearing, given.models
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
         raise InputError(

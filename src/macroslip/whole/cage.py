@@ -15,13 +15,12 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import ROWS
-from macroslip.catalogue.forms import Choice, Flag, Whole
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import FORCE, INVERSE_SPEED, LENGTH, MASS, NUMBER
+from macroslip.bearing.geometry import ROWS
 from macroslip.compiled import jit_inline
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Flag, Quantity, Whole
+from macroslip.input.section import input_section
+from macroslip.input.units import FORCE, INVERSE_SPEED, LENGTH, MASS, NUMBER
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -78,17 +77,13 @@ class Cage:
     'squeeze-film'
     """
 
-    gap: Annotated[
-        float, Quantity("play of a roller between the two spars of its pocket", LENGTH, 0.0, 0.1, name="gap")
-    ] = 0.5e-3
+    gap: Annotated[float, Quantity("play of a roller between the two spars of its pocket", LENGTH, 0.0, 0.1)] = 0.5e-3
     impact: Annotated[str, Choice("how a roller meets a spar", lambda: IMPACTS)] = "squeeze-film"
-    damping: Annotated[
-        float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6, name="damping")
-    ] = 50.0
+    damping: Annotated[float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)] = 50.0
     film_fullness: Annotated[
         float,
         Quantity(
-            "part of the flooded squeeze film's force", NUMBER, 0.0, 1.0, above=True, name="film fullness",
+            "part of the flooded squeeze film's force", NUMBER, 0.0, 1.0, above=True,
             remedy="Without oil between roller and spar set impact: dry.",
         ),
     ] = 1.0  # fmt: skip
@@ -96,19 +91,17 @@ class Cage:
     mass: Annotated[
         float,
         Quantity(
-            "mass of the cage, or of both together", MASS, 1e-3, 1e5, name="mass",
+            "mass of the cage, or of both together", MASS, 1e-3, 1e5,
             remedy="A cage without mass has no speed of its own; 35 to 60 kg are likely for the base bearing.",
         ),
     ] = 50.0  # fmt: skip
     weight: Annotated[bool, Flag("weight of the cage")] = True
     guide_friction: Annotated[
         float,
-        Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6, name="guide friction"),
+        Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6),
     ] = 0.0
     offsets: Annotated[str, Choice("where rollers start in their pockets", lambda: OFFSETS)] = "centred"
-    diameter_scatter: Annotated[
-        float, Quantity("standard deviation of the roller diameters", LENGTH, 0.0, 1e-4, name="diameter scatter")
-    ] = 0.0
+    diameter_scatter: Annotated[float, Quantity("standard deviation of the roller diameters", LENGTH, 0.0, 1e-4)] = 0.0
     seed: Annotated[int, Whole("seed of the random offsets and diameters")] = 1
 
     def check_fit(self, bearing: Bearing) -> None:
