@@ -133,12 +133,18 @@ class _Vectors:
 
 
 def _place(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, start: Any) -> Any:
-    """Address of the number `start` of a flat array."""
-    data = builder.ptrtoint(context.make_array(kind)(context, builder, array).data, _SIZE)
+    """Address of the number `start` of a flat array, which is given itself or by its address."""
+    if isinstance(kind, types.Integer):
+        data = array
+    else:
+        data = builder.ptrtoint(context.make_array(kind)(context, builder, array).data, _SIZE)
     return builder.add(data, builder.mul(start, ir.Constant(_SIZE, 8)))
 
 
-_FLAT = types.Array(types.float64, 1, "C", readonly=True), types.Array(types.float64, 1, "C")
+def _is_flat(table: Any) -> bool:
+    """Whether this is the type of a flat array, or of its address: passing an address counts no references."""
+    flat = types.Array(types.float64, 1, "C", readonly=True), types.Array(types.float64, 1, "C")
+    return table in flat or isinstance(table, types.Integer)
 
 
 @intrinsic
@@ -166,7 +172,7 @@ def spline_value(typingctx, table, start, strides, places):
         return builder.fadd(builder.fadd(a, b), builder.fadd(c, d))
 
     given = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
-    return (types.float64(table, *given), generate) if table in _FLAT else None
+    return (types.float64(table, *given), generate) if _is_flat(table) else None
 
 
 @intrinsic
@@ -202,7 +208,7 @@ def splines_in_square(typingctx, table, start, stride, t, u):
         return context.make_tuple(builder, signature.return_type, fours)
 
     given = (types.intp, types.intp, types.float64, types.float64)
-    return (types.UniTuple(_FOUR, 3)(table, *given), generate) if table in _FLAT else None
+    return (types.UniTuple(_FOUR, 3)(table, *given), generate) if _is_flat(table) else None
 
 
 @intrinsic
@@ -250,4 +256,4 @@ def splines_in_cube(typingctx, table, start, strides, places):
         return context.make_tuple(builder, signature.return_type, fours)
 
     given = (types.intp, types.UniTuple(types.intp, 2), types.UniTuple(types.float64, 3))
-    return (types.UniTuple(_FOUR, 4)(table, *given), generate) if table in _FLAT else None
+    return (types.UniTuple(_FOUR, 4)(table, *given), generate) if _is_flat(table) else None

@@ -40,12 +40,14 @@ _ENERGY_SIGNS = {
 @jit_inline
 def add_flows(assembly, shaft_speed, k, span, space, flows):
     """Add what flows during `span` [s] in the state of the solved stage `k` to `flows`, shape (13,)."""
-    bearing, cages = assembly.bearing[0], space.cages
+    bearing, places, rollers, cages, moments = (
+        assembly.bearing[0], assembly.places, space.rollers, space.cages, space.moments[k]
+    )  # fmt: skip
     pitch = bearing.pitch_radius
     arm = bearing.lever * pitch
-    for j in range(assembly.places.size):
-        place, at, own = assembly.places[j], space.moments[k, j], space.rollers[j].y[FIRST + k]
-        orbital = 0.5 * (own[0] - own[1] + shaft_speed * place.inner_radius)
+    for j in range(places.size):
+        place, at, own = places[j], moments[j], rollers[j].y[FIRST + k]
+        orbital = 0.5 * (own[0] - own[1] + at.ring)
         lag_in, lag_out = at.pull_inner - at.spin_inner, at.pull_outer - at.spin_outer
         cage = cages[place.cage].y[FIRST + k]
         flows[0] -= span * (pitch * at.pull_inner - arm * at.spin_inner)

@@ -270,18 +270,19 @@ def _guess(assembly, k, step, span, change, space):
     `step` is γh [s]; the change of the shaft's speed [rad/s] enters exactly.
     """
     rate = SLOPE if k == 0 else FIRST_RATE
-    for j in range(space.rollers.size):
-        y = space.rollers[j].y
+    rollers, cages, places, bearing = space.rollers, space.cages, assembly.places, assembly.bearing[0]
+    for j in range(rollers.size):
+        y = rollers[j].y
         for i in range(3):
             y[STAR, i] = y[STATE, i] + span * y[FIRST_RATE, i]
-        y[STAR, 0] -= assembly.places[j].inner_radius * change
+        y[STAR, 0] -= places[j].inner_radius * change
         for i in range(3):
             y[FIRST + k, i] = y[STAR, i] + step * y[rate, i]
-    for c in range(space.cages.size):
-        y = space.cages[c].y
+    for c in range(cages.size):
+        y = cages[c].y
         for i in range(6):
             y[STAR, i] = y[STATE, i] + span * y[FIRST_RATE, i]
-        y[STAR, 0] -= 0.5 * assembly.bearing[0].inner_radius * change
+        y[STAR, 0] -= 0.5 * bearing.inner_radius * change
         for i in range(6):
             y[FIRST + k, i] = y[STAR, i] + step * y[rate, i]
 
@@ -289,10 +290,10 @@ def _guess(assembly, k, step, span, change, space):
 @jit_inline
 def _write_stage(assembly, k, time, weight, space, row):
     """Write the solved stage `k` of a step at `time` into the rollers' records, with its weight [s]."""
-    bearing = assembly.bearing[0]
+    bearing, moments, sheets, rollers = assembly.bearing[0], space.moments[k], space.sheets[0], space.rollers
     inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
     for j in range(row.size):
-        step, at, sheet, own = row[j], space.moments[k, j], space.sheets[0, j], space.rollers[j].y[FIRST + k]
+        step, at, sheet, own = row[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
         at_inner, at_outer = (at.inner_load, at.inner_speed, own[0]), (at.outer_load, at.outer_speed, own[1])
         shear_in, shear_out = shear_from(sheet.inner, *at_inner), shear_from(sheet.outer, *at_outer)
         shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
@@ -318,13 +319,14 @@ def _write_stage(assembly, k, time, weight, space, row):
 @jit_inline
 def _keep_rate(step, k, space):
     """Slopes of a solved stage."""
-    for j in range(space.rollers.size):
-        y = space.rollers[j].y
+    rollers, cages, moments = space.rollers, space.cages, space.moments[k]
+    for j in range(rollers.size):
+        y = rollers[j].y
         for i in range(2):
             y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
-        y[FIRST_RATE + k, 2] = space.moments[k, j].pocket_speed
-    for c in range(space.cages.size):
-        y = space.cages[c].y
+        y[FIRST_RATE + k, 2] = moments[j].pocket_speed
+    for c in range(cages.size):
+        y = cages[c].y
         for i in range(6):
             y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
 
@@ -346,8 +348,9 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
     else:
         tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
     _copy(space.numbers[0], space.numbers[1])
-    for j in range(space.rests.size):
-        space.rests[j].fresh = limits.rests == 0 or space.rests[j].rest < h or h == 0.0
+    rests = space.rests
+    for j in range(rests.size):
+        rests[j].fresh = limits.rests == 0 or rests[j].rest < h or h == 0.0
     worst, solved = 0.0, True
     for k in range(stages):
         if solved:
@@ -376,23 +379,24 @@ def _off(y, i):
 def _step_error(assembly, limits, h, space):
     """Error of a solved step of `h` [s] over what is allowed."""
     bearing, allowed, worst = assembly.bearing[0], limits.allowed_speed, 0.0
-    for j in range(space.rollers.size):
-        y = space.rollers[j].y
+    rollers, cages, blocks, borders = space.rollers, space.cages, space.blocks, space.borders
+    for j in range(rollers.size):
+        y, rest = rollers[j].y, blocks[j].rest
         for i in range(2):
-            space.blocks[j].rest[i] = bearing.roller_mass / GAMMA * _off(y, i)
+            rest[i] = bearing.roller_mass / GAMMA * _off(y, i)
         worst = max(worst, abs(h * _off(y, 2)) / (allowed * tuning.PLACE_TIME))
-    for c in range(space.cages.size):
+    for c in range(cages.size):
+        y, rest = cages[c].y, borders[c].rest
         for i in range(3):
-            off = _off(space.cages[c].y, 0 if i == 0 else i + 1)
-            space.borders[c].rest[i] = bearing.cage_mass / GAMMA * off
+            rest[i] = bearing.cage_mass / GAMMA * _off(y, 0 if i == 0 else i + 1)
     size = 3 if bearing.translates else 1
-    solve(assembly.places, size, space.blocks, space.borders)
-    for j in range(space.rollers.size):
-        rest = space.blocks[j].rest
+    solve(assembly.places, size, blocks, borders)
+    for j in range(rollers.size):
+        rest = blocks[j].rest
         worst = max(worst, abs(rest[0]) / allowed, abs(rest[1]) / allowed)
-    for c in range(space.cages.size):
+    for c in range(cages.size):
         for i in range(size):
-            worst = max(worst, abs(space.borders[c].rest[i]) / allowed)
+            worst = max(worst, abs(borders[c].rest[i]) / allowed)
     return worst
 
 
@@ -475,11 +479,11 @@ def _refresh(assembly, limits, time, space, power_scale):
 
 
 @jit_inline
-def _touch_ahead(pocket, space, h):
+def _touch_ahead(pocket, rollers, h):
     """Part of `h` [s] after which the first roller meets a spar, if it is free now; 1 if none does."""
     part = 1.0
-    for j in range(space.rollers.size):
-        y = space.rollers[j].y
+    for j in range(rollers.size):
+        y = rollers[j].y
         offset, speed = y[STATE, 2], y[SLOPE, 2]
         if abs(offset) < pocket.half_gap and speed != 0.0:
             way = pocket.half_gap - offset if speed > 0.0 else pocket.half_gap + offset
@@ -488,15 +492,15 @@ def _touch_ahead(pocket, space, h):
 
 
 @jit_inline
-def _impact_step(bearing, space):
+def _impact_step(bearing, rollers):
     """First step [s] of the fastest dry impact that has just begun; infinite if none has.
 
     A mass m that runs at v into K δ^1.5 goes in by (5 m v²/4K)^0.4; the step is the time in which it travels a part of
     that.
     """
     pocket, shortest = bearing.pocket, math.inf
-    for j in range(space.rollers.size):
-        y = space.rollers[j].y
+    for j in range(rollers.size):
+        y = rollers[j].y
         offset, speed = y[STATE, 2], y[SLOPE, 2]
         depth = abs(offset) - pocket.half_gap
         if depth > 0.0 and offset * speed > 0.0:
@@ -507,17 +511,17 @@ def _impact_step(bearing, space):
 
 
 @jit_inline
-def _cut(bearing, space, step, left):
+def _cut(bearing, rollers, step, left):
     """Step [s] to the next stop or half-way to it.
 
     With dry impacts to just after a touch, so that the impact begins in the step after, which is as short as it needs.
     """
     dry = bearing.pocket.film == 0.0
     if dry:
-        step = min(step, _impact_step(bearing, space))
+        step = min(step, _impact_step(bearing, rollers))
     h = left if step >= 0.95 * left else (0.5 * left if step > 0.6 * left else step)
     if dry:
-        part = _touch_ahead(bearing.pocket, space, h)
+        part = _touch_ahead(bearing.pocket, rollers, h)
         if part * h > 2e-5 and part < 0.98:
             h = 1.0005 * part * h
     return h
@@ -526,8 +530,9 @@ def _cut(bearing, space, step, left):
 @jit_inline
 def _leaves_tables(assembly, limits, space):
     """Whether a roller ends the step in a state that its tables do not hold."""
-    for j in range(space.rests.size):
-        at, body, own = space.moments[1, j], assembly.bodies[assembly.places[j].row], space.rollers[j].y[LAST]
+    body, moments, rollers = assembly.bodies[0], space.moments[1], space.rollers
+    for j in range(moments.size):
+        at, own = moments[j], rollers[j].y[LAST]
         if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
             return True
         inner = math.sqrt(at.inner_speed * at.inner_speed + 0.25 * own[0] * own[0])
@@ -540,9 +545,10 @@ def _leaves_tables(assembly, limits, space):
 @jit_inline
 def _write_end(assembly, start, end, space, row, whole, offset):
     """Write the records' parts on a whole step and its end; a step without length is the start."""
-    bearing, memory = assembly.bearing[0], space.memory[0]
+    bearing, memory, places = assembly.bearing[0], space.memory[0], assembly.places
     begins = end.time == start.time
     last = 0 if begins else 1
+    rollers, cages, moments = space.rollers, space.cages, space.moments[last]
     pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
     whole.start, whole.end = start.time, end.time
     for i in range(whole.flows.size):
@@ -552,35 +558,35 @@ def _write_end(assembly, start, end, space, row, whole, offset):
     for c in range(bearing.cages):
         whole.torque[c] = 0.0
         for i in range(6):
-            whole.cages[c, i] = space.cages[c].y[FIRST + last, i]
+            whole.cages[c, i] = cages[c].y[FIRST + last, i]
     for j in range(row.size):
-        step, at = row[j], space.moments[last, j]
+        step, at, own = row[j], moments[j], rollers[j]
         step.start, step.end, step.stages, step.pure_speed = start.time, end.time, last + 1, pure_speed
         # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
         step.stretch, step.sampled = memory.steps, 1 if begins else 0
         for i in range(3):
-            step.power_before[i] = step.power[0, i] if begins else space.rollers[j].power[i]
-            space.rollers[j].power[i] = step.power[last, i]
-        offset[j] = space.rollers[j].y[FIRST + last, 2]
-        whole.torque[assembly.places[j].cage] -= bearing.pitch_radius * (at.push + bearing.lever * at.friction)
+            step.power_before[i] = step.power[0, i] if begins else own.power[i]
+            own.power[i] = step.power[last, i]
+        offset[j] = own.y[FIRST + last, 2]
+        whole.torque[places[j].cage] -= bearing.pitch_radius * (at.push + bearing.lever * at.friction)
 
 
 @jit_inline
 def _advance(end, space, row):
     """Take over state, slopes and evaluations of an accepted step."""
-    memory = space.memory[0]
+    memory, rollers, cages, rests, numbers = space.memory[0], space.rollers, space.cages, space.rests, space.numbers
     memory.steps += 1
     for j in range(row.size):
         for k in range(2):
             memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
-        if space.rests[j].due:
-            for i in range(space.numbers.shape[2]):
-                space.numbers[1, j, i] = space.numbers[0, j, i]
-        y = space.rollers[j].y
+        if rests[j].due:
+            for i in range(numbers.shape[2]):
+                numbers[1, j, i] = numbers[0, j, i]
+        y = rollers[j].y
         for i in range(3):
             y[STATE, i], y[SLOPE, i] = y[LAST, i], y[LAST_RATE, i]
-    for c in range(space.cages.size):
-        y = space.cages[c].y
+    for c in range(cages.size):
+        y = cages[c].y
         for i in range(6):
             y[STATE, i], y[SLOPE, i] = y[LAST, i], y[LAST_RATE, i]
     memory.time, memory.interval, memory.shaft_speed = end.time, end.interval, end.shaft_speed
@@ -622,7 +628,7 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
             break
         stop = stops[memory.next_stop]
         start, left = Clock(memory.time, memory.interval, memory.shaft_speed), stop - memory.time
-        h = _cut(assembly.bearing[0], space, min(memory.step, limits.longest_step), left)
+        h = _cut(assembly.bearing[0], space.rollers, min(memory.step, limits.longest_step), left)
         if h <= 4e-16 * abs(start.time) + 1e-300:
             status = STEP_TOO_SMALL
             break

@@ -150,23 +150,23 @@ class Meeting(NamedTuple):
 
 
 @jit_inline
-def meet(assembly, stage, place, at, own, cage, star, sheet):
+def meet(bearing, contact, stage, at, own, star, cage, sheet):
     """Push and friction of a roller's pocket; its offset follows from its speed.
 
-    `own` and `cage` are the unknowns of the roller and its cage, `star` the roller's y*.
+    `contact` are a roller's body and the address of its tables, `own` and `cage` the unknowns of the roller and its cage, `star` the roller's y*.
     """
-    bearing, shaft_speed = assembly.bearing[0], stage.shaft_speed
+    shaft_speed = stage.shaft_speed
     v_in, v_out = own[0], own[1]
     cage_turn = (cage[0] + 0.5 * shaft_speed * bearing.inner_radius) / bearing.pitch_radius
     off_axis = cage[4] * at.cosine + cage[5] * at.sine
     speed = 0.5 * (v_in - v_out) - cage[0] + cage[2] * at.sine - cage[3] * at.cosine + cage_turn * off_axis
-    speed += 0.5 * shaft_speed * (place.inner_radius - bearing.inner_radius)
+    speed += 0.5 * (at.ring - shaft_speed * bearing.inner_radius)
     own[2] = star[2] + stage.step * speed
     push, by_offset, by_speed = pocket_force(bearing.pocket, own[2], speed)
     # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
-    sliding = 0.5 * (v_in + v_out + shaft_speed * place.inner_radius) + bearing.lever * bearing.pitch_radius * cage_turn
-    body = assembly.bodies[0]
-    friction, by_sliding, by_push = cage_from(body, assembly.tables, sheet.cage, push, sliding, stage.cage_reach)
+    sliding = 0.5 * (v_in + v_out + at.ring) + bearing.lever * bearing.pitch_radius * cage_turn
+    body, tables = contact
+    friction, by_sliding, by_push = cage_from(body, tables, sheet.cage, push, sliding, stage.cage_reach)
     at.friction, at.push, at.sliding, at.pocket_speed = friction, push, sliding, speed
     give = by_speed + stage.step * by_offset
     return Meeting(push, friction, give, by_sliding, by_push, 1.0 - off_axis / bearing.pitch_radius, cage_turn)
@@ -348,18 +348,19 @@ def _place_cages(stage, k, cages):
 def _assemble(assembly, stage, k, size, space):
     """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
     rollers, cages, moments, sheets = space.rollers, space.cages, space.moments[k], space.sheets[0]
-    bearing = assembly.bearing[0]
+    places, blocks, borders = assembly.places, space.blocks, space.borders
+    bearing, contact = assembly.bearing[0], (assembly.bodies[0], assembly.tables.ctypes.data)
     _place_cages(stage, k, cages)
     for c in range(cages.size):
-        _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], space.borders[c])
+        _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], borders[c])
     memory = space.memory[0]
     memory.evaluations += _raceway_forces(assembly, stage, k, moments, rollers, space.rests, sheets)
     memory.iterations += 1
     inertia, worst, finite = bearing.roller_mass / stage.step, 0.0, True
     for j in range(moments.size):
-        place, at, sheet, block = assembly.places[j], moments[j], sheets[j], space.blocks[j]
+        c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
         own, star = rollers[j].y[FIRST + k], rollers[j].y[STAR]
-        met = meet(assembly, stage, place, at, own, cages[place.cage].y[FIRST + k], star, sheet)
+        met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], sheet)
         turning = 2.0 * (at.spin_inner + at.spin_outer + met.friction)
         driving = met.push - at.tangential - at.pull_inner + at.pull_outer
         rest_in = inertia * (own[0] - star[0]) + turning - driving
@@ -369,10 +370,10 @@ def _assemble(assembly, stage, k, size, space):
         # `max` may ignore a NaN.
         finite = finite and abs(rest_in) + abs(rest_out) < math.inf
         _write_block(inertia, at, sheet, met, block)
-        _add_to_border(bearing, stage, at, met, block, space.borders[place.cage])
+        _add_to_border(bearing, stage, at, met, block, borders[c])
     for c in range(cages.size):
         for i in range(size):
-            rest = abs(space.borders[c].rest[i])
+            rest = abs(borders[c].rest[i])
             worst = max(worst, rest)
             finite = finite and rest < math.inf
     return worst if finite else math.inf
@@ -381,12 +382,13 @@ def _assemble(assembly, stage, k, size, space):
 @jit_inline
 def _update(k, size, space):
     """Subtract a solution from the unknowns of stage `k`."""
-    for j in range(space.rollers.size):
-        own, change = space.rollers[j].y[FIRST + k], space.blocks[j].rest
+    rollers, cages, blocks, borders = space.rollers, space.cages, space.blocks, space.borders
+    for j in range(rollers.size):
+        own, change = rollers[j].y[FIRST + k], blocks[j].rest
         own[0] -= change[0]
         own[1] -= change[1]
-    for c in range(space.cages.size):
-        cage, change = space.cages[c].y[FIRST + k], space.borders[c].rest
+    for c in range(cages.size):
+        cage, change = cages[c].y[FIRST + k], borders[c].rest
         cage[0] -= change[0]
         if size == 3:
             cage[2] -= change[1]
@@ -396,10 +398,11 @@ def _update(k, size, space):
 @jit_inline
 def _follow(assembly, stage, k, space):
     """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
-    bearing = assembly.bearing[0]
-    for j in range(space.blocks.size):
-        c, at, sheet, block = assembly.places[j].cage, space.moments[k, j], space.sheets[0, j], space.blocks[j]
-        cage, border = space.cages[c].y[FIRST + k], space.borders[c].rest
+    bearing, places, rollers, cages = assembly.bearing[0], assembly.places, space.rollers, space.cages
+    moments, sheets, blocks, borders = space.moments[k], space.sheets[0], space.blocks, space.borders
+    for j in range(blocks.size):
+        c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
+        cage, border = cages[c].y[FIRST + k], borders[c].rest
         v_in, v_out = -block.rest[0], -block.rest[1]
         if at.inner_load > 0.0:
             at.spin_inner += sheet.inner.spin_by_slip * v_in
@@ -417,7 +420,7 @@ def _follow(assembly, stage, k, space):
         at.friction += block.by_sliding * sliding + block.by_push * push
         at.sliding += sliding
         at.pocket_speed += speed
-        space.rollers[j].y[FIRST + k, 2] += stage.step * speed
+        rollers[j].y[FIRST + k, 2] += stage.step * speed
 
 
 @jit_inline
@@ -438,11 +441,11 @@ def solve_stage(assembly, stage, k, space):
         Largest residual [N], or the part that the last update is predicted to leave of it; above the tolerance or not finite
         where the stage is not solved.
     """
-    places, blocks, borders = assembly.places, space.blocks, space.borders
+    places, blocks, borders, rests = assembly.places, space.blocks, space.borders, space.rests
     size = 3 if assembly.bearing[0].translates else 1
     worst, before = math.inf, math.inf
     for j in range(blocks.size):
-        space.rests[j].settled = False
+        rests[j].settled = False
     for _ in range(tuning.ITERATIONS):
         worst = _assemble(assembly, stage, k, size, space)
         eliminate(places, size, blocks, borders)

@@ -45,6 +45,7 @@ SHEETS = np.dtype([("inner", SHEET), ("outer", SHEET), ("cage", CAGE_SHEET), ("w
 #: inner_load, outer_load, elastic_load : normal loads with body forces and films, and the rings' load alone [N]
 #: tangential : G = F_g,x' + F_d,x' [N], against the orbit
 #: inner_speed, outer_speed : speed u2 of the rings past its centre [m/s]
+#: ring : speed Ω_in r~_in of the inner ring's surface [m/s]
 #: film_load : what films carry beside the rings' load [N], found at these interference [m], body force [N] and ring speed [m/s]
 #: spin_inner … pull_outer : S_i, S_o, P_i, P_o [N]
 #: friction, push : of its pocket, F_c and N [N]
@@ -53,7 +54,7 @@ MOMENT = np.dtype(
     [
         (name, "f8")
         for name in (
-            "cosine", "sine", "inner_load", "outer_load", "elastic_load", "tangential", "inner_speed", "outer_speed",
+            "cosine", "sine", "inner_load", "outer_load", "elastic_load", "tangential", "inner_speed", "outer_speed", "ring",
             "film_load", "film_interference", "film_outward", "film_speed",
             "spin_inner", "spin_outer", "pull_inner", "pull_outer", "friction", "push", "sliding", "pocket_speed",
         )
@@ -117,7 +118,7 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
     A pocket is at θ = θ_0 + nominal orbit + ∫w dt/r~, and its roller at φ = θ + (x − a sin θ + b cos θ)/r~. The
     difference is at most some milliradians, and enters the roller's load and weight to first order.
     """
-    bearing = assembly.bearing[0]
+    bearing, bodies, places, tables = assembly.bearing[0], assembly.bodies, assembly.places, assembly.tables.ctypes.data
     pitch = bearing.pitch_radius
     for c in range(bearing.cages):
         cage = cages[c].y[which]
@@ -125,10 +126,10 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
         turn_cosine, turn_sine = math.cos(turn[c]), math.sin(turn[c])
         a, b = cage[4], cage[5]
         for j in range(moments.size):
-            place, at = assembly.places[j], moments[j]
+            place, at = places[j], moments[j]
             if place.cage != c:
                 continue
-            body, own = assembly.bodies[place.row], rollers[j].y[which]
+            body, own = bodies[place.row], rollers[j].y[which]
             cosine = place.cosine * turn_cosine - place.sine * turn_sine
             sine = place.sine * turn_cosine + place.cosine * turn_sine
             at.cosine, at.sine = cosine, sine
@@ -142,8 +143,8 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
             outward = (body.centrifugal * orbit * orbit - body.weight_in_plane * y) * body.cos_contact_angle
             outward += body.weight_along_axis * body.sin_contact_angle
             outer_speed = -orbit * bearing.outer_radius
-            pressed = load + _film_load(body, assembly.tables, load, approach, outward, outer_speed, at)
-            at.elastic_load = load
+            pressed = load + _film_load(body, tables, load, approach, outward, outer_speed, at)
+            at.ring, at.elastic_load = ring, load
             at.inner_load = pressed - min(outward, 0.0)
             at.outer_load = pressed + max(outward, 0.0)
             at.tangential = body.weight_in_plane * x + body.drag * orbit * abs(orbit)
@@ -202,13 +203,13 @@ def evaluate_marked(assembly, time, moments, rollers, which, rests, sheets):
     sheets : ndarray of `SHEETS`, shape (n,)
         Changed.
     """
-    evaluations = 0
+    bodies, places, tables, evaluations = assembly.bodies, assembly.places, assembly.tables.ctypes.data, 0
     for j in range(rests.size):
         if rests[j].marked:
-            body, at, sheet = assembly.bodies[assembly.places[j].row], moments[j], sheets[j]
+            body, at, sheet = bodies[places[j].row], moments[j], sheets[j]
             own = rollers[j].y[which]
-            _evaluate(body, body.inner, assembly.tables, at.inner_load, at.inner_speed, own[0], sheet.inner)
-            _evaluate(body, body.outer, assembly.tables, at.outer_load, at.outer_speed, own[1], sheet.outer)
+            _evaluate(body, body.inner, tables, at.inner_load, at.inner_speed, own[0], sheet.inner)
+            _evaluate(body, body.outer, tables, at.outer_load, at.outer_speed, own[1], sheet.outer)
             sheet.when = time
             evaluations += 2
     return evaluations
