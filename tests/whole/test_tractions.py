@@ -69,7 +69,7 @@ def test_between_evaluations_forces_follow_the_slopes(assembly):
     sheet = sheets_at(assembly, 3e4, SPEED, SLIP)["inner"]
     place = (3.003e4, 1.001 * SPEED, 1.001 * SLIP)
     found = sheets_at(assembly, *place)["inner"]
-    sheet = SimpleNamespace(**{name: sheet[name] for name in SHEET.names})
+    sheet = SimpleNamespace(**{name: sheet[name] for name in SHEET.names or ()})
     assert raceway_from(sheet, *place) == pytest.approx((found["spin"], found["pull"]), rel=1e-4)
     assert shear_from(sheet, *place) == pytest.approx(found["shear"], rel=1e-4)
     assert raceway_from(sheet, 0.0, SPEED, SLIP) == (0.0, 0.0)
