@@ -113,7 +113,7 @@ def test_the_page_has_every_section_number_and_figure_and_needs_no_network(writt
         "@software{macroslip",
         "bundled case 14a",
         "Samples completed: 2",
-        "Why, model paper: the energy of an orbit",
+        "Why, model paper: a roller gripped all round",
     ):
         assert words.lower() in page.lower(), words
 

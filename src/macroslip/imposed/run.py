@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from macroslip.contact.look_up import REST_SPEED
 from macroslip.imposed.euler import RULE, integrate_fixed_step
 from macroslip.imposed.radau import LIMITS, WORK, Path, surely_rising
 from macroslip.imposed.solve import integrate
@@ -95,7 +96,8 @@ def radau_limits(
         Start of the window [s].
     """
     body, tables = roller.body[0], roller.tables
-    speed = highest_speed(motion, body)
+    # A shaft at rest has no speed of its own by which an error of slip could be judged.
+    speed = max(highest_speed(motion, body), REST_SPEED)
     found = np.zeros(1, LIMITS)
     found[0] = (
         tolerance,

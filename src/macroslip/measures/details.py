@@ -131,7 +131,14 @@ class Contact(NamedTuple):
 def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
     """Inner, outer and cage contact of a roller."""
     return tuple(
-        Contact(patch_of(one), chords_for(one), one.fluid is not None, one.interface.roughness, one.effusivity)
+        Contact(
+            # Tables are made for one side; here the row's own tilt counts.
+            patch_of(one)._replace(spin_ratio=one.shape.spin_ratio),
+            chords_for(one),
+            one.fluid is not None,
+            one.interface.roughness,
+            one.effusivity,
+        )
         for one in (laws.inner, laws.outer, laws.cage)
     )
 
