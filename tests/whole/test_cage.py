@@ -12,13 +12,13 @@ pytestmark = pytest.mark.slow
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [
-        ({"gap": -1e-4}, "the gap is -0.0001 m"),
+        ({"gap": -1e-4}, "cage.gap: it is -0.0001"),
         ({"mass": 0.0}, "without mass"),
         ({"impact": "wet"}, "squeeze-film, dry"),
         ({"arrangement": "two"}, "one, per-row"),
-        ({"damping": float("nan")}, "damping is nan"),
+        ({"damping": float("nan")}, "cage.damping: it is nan"),
         ({"film_fullness": 0.0}, "impact: dry"),
-        ({"seed": -1}, "seed is -1"),
+        ({"seed": -1}, "cage.seed: it is -1"),
         ({"weight": 1}, "true or false"),
         ({"offsets": "left"}, "centred, random"),
     ],

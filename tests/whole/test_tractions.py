@@ -13,7 +13,7 @@ from macroslip.compiled import jit
 from macroslip.contact.table import table_box
 from macroslip.mechanisms import Laws
 from macroslip.whole.model import whole_bearing, with_tables
-from macroslip.whole.stage import REST
+from macroslip.whole.stage import FIRST, REST, ROLLER
 from macroslip.whole.tractions import (
     SHEET,
     cage_from,
@@ -41,7 +41,9 @@ def sheets_at(assembly, load, speed, slip):
     for name in ("inner", "outer"):
         moments[f"{name}_load"], moments[f"{name}_speed"] = load, speed
     rests["marked"] = True
-    assert evaluate_marked(assembly, 0.0, moments[0], np.full((count, 3), slip), rests, sheets[0]) == 2 * count
+    rollers = np.zeros(count, ROLLER)
+    rollers["y"][:, FIRST] = slip
+    assert evaluate_marked(assembly, 0.0, moments[0], rollers, FIRST, rests, sheets[0]) == 2 * count
     return sheets[0, 0]
 
 
