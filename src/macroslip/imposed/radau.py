@@ -76,8 +76,11 @@ class Path(NamedTuple):
 
     Attributes
     ----------
-    body, tables
-        The roller (`macroslip.roller.model.Roller`).
+    body : record of a roller
+    tables : int
+        Address of the flat array of its tables: an array would be counted at every look-up.
+    flat : ndarray
+        The array itself.
     motion : Motion
     start_angle : float
         Position φ at the first sample [rad].
@@ -85,7 +88,8 @@ class Path(NamedTuple):
     """
 
     body: Any
-    tables: np.ndarray
+    tables: int
+    flat: np.ndarray
     motion: Any
     start_angle: float
     limits: Any
@@ -488,4 +492,4 @@ def is_continuous(path, work):
     if change <= HOT_CHANGE * abs(slip) + SMALL_CHANGE * limits.speed_scale or largest <= limits.cold_slip:
         return True
     ring = max(abs(at.ring_speed), abs(work.stage_at[2].ring_speed))
-    return largest <= surely_rising(path.body, path.tables, inner, outer, ring)
+    return largest <= surely_rising(path.body, path.flat, inner, outer, ring)

@@ -106,7 +106,7 @@ def radau_limits(
         speed**2 / body["mobility"],
         longest_step(motion, float(body["orbit_ratio"])),
         surely_rising(body, tables, heaviest, heaviest, speed) if heaviest > 0.0 else np.inf,
-        firm_interference(body, tables, speed),
+        firm_interference(body, tables.ctypes.data, speed),
         window,
     )
     return found
@@ -141,7 +141,8 @@ def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator
         Steps that follow one another, in a buffer that the next ones overwrite.
     """
     motion, limits, body = problem.motion, problem.limits[0], problem.roller.body[0]
-    path = Path(body, problem.roller.tables, motion, float(start_angle), limits)
+    tables = problem.roller.tables
+    path = Path(body, tables.ctypes.data, tables, motion, float(start_angle), limits)
     work, steps = np.zeros(1, WORK), new_steps()
     classes = np.empty(motion.time.size - 1, dtype=np.int8)
     radau = problem.limits.dtype == LIMITS

@@ -37,12 +37,15 @@ class Wanted:
         Times of the traces [s]; a step ends at each, or with a fixed step soon after.
     details : bool
         Whether contacts are looked at station by station.
+    spacing : float
+        Changes between looks, over those of a roller on an imposed orbit.
     """
 
     edges: np.ndarray
     highest_speed: float
     trace_time: np.ndarray
     details: bool
+    spacing: float = 1.0
 
 
 class Row:
@@ -69,7 +72,7 @@ class RollerMeasures:
         self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
         self.film_times = np.zeros((2, 3))
         self.looker = (
-            Looker(wanted.edges, row.roller, row.model.laws, row.contacts, row.motion, start_angle)
+            Looker(wanted.edges, row.roller, row.model.laws, row.contacts, row.motion, start_angle, wanted.spacing)
             if wanted.details
             else None
         )

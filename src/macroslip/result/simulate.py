@@ -68,9 +68,14 @@ def simulate(
     if case.temperature == BALANCE:
         case = case_at_balance(case, lambda known: simulate(known, threads=threads))
     ready = prepare(case)
-    wanted = Wanted(ready.edges, ready.highest_speed, ready.trace_time, case.contact_details and ready.model.curved)
+    whole = case.dynamics == WHOLE_BEARING
+    wanted = Wanted(
+        ready.edges, ready.highest_speed, ready.trace_time, case.contact_details and ready.model.curved,
+        # Beside the steps of a whole bearing looks cost little.
+        spacing=0.15 if whole else 1.0,
+    )  # fmt: skip
     stop = threading.Event()
-    run = _whole_bearing if case.dynamics == WHOLE_BEARING else _imposed_orbits
+    run = _whole_bearing if whole else _imposed_orbits
     try:
         return run(ready, wanted, threads, progress, stop)
     except BaseException:
