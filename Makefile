@@ -24,7 +24,7 @@ test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs;
 
 test-lowest:  ## input, a computed case and results with the lowest versions that pyproject.toml allows
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
-	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing tests/integrate/test_sealed.py src/macroslip/result/simulate.py
+	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing src/macroslip/result/simulate.py
 
 lint: $(VENV)/.ready  ## format, lint and types
 	$(BIN)/ruff format --check .

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of √w for the
 #: fastest speed of the box of 1 m/s.
-_LOAD_SPACING, _RATIO_SPACING, _SPEED_SPACING = 0.33, 0.06, 0.0245
+_LOAD_SPACING, _RATIO_SPACING, _SPEED_SPACING = 0.46, 0.085, 0.035
 #: Share of the pressure exponent of the middle by which loads are stretched.
 _STRETCH = 0.6
 #: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller carries some newtons of its
@@ -40,8 +40,8 @@ _BENT = 0.05
 _PLANE_LOAD, _PLANE_SPEED, _SLOWEST = 0.1, 0.05, 1e-4
 #: Nodes beyond the states of the box: next to its ends a spline is less good.
 _BEYOND = 1
-#: Part of the largest force at the same load and speed below which an error of force counts as one of this part: a
-#: gripped roller's force passes through zero.
+#: Part of the largest force or power at the same load and speed below which an error counts as one of this part: a gripped
+#: roller's force passes through zero.
 _SMALL_FORCE = 0.05
 #: Random loads and speeds at which a table is measured, with slips at each; load [N] from which on a roller is held, and its
 #: slip ratio there; and the largest slip ratio of lighter ones.
@@ -439,5 +439,6 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
     other, other_power = spin_and_power([one * scale for one, scale in zip(found, scales, strict=True)])
     largest = np.abs(spin).max(axis=-1, keepdims=True)
     off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
-    off = np.maximum(off, np.abs(other_power - power) / np.abs(power))
+    least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)
+    off = np.maximum(off, np.abs(other_power - power) / np.maximum(power, least))
     return TableErrors(float(np.median(off)), float(off.max()), 0.0)
