@@ -40,8 +40,8 @@ def test_index_names_every_page_and_every_example():
     assert missing == []
 
 
-def test_input_page_names_every_key_of_a_case():
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
+def test_case_file_page_names_every_key_of_a_case():
+    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8"))
     sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
     names = [key for key, _ in keys_of(Case) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
@@ -95,8 +95,8 @@ def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     assert len(read_study(tmp_path / "study.yaml")) == 2 * 2 * 3 * 16
 
 
-def test_input_page_names_every_law_and_method():
-    text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
+def test_case_file_page_names_every_law_and_method():
+    text = (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8")
     laws = [form_of(field) for field in fields_of(Laws).values()]
     choices = [name for choice in laws if isinstance(choice, Choice) for name in choice.names()]
     names = [*choices, *INTEGRATORS, bundled_cases()[0], bundled_cases()[-1]]
