@@ -22,6 +22,7 @@ from macroslip.study.weights import Weibull
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
 PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
+STUDIES = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("studies.md", "study-results.md"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 OURS = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.py"), *EXAMPLES]
 
@@ -62,8 +63,7 @@ def test_studies_page_has_the_sentence_of_every_outcome():
     assert [outcome for outcome in Outcome if f"| `{outcome}` | {outcome.sentence} |" not in text] == []
 
 
-def test_studies_page_names_every_file_every_table_and_every_variable(tmp_path):
-    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
     study = {"case": {"rollers": [0], "loads": {"end": "8 s"}}, "loads": {"bundled": ["14B"]}, "cycles": True}
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
@@ -71,11 +71,11 @@ def test_studies_page_names_every_file_every_table_and_every_variable(tmp_path):
     files = [f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()]
     labels = [name for name, one in opened.coords.items() if one.dims == ("case",)]
     names = [*files, *found, *ROW_VARIABLES, *CASE_VARIABLES, *labels, "load_cycles", *opened.load_cycles.dims]
-    assert [name for name in names if f"`{name}`" not in text] == []
+    assert [name for name in names if f"`{name}`" not in STUDIES] == []
 
 
 def test_studies_page_gives_the_units_of_the_summary():
-    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"), re.MULTILINE)
+    rows = re.findall(r"^\|(.*)\|$", STUDIES, re.MULTILINE)
     cells = [[cell.strip() for cell in row.split("|")] for row in rows]
     for name, (units, _) in (ROW_VARIABLES | CASE_VARIABLES).items():
         assert any(units in re.split(", ", row[1]) for row in cells if f"`{name}`" in row[0]), name
