@@ -32,13 +32,13 @@ class InputError(MacroslipError, ValueError):
     Parameters
     ----------
     what : str
-        What is wrong, with the offending value.
+        The fault, with the offending value.
     where : str
         File, key, line or time stamp of the fault.
     allowed : str
-        What would be accepted.
+        Values that are accepted.
     remedy : str
-        What to do about it.
+        A way to mend it.
 
     Examples
     --------

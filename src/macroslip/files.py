@@ -15,7 +15,7 @@ from macroslip.errors import InputError
 
 #: End of the names of files that are being written; a file with it was never finished.
 UNFINISHED = ".part"
-#: What is wrong with a path that is neither a file nor a folder.
+#: Fault of a path that is neither a file nor a folder.
 SPECIAL = "it is a pipe, a socket or a device, not a file"
 
 
@@ -78,7 +78,7 @@ def is_special(path: Path) -> bool:
 def check_regular(path: Path, remedy: str) -> None:
     """Refuse a pipe, a socket or a device in the place of a file, before it is opened.
 
-    What is not there, and a folder, pass: their reader reports them.
+    A missing file and a folder pass: their reader reports them.
     """
     special = False
     with contextlib.suppress(OSError, ValueError):

@@ -20,7 +20,7 @@ def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]
     Parameters
     ----------
     label : str
-        What is counted.
+        Name of the things that are counted.
 
     Yields
     ------

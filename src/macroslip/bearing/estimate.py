@@ -90,7 +90,7 @@ _STEEL = (
 
 @dataclass(frozen=True)
 class MakersPage:
-    """What a maker publishes of a bearing, SI units.
+    """Numbers that a maker publishes of a bearing, SI units.
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     Parameters
     ----------
     page : MakersPage
-        What the maker publishes.
+        Numbers that the maker publishes.
     name, title : str
         Of the bearing.
     seed : int
@@ -254,7 +254,7 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
         count = np.full(SAMPLES, float(round(page.bpfo + page.bpfi)))
         gamma = (page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)) / count
         diameter = 2.0 * gamma * sphere / (1.0 + gamma)
-    # What the diameter leaves for the inner ring depends little on the length, and the length little on the diameter.
+    # The room for the inner ring depends little on the roller length, and the length little on the diameter.
     for _ in range(30):
         centre = sphere - 0.5 * diameter
         if gamma is None:

@@ -148,7 +148,7 @@ def _estimate_bearing(
 ) -> None:
     """Estimate the inside of a bearing from its maker's page, and write a bearing file.
 
-    What the page leaves open is sampled within usual proportions. The file holds the median of every inner dimension and
+    Dimensions that the page leaves open are sampled within usual proportions. The file holds the median of every inner dimension and
     the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
     """
     from macroslip.bearing.estimate import MakersPage, estimate_bearing

@@ -96,7 +96,7 @@ command(loads, inspect)
 
 
 def _read(file: Path, speed: float | None, drivetrain: Drivetrain) -> tuple[dict[str, Any], BearingLoads]:
-    """What is shown of a file, and the load it makes on the main bearing."""
+    """Texts on a file, and its load on the main bearing."""
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
 
     if _holds_bearing_loads(file):

@@ -240,7 +240,7 @@ def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
 
 
 def references(laws: Laws) -> list[str]:
-    """What to cite for the chosen mechanisms."""
+    """Works to cite for the chosen mechanisms."""
     found = [FILM_LAWS.named(laws.film).reference]
     if laws.inlet_heating:
         found.append(film.INLET_HEATING_REFERENCE)

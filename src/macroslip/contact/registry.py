@@ -51,7 +51,7 @@ class Law(NamedTuple):
     function : callable
         Of an interface and arrays.
     reference : str
-        What to cite.
+        Work to cite.
     in_range : callable or None
         Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for everywhere.
     range_notes : callable or None
@@ -224,7 +224,7 @@ def register_film(
         `function(interface, load [N], entrainment_speed [m/s]) -> h [m]`, with arrays of one shape; finite, above zero and
         without jumps.
     reference : str
-        What to cite where the law was used.
+        Work to cite where the law was used.
     in_range : callable, optional
         `in_range(interface, load, entrainment_speed)`: whether the formula holds, an array of truth values, counted in
         `outside_film_range`.
@@ -255,7 +255,7 @@ def register_traction(name: str, function: Callable, *, reference: str, kinks: I
         `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, with arrays of one shape and slip above
         zero; finite, above zero and without jumps, and in proportion to slip where that is small.
     reference : str
-        What to cite where the law was used.
+        Work to cite where the law was used.
     kinks : iterable of float
         Slips at which the force has a kink [m/s].
 
@@ -306,7 +306,7 @@ register_film(
 
 
 def film_range_notes(name: str, found: Iterable[Interface]) -> list[str]:
-    """What lies outside the range of the film law called `name` at some interface, whatever load and speed."""
+    """Numbers outside the range of the film law called `name` at some interface, whatever load and speed."""
     notes = FILM_LAWS.named(name).range_notes
     return [f"{interface.name}: {note}" for interface in found for note in (notes(interface) if notes else [])]
 

@@ -48,7 +48,7 @@ from macroslip.errors import InputError
 
 GOKSEM_HARGREAVES_REFERENCE = "Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346 and 353, doi:10.1115/1.3453183"
 BIBOULET_HOUPERT_REFERENCE = "Biboulet and Houpert, Proc. IMechE J 224 (2010) 763 and 777, doi:10.1243/13506501JET608"
-#: What `rolling:` may be, and what to cite for it.
+#: Choices of `rolling:`, and works to cite for each.
 REFERENCES = {
     "none": "",
     "inlet": f"{GOKSEM_HARGREAVES_REFERENCE}; {BIBOULET_HOUPERT_REFERENCE}",

@@ -351,7 +351,7 @@ class Record:
         *keys : str
             Names of the quantities.
         purpose : str
-            What needs them, for the message, for example "the physical model".
+            The user of these quantities, for the message, for example "the physical model".
 
         Raises
         ------

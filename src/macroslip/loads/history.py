@@ -65,7 +65,7 @@ def bundled_cases() -> list[str]:
 
 
 class _History:
-    """What both kinds of loads share: checks, windows and their printed form."""
+    """Checks, windows and printed form that both kinds of loads share."""
 
     __slots__ = ()
 

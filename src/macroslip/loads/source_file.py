@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from macroslip.errors import InputError
 from macroslip.files import check_regular
 
-#: What to do about a file that no reader understands.
+#: Advice for a file that no reader understands.
 DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it holds."
 #: Values that a header may announce; more must be damage.
 MOST_VALUES = 500_000_000

@@ -111,7 +111,7 @@ def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
 
 
 def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
-    """What follows, at the inlet, from the figures of a data sheet.
+    """Values at the inlet that follow from the figures of a data sheet.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ from macroslip.lubricant.inlet import Inlet, derive, moved_inlet, scaled_range
 #: Inlet temperatures [K] over which `Lubricant.at` uses Walther's line: -20 to 150 degC.
 COLDEST, HOTTEST = 253.15, 423.15
 _Optional = float | None
-#: What a file may give instead of a value at the inlet.
+#: Keys that a file may give instead of a value at the inlet.
 _SOURCES: Mapping[str, tuple[str, ...]] = {
     "density": ("density_15",),
     "viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),

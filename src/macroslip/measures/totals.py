@@ -24,7 +24,7 @@ SPIN_RATIO_SPEED = 0.1
 
 
 class Totals(NamedTuple):
-    """What the steps of one roller add up to. Interfaces are in the order inner, outer, cage.
+    """Sums over the steps of one roller. Interfaces are in the order inner, outer, cage.
 
     Attributes
     ----------

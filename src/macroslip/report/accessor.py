@@ -1,4 +1,4 @@
-"""What a result can draw in a notebook: `result.macroslip.plot.load_zone()`.
+"""Plots of a result in a notebook: `result.macroslip.plot.load_zone()`.
 
 Importing this module registers the accessor with xarray; `macroslip.simulate` and `macroslip.open_result` bring it.
 Pictures need matplotlib, which is imported when the first one is drawn.
@@ -74,7 +74,7 @@ def _read(file: Path) -> xr.Dataset:
 
 @xr.register_dataset_accessor("macroslip")
 class Macroslip:
-    """What macroslip adds to a result: `plot`, and a summary for its display."""
+    """Accessor `macroslip` of a result: `plot`, and a summary for its display."""
 
     def __init__(self, result: xr.Dataset):
         self._result = result

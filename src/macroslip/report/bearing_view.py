@@ -50,7 +50,7 @@ def quantise(values: NDArray, low: float, high: float) -> bytes:
 
 
 def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
-    """What the page's script needs of one scene.
+    """Data of one scene for the page's script.
 
     Parameters
     ----------

@@ -98,7 +98,7 @@ def groups(values: xr.DataArray) -> list[int]:
 
 
 def group_labels(dataset: xr.Dataset, group: int) -> list[str]:
-    """What distinguishes a group from the others; nothing if there is one."""
+    """Values that distinguish a group from the others; none if there is one group."""
     if dataset.sizes["group"] < 2:
         return []
     found = []

@@ -140,7 +140,7 @@ def _dataset(
 
 
 def status_flags() -> dict[str, Any]:
-    """What the numbers of `status` mean, as CF conventions have it."""
+    """Meanings of the numbers of `status`, in the form of the CF conventions."""
     return {
         "flag_values": np.array([int(one) for one in Status], dtype=np.int8),
         "flag_meanings": " ".join(one.name.lower() for one in Status),

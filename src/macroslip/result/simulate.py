@@ -141,7 +141,7 @@ def _finished(pending: set, progress: Callable | None, done: int, total: int):
 
 
 def _problem(ready: Prepared, roller: Roller) -> Problem:
-    """What all rollers of a row have in common."""
+    """Numbers common to all rollers of a row."""
     integrator, motion = ready.case.integrator, ready.motion
     if isinstance(integrator, Radau):
         limits = radau_limits(

@@ -25,7 +25,7 @@ _LONGEST_PUSH = 1e3
 
 
 class RingGeometry(NamedTuple):
-    """What the balance needs of a bearing.
+    """Geometry and stiffness of a bearing, for the balance.
 
     Attributes
     ----------

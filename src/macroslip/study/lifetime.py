@@ -14,7 +14,7 @@ from macroslip.study.weights import YEAR, Weights, binned, weighted
 if TYPE_CHECKING:
     import xarray as xr
 
-#: What is over the places of the raceways in a result.
+#: Variables over the places of the raceways in a result.
 _PLACES = ("row", "raceway", "angle", "station")
 
 

@@ -164,7 +164,7 @@ def _of_results(directory: Path, runs: pd.DataFrame) -> tuple[dict[str, Any], di
 
 @dataclass(frozen=True)
 class _Shared:
-    """What all variables of a study have in common."""
+    """Properties common to all variables of a study."""
 
     opened: str
     directory: Path

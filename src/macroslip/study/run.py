@@ -97,7 +97,7 @@ class Progress:
 
     @property
     def short(self) -> str:
-        """What fits beside a bar."""
+        """Counts and pace, short enough to stand beside a bar."""
         return f"{self.done} of {self.total}, {self.failed} failed, {self._pace}"
 
     @property

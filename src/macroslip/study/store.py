@@ -43,7 +43,7 @@ MANIFEST, DATABASE, SUMMARY, LOG, CASES, LOCK = (
 BALANCE_RUNS = "balance"
 _FILES = (MANIFEST, DATABASE, f"{DATABASE}-wal", f"{DATABASE}-shm", SUMMARY, LOG, LOCK)
 _EARLIER = "journal.jsonl"
-#: What to do about a damaged manifest or a damaged database.
+#: Advice for a damaged manifest or a damaged database.
 REMEDY = "Write it again with macroslip study STUDY.yaml -o DIR --resume; results are kept."
 _DAMAGED = "Put back a copy of it, or remove it and go on with --resume: then all runs are computed again."
 #: Attribute with the description of variables that have no values.
@@ -314,7 +314,7 @@ def checksum(content: bytes) -> str:
 
 
 def layout(result: xr.Dataset) -> str:
-    """What a reader needs of a result before it opens it, as JSON.
+    """Layout of a result that a reader needs before it opens the file, as JSON.
 
     `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and `variables`, a hash of names,
     dimensions and types.

@@ -144,7 +144,7 @@ def work_several(
 
 @functools.lru_cache(maxsize=2)
 def _setup(directory: str, expected: str) -> dict[str, Any]:
-    """What all runs of a study have in common, from its manifest."""
+    """Settings common to all runs of a study, from its manifest."""
     try:
         manifest, found = read_manifest(Path(directory))
     except InputError as error:
@@ -187,7 +187,7 @@ def _stored(path: Path) -> bytes | None:
 def _computed(
     case: Case, options: Mapping[str, Any], threads: int | None, progress: Callable[[int, int], None] | None
 ) -> tuple[xr.Dataset, dict[str, float]]:
-    """What is stored of a case, and the numbers of its summary."""
+    """Stored dataset of a case, and the numbers of its summary."""
     from macroslip.result.simulate import simulate
 
     started = time.perf_counter()

@@ -271,7 +271,7 @@ class SkfTorque:
     seal : float | array
         M_seal: seals of the bearing itself [N m]; zero, for open bearings have none.
     out_of_range : tuple of str
-        What lies outside the range for which the model is stated; empty if nothing does.
+        Values outside the range for which the model is stated; empty if none is.
     """
 
     rolling: float | NDArray[np.float64]
