@@ -54,7 +54,7 @@ def exponents() -> None:
 
 
 def compliance() -> None:
-    """Part of the power of microslip that elastic tangential strain of the bodies takes off, by Carter's law in strips.
+    """What elastic tangential strain of the bodies takes off the power of microslip, by Carter's law in strips.
 
     A strip of half width b under Coulomb friction γ p transmits 1 − (1 − |v|/v_s)² of γ p below v_s = γ u b/R, and all of it
     above (Carter, Proc. R. Soc. A 112 (1926) 151); without strain all of it at any slip. The film's own viscosity, which
@@ -163,7 +163,7 @@ def thrust() -> None:
     )
 
 
-#: Changes, one at a time: choice of laws, and value of the oil [SI]; "kept" is that at 35 degC.
+#: What is changed, one at a time: choice of laws, and value of the oil [SI]; "kept" is that at 35 degC.
 _ASSUMPTIONS: tuple[tuple[str, dict[str, Any], dict[str, float | str]], ...] = (
     ("as it is", {}, {}),
     ("limiting shear", {"rheology": "limiting-shear"}, {}),

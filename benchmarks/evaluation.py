@@ -1,4 +1,4 @@
-"""Cost of one force evaluation by itself, at the states that rollers of the histories pass through."""
+"""What one force evaluation costs by itself, at the states that rollers of the histories pass through."""
 
 from __future__ import annotations
 

@@ -185,7 +185,7 @@ def nothing(tasks: list) -> list:
 
 
 def scheduler(quick: bool) -> dict[str, float]:
-    """Tasks that pass through one scheduler on this machine, the client included, with two workers that do nothing."""
+    """What passes through one scheduler on this machine, the client included, with two workers that do nothing."""
     from distributed import Client, LocalCluster
 
     from macroslip.study import workers
@@ -213,7 +213,7 @@ def scheduler(quick: bool) -> dict[str, float]:
 
 
 def coordinator(folder: Path, quick: bool) -> dict[str, float]:
-    """Cost of the study itself for each run: the database, the counts, the log, the summary; without workers."""
+    """What the study itself costs for each run: the database, the counts, the log, the summary; without workers."""
     from macroslip.study import run as module
     from macroslip.study.work import program
 

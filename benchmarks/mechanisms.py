@@ -1,4 +1,4 @@
-"""Cost of each mechanism of the physical model: CPU time of one roller over 600 s, mechanism by mechanism."""
+"""What each mechanism of the physical model costs: CPU time of one roller over 600 s, mechanism by mechanism."""
 
 from __future__ import annotations
 

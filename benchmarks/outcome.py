@@ -1,4 +1,4 @@
-"""Result of one run of one method on one history, its error, and the setting by which a rival is judged."""
+"""What one run of one method on one history gives, how far it is off, and which setting a rival is judged by."""
 
 from __future__ import annotations
 

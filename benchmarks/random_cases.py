@@ -39,7 +39,7 @@ _STEP = 0.05
 
 
 class Outcome(NamedTuple):
-    """Outcome of one case: errors of energy and peak, with the largest values they belong to, and times."""
+    """What became of one case: errors of energy and peak, with the largest values they belong to, and times."""
 
     number: int
     history: str

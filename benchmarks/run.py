@@ -25,7 +25,7 @@ from macroslip.files import published_together
 from macroslip.machine import machine
 
 SUMMARY = "bench.json"
-#: Demands on the production integrator against the limit set by its force evaluations.
+#: What is asked of the production integrator against the limit set by its force evaluations.
 TARGETS = {
     "quadrature_ratio": 5.0,
     "overhead_factor": 1.5,
@@ -53,7 +53,7 @@ def run_bench(directory: Path, *, quick: bool = False, progress: Callable[[str, 
     Returns
     -------
     dict
-        Content of `bench.json`.
+        What `bench.json` holds.
 
     Raises
     ------

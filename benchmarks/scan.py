@@ -15,7 +15,7 @@ _STUBBORN = 3.0
 
 
 def timed(run: Callable[[], Solution]) -> tuple[Solution, float]:
-    """Result of `run` and the CPU time of this process that it took [s], without garbage collection."""
+    """What `run` returns and the CPU time of this process that it took [s], without garbage collection."""
     enabled = gc.isenabled()
     gc.disable()
     try:

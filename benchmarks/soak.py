@@ -42,7 +42,7 @@ WORKERS = 2
 
 
 class Sample(NamedTuple):
-    """State at one moment: time since the first result [s], resident memory [bytes], runs that are done."""
+    """What was seen at one moment: time since the first result [s], resident memory [bytes], runs that are done."""
 
     time: float
     scheduler: int
@@ -53,7 +53,7 @@ class Sample(NamedTuple):
 
 
 class Found(NamedTuple):
-    """Outcome of a soak."""
+    """What a soak ended with."""
 
     samples: list[Sample]
     kills: int

@@ -37,7 +37,7 @@ Report = Callable[[str, int, int], None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelRun:
-    """Results under one model; `parts` and `uncertainty` only of contacts with microslip."""
+    """What was computed under one model; `parts` and `uncertainty` only of contacts with microslip."""
 
     study: xr.Dataset
     numbers: xr.Dataset
@@ -137,7 +137,7 @@ def failed_integrations(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Data
 
 
 def headline(judged: Mapping[str, Mapping[str, Statement]], failed: Mapping[str, int], total: int) -> list[str]:
-    """Failures, and each statement with the finding of every model, a line each."""
+    """What failed, and each statement with what every model gives, a line each."""
     counts = ", ".join(f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count)
     lines = [
         f"{f'FAILED INTEGRATIONS: {counts}' if counts else 'No integration failed, explicit Euler in A1 not counted'} (the study has {total} rollers)."

@@ -260,7 +260,7 @@ def euler_stability(stability: xr.Dataset) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
-#: Statements of the paper, and reasons for a difference, by subject.
+#: What the paper states, and what explains a difference, by subject.
 STATED: Mapping[str, Any] = YAML(typ="safe").load(Path(__file__).parent / "statements.yaml")
 
 
