@@ -1,4 +1,4 @@
-"""The command line: one command a file. What a command needs is imported when it runs, so that help comes at once."""
+"""The command line: one command a file. Imports of a command wait until it runs, so that help comes at once."""
 
 from __future__ import annotations
 

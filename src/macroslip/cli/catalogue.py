@@ -261,7 +261,7 @@ def _estimate_lubricant(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="File to write; else it is printed.")] = None,
     force: Force = False,
 ) -> None:
-    """Write a lubricant file from two viscosities and the base oil; what is estimated has the tag E and a range."""
+    """Write a lubricant file from two viscosities and the base oil; estimates have the tag E and a range."""
     from macroslip.input.units import KINEMATIC_VISCOSITY as VISCOSITY
     from macroslip.input.units import parse_quantity
     from macroslip.lubricant.estimate import estimate_lubricant

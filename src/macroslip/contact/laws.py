@@ -47,7 +47,7 @@ class ContactLaws:
     film_name : str
         Name of the film law.
     starvation : float
-        Film thickness over that of a flooded contact, above 0 and at most 1 [-].
+        Film thickness over the film of a flooded contact, above 0 and at most 1 [-].
     thermal_loading : float
         Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out.
     fluid : Fluid or None

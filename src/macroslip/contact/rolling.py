@@ -95,7 +95,7 @@ def biboulet_houpert(load):
 
 
 def starvation_factor(inlet: float) -> float:
-    """Rolling resistance over that of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-], below 1.
+    """Rolling resistance over the resistance of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-], below 1.
 
     S is the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite where flooded.
 
@@ -148,7 +148,7 @@ def goksem_hargreaves(load, speed, material):
 
 
 def inlet_heating_of_rolling(loading):
-    """Rolling resistance over that of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-], above 0, at most 1.
+    """Rolling resistance over the resistance of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-], above 0, at most 1.
 
     L_T = η0 β u²/k ≥ 0 is the thermal loading parameter.
 

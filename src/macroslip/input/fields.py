@@ -75,7 +75,7 @@ class Form:
         raise NotImplementedError
 
     def json(self) -> dict[str, Any]:
-        """JSON Schema of what a file may have."""
+        """JSON Schema of the value in a file."""
         return {"type": "object"}
 
     def wrong(self, value: Any, remedy: str = "", allowed: str = "") -> InputError:

@@ -67,13 +67,13 @@ def input_section(
     about : str
         Meaning of the section, for messages and for the JSON Schema.
     one_of : tuple of str
-        Keys of which exactly one has to be given.
+        Keys, exactly one of which has to be given.
     positional : bool
         Whether a call in Python may leave out the names of the first arguments.
     gone : mapping
         Keys that there were, with a sentence on each.
     groups : mapping
-        Sections that only files have: by name what the section is, and the fields in it.
+        Sections that only files have: by name the meaning of the section, and the fields in it.
     """
     given = dataclasses.replace(PYTHON, place=Place(Source(), tuple(noun.split(".")) if noun else ()))
 
@@ -375,7 +375,7 @@ class Made(Form):
         return value
 
     def json(self) -> dict[str, Any]:
-        """The schema of what the file has."""
+        """The schema of the content of a file."""
         return self.written.json()
 
 

@@ -28,7 +28,7 @@ ANGLE = {"deg": math.pi / 180.0, "rad": 1.0}
 
 
 def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
-    """Return the path and its lower-case extension, which has to be among `kinds`; they say what a file holds.
+    """Return the path and its lower-case extension, which has to be among `kinds`; they name the content of a file.
 
     `remedy` is what to do about another extension.
     """

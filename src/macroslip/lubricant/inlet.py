@@ -1,4 +1,4 @@
-"""From what a lubricant file gives to the values at the inlet of the contacts."""
+"""From the values of a lubricant file to the values at the inlet of the contacts."""
 
 from __future__ import annotations
 

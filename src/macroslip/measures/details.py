@@ -165,7 +165,7 @@ def _is_due(step, last, memory, outer_radius, spacing):
 
 @jit_inline
 def _remember(step, last, orbit, angle, memory):
-    """Keep what the next look is decided by."""
+    """Keep the numbers that decide on the next look."""
     speed, slip = step.outer_speed[last], step.outer_slip[last]
     highest = memory.highest
     if orbit != memory.orbit:

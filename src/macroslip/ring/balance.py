@@ -186,7 +186,7 @@ def balance(ring, shaft_angle, force, displacement):
 
 @jit
 def balance_series(ring, shaft_angle, force, current, displacement, unbalanced):
-    """`balance` over a series, each sample started from the one before.
+    """`balance` over a series, each sample started from its predecessor.
 
     Parameters
     ----------

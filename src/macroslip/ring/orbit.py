@@ -156,7 +156,7 @@ def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.
 def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
     """Times at which the rollers have completed 1, 2, 3, … orbits [s].
 
-    Parameters are those of `travel`.
+    Parameters as for `travel`.
 
     Returns
     -------

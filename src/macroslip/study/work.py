@@ -51,7 +51,7 @@ def program() -> str:
 
 
 def case_key(case: Case, options: Mapping[str, Any]) -> str:
-    """Hash of the full input of a case, of the program, and of what is stored beyond the result of `simulate`.
+    """Hash of the full input of a case, of the program, and of all that is stored beyond the result of `simulate`.
 
     Only the numbers of the loads enter, not their source: a file may be moved, renamed or converted.
 
@@ -79,7 +79,7 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
         `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
         compute even if a result is there.
     progress : callable, optional
-        As for `macroslip.simulate`; what it raises ends the run.
+        As for `macroslip.simulate`; an exception in it ends the run.
 
     Returns
     -------
