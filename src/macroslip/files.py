@@ -1,4 +1,4 @@
-"""Output files, written aside and then renamed: each is whole or missing, and none replaces a file that a user needs."""
+"""Output files, written aside and then renamed: each is whole or missing, none replaces a file that a user needs."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """The inside of a spherical roller bearing from what its maker publishes.
 
 A catalogue page gives the boundary dimensions, the load ratings and the axial factors, and not one dimension of the
-rollers. Dimensions that the page leaves open are sampled here within accepted ranges; every sample is a bearing that can
-exist and has the static load rating of the page. The result is an estimate with its scatter, **not the maker's drawing**.
+rollers. Dimensions that the page leaves open are sampled here within accepted ranges; every sample is a bearing that
+can exist and has the static load rating of the page. The result is an estimate with its scatter, **not the maker's
+drawing**.
 
 * Contact angle: e = 1.5 tan(alpha) (ISO 281), e as printed, with two decimals.
 * Outer raceway: a sphere that meets the face of the outer ring at the shoulder diameter, R^2 = (D1/2)^2 + (B/2)^2.

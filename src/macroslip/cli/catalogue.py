@@ -148,8 +148,8 @@ def _estimate_bearing(
 ) -> None:
     """Estimate the inside of a bearing from its maker's page, and write a bearing file.
 
-    Dimensions that the page leaves open are sampled within usual proportions. The file holds the median of every inner dimension and
-    the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
+    Dimensions that the page leaves open are sampled within usual proportions. The file holds the median of every inner
+    dimension and the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
     """
     from macroslip.bearing.estimate import MakersPage, estimate_bearing
     from macroslip.input.units import FORCE, LENGTH, MASS

@@ -125,7 +125,7 @@ class Plot:
         return _legend(draw.plot_peak_exceedance(axes or _new_axes(), self._result))
 
     def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
-        """Spin of a roller over time, with its spin in pure rolling; the first roller if none is named. Needs traces."""
+        """Spin of a roller over time, with its spin in pure rolling; by default the first roller. Needs traces."""
         number = int(self._result.roller[0]) if roller is None else roller
         return draw.plot_spin_over_time(axes or _new_axes(), self._result, row, number)
 

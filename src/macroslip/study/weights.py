@@ -195,7 +195,7 @@ class Binning:
         return found
 
     def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Mean of the values of each run in each cell, over runs without NaN; their number, and the number of the others.
+        """Mean of the values of each run in each cell, over runs without NaN; numbers of these and of the others.
 
         Values are taken one run after the other, so that a large study need not fit into memory.
 
