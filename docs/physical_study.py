@@ -1,4 +1,4 @@
-"""Print the tables of physical-study.md, and the rows of the README's table, from what `make reproduce` computed.
+"""Print the tables of physical-study.md and its notes, and the rows of the README table, from the results of `make reproduce`.
 
 make reproduce
 PYTHONPATH=. python docs/physical_study.py results

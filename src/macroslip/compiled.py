@@ -34,5 +34,5 @@ def jit(function: Callable) -> Callable:
 
 
 def jit_inline(function: Callable) -> Callable:
-    """Make a part of compiled functions, which is compiled into them; called from Python it is what it is."""
+    """Make a part of compiled functions, which is compiled into them; called from Python it is a plain function."""
     return register_jitable(**_OPTIONS, forceinline=True)(function)

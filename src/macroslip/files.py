@@ -1,4 +1,4 @@
-"""Output files, written aside and then renamed: each is whole or not there, and none replaces what a user still needs."""
+"""Output files, written aside and then renamed: each is whole or missing, none replaces a file that a user needs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from macroslip.errors import InputError
 
 #: End of the names of files that are being written; a file with it was never finished.
 UNFINISHED = ".part"
-#: What is wrong with a path that is neither a file nor a folder.
+#: Fault of a path that is neither a file nor a folder.
 SPECIAL = "it is a pipe, a socket or a device, not a file"
 
 
@@ -64,7 +64,7 @@ def flush_folder(folder: Path) -> None:
 
 
 def is_special(path: Path) -> bool:
-    """Whether a path leads to a pipe, a socket or a device, of which a reader would wait for ever or find no end.
+    """Whether a path leads to a pipe, a socket or a device, whose reader would wait for ever or find no end.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def is_special(path: Path) -> bool:
 def check_regular(path: Path, remedy: str) -> None:
     """Refuse a pipe, a socket or a device in the place of a file, before it is opened.
 
-    What is not there, and a folder, pass: their reader reports them.
+    A missing file and a folder pass: their reader reports them.
     """
     special = False
     with contextlib.suppress(OSError, ValueError):
@@ -202,7 +202,7 @@ def reading(path: Path, remedy: str) -> Iterator[None]:
 
 @contextmanager
 def published_together(directory: Path, last: str) -> Iterator[Path]:
-    """A folder beside `directory` to write into; what it holds moves into `directory` when the block ends well.
+    """A folder beside `directory` to write into; its content moves into `directory` when the block ends well.
 
     Files that `directory` already holds under other names stay. The file named `last` marks the set as complete: an old
     one is taken away before the first file moves, the new one moves after all others. If the block raises, `directory`

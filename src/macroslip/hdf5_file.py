@@ -64,7 +64,7 @@ def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
     paths : sequence of Path
         Files that exist.
     remedy : str
-        What to do about a damaged one.
+        Advice for a damaged file.
 
     Raises
     ------

@@ -20,7 +20,7 @@ def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]
     Parameters
     ----------
     label : str
-        What is counted.
+        Name of the things that are counted.
 
     Yields
     ------
@@ -44,7 +44,7 @@ def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]
 
 
 def bar_with_time_left(console: Console) -> Progress:
-    """A bar with what is done, how much there is, and the time left; it disappears when all is done."""
+    """A bar with counts of done and all, and the time left; it disappears when all is done."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (

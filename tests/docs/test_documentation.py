@@ -8,20 +8,20 @@ import pytest
 
 from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
 from macroslip.case.parts import INTEGRATORS
+from macroslip.imposed.status import Status
 from macroslip.input.fields import Choice
 from macroslip.input.section import fields_of, form_of, keys_of
-from macroslip.imposed.status import Status
 from macroslip.study.export import tables
+from macroslip.study.settings import METHODS, SCALES
 from macroslip.study.store import Outcome
-from macroslip.study.study_file import study_of
-from macroslip.study.study_keys import KINDS, StudyFile
+from macroslip.study.study_file import KINDS, StudyFile, study_of
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.variation import METHODS, SCALES
 from macroslip.study.weights import Weibull
 
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
 PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
+STUDIES = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("studies.md", "study-results.md"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 OURS = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.py"), *EXAMPLES]
 
@@ -40,8 +40,8 @@ def test_index_names_every_page_and_every_example():
     assert missing == []
 
 
-def test_input_page_names_every_key_of_a_case():
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
+def test_case_file_page_names_every_key_of_a_case():
+    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8"))
     sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
     names = [key for key, _ in keys_of(Case) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
@@ -62,8 +62,7 @@ def test_studies_page_has_the_sentence_of_every_outcome():
     assert [outcome for outcome in Outcome if f"| `{outcome}` | {outcome.sentence} |" not in text] == []
 
 
-def test_studies_page_names_every_file_every_table_and_every_variable(tmp_path):
-    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
     study = {"case": {"rollers": [0], "loads": {"end": "8 s"}}, "loads": {"bundled": ["14B"]}, "cycles": True}
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
@@ -71,11 +70,11 @@ def test_studies_page_names_every_file_every_table_and_every_variable(tmp_path):
     files = [f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()]
     labels = [name for name, one in opened.coords.items() if one.dims == ("case",)]
     names = [*files, *found, *ROW_VARIABLES, *CASE_VARIABLES, *labels, "load_cycles", *opened.load_cycles.dims]
-    assert [name for name in names if f"`{name}`" not in text] == []
+    assert [name for name in names if f"`{name}`" not in STUDIES] == []
 
 
 def test_studies_page_gives_the_units_of_the_summary():
-    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"), re.MULTILINE)
+    rows = re.findall(r"^\|(.*)\|$", STUDIES, re.MULTILINE)
     cells = [[cell.strip() for cell in row.split("|")] for row in rows]
     for name, (units, _) in (ROW_VARIABLES | CASE_VARIABLES).items():
         assert any(units in re.split(", ", row[1]) for row in cells if f"`{name}`" in row[0]), name
@@ -95,8 +94,8 @@ def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     assert len(read_study(tmp_path / "study.yaml")) == 2 * 2 * 3 * 16
 
 
-def test_input_page_names_every_law_and_method():
-    text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
+def test_case_file_page_names_every_law_and_method():
+    text = (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8")
     laws = [form_of(field) for field in fields_of(Laws).values()]
     choices = [name for choice in laws if isinstance(choice, Choice) for name in choice.names()]
     names = [*choices, *INTEGRATORS, bundled_cases()[0], bundled_cases()[-1]]

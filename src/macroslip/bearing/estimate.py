@@ -1,14 +1,15 @@
 """The inside of a spherical roller bearing from what its maker publishes.
 
 A catalogue page gives the boundary dimensions, the load ratings and the axial factors, and not one dimension of the
-rollers. What the page leaves open is sampled here within accepted ranges; every sample is a bearing that can exist and
-that has the static load rating of the page. The result is an estimate with its scatter, **not the maker's drawing**.
+rollers. Dimensions that the page leaves open are sampled here within accepted ranges; every sample is a bearing that
+can exist and has the static load rating of the page. The result is an estimate with its scatter, **not the maker's
+drawing**.
 
 * Contact angle: e = 1.5 tan(alpha) (ISO 281), e as printed, with two decimals.
 * Outer raceway: a sphere that meets the face of the outer ring at the shoulder diameter, R^2 = (D1/2)^2 + (B/2)^2.
 * Roller length: from the static load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha) (ISO 76), on which makers
   agree within 15 % for one size; not from the dynamic rating, in which they differ by up to 37 %.
-* Roller diameter: what sphere and inner ring leave between them.
+* Roller diameter: the room that sphere and inner ring leave between them.
 * Number of rollers: from their spacing; or from the overrolling frequencies, BPFO + BPFI = Z per turn of the shaft,
   which give the roller diameter too: (BPFI - BPFO)/Z = Dw cos(alpha)/Dpw.
 """
@@ -41,7 +42,7 @@ class Accepted(NamedTuple):
 
 
 STATIC_RATING = Accepted(0.93, 1.07)
-"""Static load rating of the formula over that of the page: makers differ by up to 15 % for one size."""
+"""Static load rating of the formula over the page's: makers differ by up to 15 % for one size."""
 SPACING = Accepted(1.06, 1.22)
 """Distance of neighbouring roller centres over roller diameter: the cage needs the rest."""
 INNER_WALL = Accepted(0.18, 0.27)
@@ -70,7 +71,7 @@ PERCENTILES = (10.0, 90.0)
 _NOTE = "estimate: median of what fits the maker's page, not the maker's drawing"
 _ON_SPHERE = "from sphere, roller diameter and contact angle"
 _OSCULATION = ("1", 3, "E", "usual for spherical roller bearings")
-#: Unit, decimals, tag and note of what is sampled.
+#: Unit, decimals, tag and note of the sampled dimensions.
 _WRITTEN = {
     "rollers_per_row": ("1", 0, "E", _NOTE),
     "roller_diameter": ("mm", 1, "E", _NOTE),
@@ -90,7 +91,7 @@ _STEEL = (
 
 @dataclass(frozen=True)
 class MakersPage:
-    """What a maker publishes of a bearing, SI units.
+    """Numbers that a maker publishes of a bearing, SI units.
 
     Parameters
     ----------
@@ -105,7 +106,7 @@ class MakersPage:
     groove : float | None
         Width of the lubrication groove in the outer ring [m]; the raceways begin beside it.
     dynamic_load_rating, fatigue_load_limit : float | None
-        C and C_u or P_u [N]; without them those of ISO 281 are used.
+        C and C_u or P_u [N]; without them the values of ISO 281 are used.
     axial_factor_y1, axial_factor_y2, axial_factor_y0 : float | None
         [-]; without them 0.45, 0.67 and 0.44 cot(alpha).
     mass : float | None
@@ -116,7 +117,7 @@ class MakersPage:
     Raises
     ------
     InputError
-        If the values contradict each other. Their ranges are those of `Bearing`.
+        If the values contradict each other. `Bearing` has their ranges.
     """
 
     bore: float
@@ -193,7 +194,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     Parameters
     ----------
     page : MakersPage
-        What the maker publishes.
+        Numbers that the maker publishes.
     name, title : str
         Of the bearing.
     seed : int
@@ -211,7 +212,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     Notes
     -----
     The samples are independent and uniform within the accepted ranges of this module, rejected where the parts do not
-    fit. Length, spacing, sphere and angle of the median bearing agree as those of every sample do.
+    fit. Length, spacing, sphere and angle of the median bearing agree with each other, as in every sample.
 
     References
     ----------
@@ -230,7 +231,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
 
 
 def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:
-    """Sample what the page leaves open, and solve for roller diameter, number and length."""
+    """Sample the dimensions that the page leaves open, and solve for roller diameter, number and length."""
 
     def between(accepted: Accepted) -> NDArray[np.float64]:
         return rng.uniform(*accepted, SAMPLES)
@@ -254,7 +255,7 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
         count = np.full(SAMPLES, float(round(page.bpfo + page.bpfi)))
         gamma = (page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)) / count
         diameter = 2.0 * gamma * sphere / (1.0 + gamma)
-    # What the diameter leaves for the inner ring depends little on the length, and the length little on the diameter.
+    # The room for the inner ring depends little on the roller length, and the length little on the diameter.
     for _ in range(30):
         centre = sphere - 0.5 * diameter
         if gamma is None:

@@ -82,7 +82,7 @@ class Case:
     lubricant : Lubricant
     temperature : float or "balance", optional
         Of the oil at the inlets of the contacts [K]; None: that for which the lubricant's values are given. "balance":
-        the one at which friction power is what the bearing loses by `heat`.
+        the temperature at which the bearing loses its friction power by `heat`.
     heat : Heat, optional
         Goes with "balance".
     loads : HubLoads or BearingLoads
@@ -248,7 +248,7 @@ class Case:
 
 
 def _temperature(case: Case) -> Iterator[InputError]:
-    """Yield what is wrong with the temperature."""
+    """Yield faults of the temperature."""
     if case.temperature == BALANCE and case.heat is None:
         yield InputError(
             "temperature is to balance, and the heat that the bearing loses is not given",
@@ -264,7 +264,7 @@ def _temperature(case: Case) -> Iterator[InputError]:
 
 
 def _dynamics(case: Case) -> Iterator[InputError]:
-    """Yield what the chosen dynamics cannot use."""
+    """Yield values that the chosen dynamics cannot use."""
     if case.dynamics == IMPOSED_ORBIT:
         if case.cage != Cage():
             yield InputError(

@@ -53,7 +53,7 @@ def files_named_in(path: Path) -> list[Path]:
     try:
         data, _ = parse(read_text(path, "the case file cannot be read"), str(path))
     except InputError:
-        return []  # the reader of the case reports what is wrong with it
+        return []  # the reader of the case reports its faults
     loads = data.get("loads")
     named = [data.get("bearing"), data.get("lubricant")]
     named += [loads.get("file"), loads.get("bearing_file")] if isinstance(loads, Mapping) else []

@@ -1,4 +1,4 @@
-"""The command line: one command a file. What a command needs is imported when it runs, so that help comes at once."""
+"""The command line: one command a file. Imports of a command wait until it runs, so that help comes at once."""
 
 from __future__ import annotations
 
@@ -61,6 +61,6 @@ def main() -> None:
         # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
-    # What is started here and gets its path from this process does not get the current folder either.
+    # Processes that are started here and get their path from this one do not get the current folder either.
     sys.path[:] = safe_path(sys.path)
     app()

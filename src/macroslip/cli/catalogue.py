@@ -148,8 +148,8 @@ def _estimate_bearing(
 ) -> None:
     """Estimate the inside of a bearing from its maker's page, and write a bearing file.
 
-    What the page leaves open is sampled within usual proportions. The file holds the median of every inner dimension and
-    the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
+    Dimensions that the page leaves open are sampled within usual proportions. The file holds the median of every inner
+    dimension and the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
     """
     from macroslip.bearing.estimate import MakersPage, estimate_bearing
     from macroslip.input.units import FORCE, LENGTH, MASS
@@ -261,7 +261,7 @@ def _estimate_lubricant(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="File to write; else it is printed.")] = None,
     force: Force = False,
 ) -> None:
-    """Write a lubricant file from two viscosities and the base oil; what is estimated has the tag E and a range."""
+    """Write a lubricant file from two viscosities and the base oil; estimates have the tag E and a range."""
     from macroslip.input.units import KINEMATIC_VISCOSITY as VISCOSITY
     from macroslip.input.units import parse_quantity
     from macroslip.lubricant.estimate import estimate_lubricant

@@ -15,7 +15,7 @@ _OF_THE_MACHINE = ("python", "system", "processor", "cores")
 def doctor(
     as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
 ) -> None:
-    """Show versions, the folder of compiled kernels, processors, and what is missing for which command."""
+    """Show versions, the folder of compiled kernels, processors, and packages missing for a command."""
     import macroslip
     from macroslip.cli.needs import COMMANDS, missing_packages
     from macroslip.cli.printing import print_json, print_table

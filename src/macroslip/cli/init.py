@@ -13,7 +13,7 @@ from macroslip.files import check_new_file, new_file
 
 
 class Example(StrEnum):
-    """What `macroslip init` can write."""
+    """Files that `macroslip init` can write."""
 
     CASE = "case"
     STUDY = "study"

@@ -1,4 +1,4 @@
-"""`macroslip loads inspect`: what a load file holds, how it was read, and the load on the main bearing."""
+"""`macroslip loads inspect`: content of a load file, how it was read, and the load on the main bearing."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ command(loads, inspect)
 
 
 def _read(file: Path, speed: float | None, drivetrain: Drivetrain) -> tuple[dict[str, Any], BearingLoads]:
-    """What is shown of a file, and the load it makes on the main bearing."""
+    """Texts on a file, and its load on the main bearing."""
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
 
     if _holds_bearing_loads(file):
@@ -120,7 +120,7 @@ def _read(file: Path, speed: float | None, drivetrain: Drivetrain) -> tuple[dict
 
 
 def _holds_bearing_loads(file: Path) -> bool:
-    """Whether a table's columns are those of main-bearing loads; what else is wrong with it shows when it is read."""
+    """Whether a table has the columns of main-bearing loads; other faults show when it is read."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 

@@ -22,7 +22,7 @@ FIGURES = Need("a page or a picture", ("matplotlib", "jinja2"), "figures")
 PICTURE = Need("a picture", ("matplotlib",), "figures")
 SCHEDULER = Need("--scheduler", ("dask", "distributed"), "cluster")
 
-#: What the commands need beyond the package's own dependencies.
+#: Packages that the commands need beyond the package's own dependencies.
 COMMANDS: Mapping[str, Need] = MappingProxyType(
     {
         "macroslip report": FIGURES,

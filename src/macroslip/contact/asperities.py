@@ -12,7 +12,7 @@ import numpy as np
 
 from macroslip.contact.interface import Interface
 
-#: What to cite for each share, by the names in case files.
+#: Works to cite for each share, by the names in case files.
 REFERENCES = {
     "none": "",
     "masjedi-khonsari": "Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514",

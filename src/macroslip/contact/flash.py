@@ -61,7 +61,7 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
     power_per_length : array_like
         Friction power P' released per length across rolling at this station [W/m], ≥ 0: ∫ τ |Δu| dx along rolling.
     half_width : array_like
-        Half-width b of the contact along rolling at this station [m], > 0: that of an ellipse shrinks to its ends.
+        Half-width b of the contact along rolling at this station [m], > 0: the width of an ellipse shrinks to its ends.
     speed_1, speed_2 : array_like
         Speeds of the surfaces relative to the contact [m/s], any sign; not their slip.
     effusivity_1, effusivity_2 : array_like

@@ -47,7 +47,7 @@ class ContactLaws:
     film_name : str
         Name of the film law.
     starvation : float
-        Film thickness over that of a flooded contact, above 0 and at most 1 [-].
+        Film thickness over the film of a flooded contact, above 0 and at most 1 [-].
     thermal_loading : float
         Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out.
     fluid : Fluid or None
@@ -240,7 +240,7 @@ def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
 
 
 def references(laws: Laws) -> list[str]:
-    """What to cite for the chosen mechanisms."""
+    """Works to cite for the chosen mechanisms."""
     found = [FILM_LAWS.named(laws.film).reference]
     if laws.inlet_heating:
         found.append(film.INLET_HEATING_REFERENCE)

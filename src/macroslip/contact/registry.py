@@ -1,4 +1,4 @@
-"""Film and traction laws by name, the package's and those of one's own, and what a law has to give.
+"""Film and traction laws by name, the package's and one's own, and the values that a law has to give.
 
 A film law is `film(interface, load, entrainment_speed) -> h` and a traction law `traction(interface, load, film_thickness, slip)
 -> F`, both on NumPy arrays of one shape, in SI units, by values alone: a law of one's own is the same kind of function as one
@@ -51,11 +51,11 @@ class Law(NamedTuple):
     function : callable
         Of an interface and arrays.
     reference : str
-        What to cite.
+        Work to cite.
     in_range : callable or None
         Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for everywhere.
     range_notes : callable or None
-        Of a film law: what is outside its range whatever load and speed, a list of str for an interface.
+        Of a film law: numbers outside its range whatever load and speed, a list of str for an interface.
     kinks : tuple of float
         Of a traction law: slips at which the force has a kink [m/s].
     """
@@ -224,12 +224,12 @@ def register_film(
         `function(interface, load [N], entrainment_speed [m/s]) -> h [m]`, with arrays of one shape; finite, above zero and
         without jumps.
     reference : str
-        What to cite where the law was used.
+        Work to cite where the law was used.
     in_range : callable, optional
         `in_range(interface, load, entrainment_speed)`: whether the formula holds, an array of truth values, counted in
         `outside_film_range`.
     range_notes : callable, optional
-        `range_notes(interface)`: a list of texts on what is outside the range whatever load and speed.
+        `range_notes(interface)`: a list of texts on numbers outside the range whatever load and speed.
 
     Raises
     ------
@@ -255,7 +255,7 @@ def register_traction(name: str, function: Callable, *, reference: str, kinks: I
         `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, with arrays of one shape and slip above
         zero; finite, above zero and without jumps, and in proportion to slip where that is small.
     reference : str
-        What to cite where the law was used.
+        Work to cite where the law was used.
     kinks : iterable of float
         Slips at which the force has a kink [m/s].
 
@@ -306,7 +306,7 @@ register_film(
 
 
 def film_range_notes(name: str, found: Iterable[Interface]) -> list[str]:
-    """What lies outside the range of the film law called `name` at some interface, whatever load and speed."""
+    """Numbers outside the range of the film law called `name` at some interface, whatever load and speed."""
     notes = FILM_LAWS.named(name).range_notes
     return [f"{interface.name}: {note}" for interface in found for note in (notes(interface) if notes else [])]
 
@@ -333,7 +333,7 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
     if laws.traction != MECHANISMS:
         chosen.append(TRACTION_LAWS.named(laws.traction))
     if speed > 0.0 and any(law.is_own for law in chosen):
-        # The grid needs the order of the speed only, so that the cases of a study share what was found.
+        # The grid needs the order of the speed only, so that the cases of a study share the finding.
         _check(laws, bearing, lubricant, 2.0 ** math.ceil(math.log2(speed)), tuple(chosen))
 
 

@@ -48,7 +48,7 @@ from macroslip.errors import InputError
 
 GOKSEM_HARGREAVES_REFERENCE = "Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346 and 353, doi:10.1115/1.3453183"
 BIBOULET_HOUPERT_REFERENCE = "Biboulet and Houpert, Proc. IMechE J 224 (2010) 763 and 777, doi:10.1243/13506501JET608"
-#: What `rolling:` may be, and what to cite for it.
+#: Choices of `rolling:`, and works to cite for each.
 REFERENCES = {
     "none": "",
     "inlet": f"{GOKSEM_HARGREAVES_REFERENCE}; {BIBOULET_HOUPERT_REFERENCE}",
@@ -95,7 +95,7 @@ def biboulet_houpert(load):
 
 
 def starvation_factor(inlet: float) -> float:
-    """Rolling resistance over that of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-], below 1.
+    """Rolling resistance over the resistance of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-], below 1.
 
     S is the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite where flooded.
 
@@ -148,7 +148,7 @@ def goksem_hargreaves(load, speed, material):
 
 
 def inlet_heating_of_rolling(loading):
-    """Rolling resistance over that of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-], above 0, at most 1.
+    """Rolling resistance over the resistance of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-], above 0, at most 1.
 
     L_T = η0 β u²/k ≥ 0 is the thermal loading parameter.
 

@@ -228,7 +228,7 @@ def splines_in_cube(typingctx, table, start, strides, places):
     Returns
     -------
     tuple of 4 float, four times
-        What is not used of them costs nothing: it is not compiled.
+        Values that are not used cost nothing: they are not compiled.
     """
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:

@@ -1,8 +1,8 @@
 """Tables of a roller's contacts, made from laws that give values: their box, their nodes, and how far they are off.
 
-Cubic splines over what a contact's forces depend on; `macroslip.contact.look_up` has the coordinates. All of a case's
+Cubic splines over load, speed and slip; `macroslip.contact.look_up` has the coordinates. All of a case's
 tables stand in one flat array. The nodes of a raceway's traction are made sheet by sheet, one for each √w, at speeds that are the
-same for all cases alike, so that they share what is stored on disk.
+same for all cases alike, so that they share their files on disk.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
 
 
 def remembered(key: str, make: Callable[[], Made]) -> Made:
-    """What is called `key`, made only if this process has not made it or has forgotten it.
+    """The object called `key`, made only if this process has not made it or has forgotten it.
 
     Parameters
     ----------

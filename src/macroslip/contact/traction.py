@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 NEWTONIAN, LIMITING_SHEAR, EYRING = 0, 1, 2
 #: Numbers of the rheologies by the names that case files use.
 RHEOLOGIES = {"newtonian": NEWTONIAN, "limiting-shear": LIMITING_SHEAR, "eyring": EYRING}
-#: What to cite for each mechanism.
+#: Works to cite for each mechanism.
 REFERENCES = {
     "barus": "Barus, Am. J. Sci. 45 (1893) 87",
     "roelands": "Roelands, thesis, Delft (1966)",

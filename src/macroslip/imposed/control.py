@@ -193,7 +193,7 @@ def _cusp_error(path, work):
     if work.zone == FIRM and path.body.microslip:
         return 0.0  # the raceways' power, beside which the cage's is little, has no cusp there
     look_between(path, work, CUSP_LOOK)
-    # Between stages the polynomial of slip is far from balance, which for the cage is that of pure rolling.
+    # Between stages the polynomial of slip is far from balance; for the cage, balance is pure rolling.
     slip = 0.0 if work.zone == FIRM else work.there_slip
     evaluate(path, work.there, slip, work.push)
     work.count[2] += 1

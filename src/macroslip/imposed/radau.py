@@ -187,7 +187,7 @@ def set_step(path, work, length, held):
 def shift(forces, change):
     """Change the forces by a small change of slip [m/s], to first order.
 
-    What the cage and rolling resistance change by is all given to the cage; the rest is left as it is.
+    The change of the cage's force and of rolling resistance is all given to the cage; the rest is left as it is.
     """
     inner, outer = forces.inner_slope * change, forces.outer_slope * change
     forces.inner += inner
@@ -436,7 +436,7 @@ def guess(path, work):
     gripped = path.body.mobility * forces.slope * h
     continues = work.zone != FIRM and h <= MOST_AHEAD * work.last_length and gripped < GRIPPED
     drifts = gripped < 1.0 and work.zone != EDGE
-    # What holds the roller may be the cage: its spin then stays as it is, at zero.
+    # The cage may hold the roller: its spin then stays as it is, at zero.
     spins = drifts or forces.slope > 2.0 * (forces.inner_slope + forces.outer_slope)
     follows = work.zone == FIRM or (microslip and gripped > GRIPPED and work.stage_at[2].elastic_load > 0.0)
     drift = -path.body.mobility * net_force(forces) * h if drifts else 0.0

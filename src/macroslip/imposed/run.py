@@ -46,7 +46,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Problem:
-    """What all rollers of a row have in common.
+    """Numbers common to all rollers of a row.
 
     Attributes
     ----------

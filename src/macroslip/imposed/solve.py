@@ -61,7 +61,7 @@ from macroslip.ring.orbit import interval_of
 from macroslip.roller.forces import net_force, powers
 from macroslip.roller.step import write_stage
 
-#: Rows that a step may take: its own, and those of looks between its stages.
+#: Rows that a step may take: its own, and rows of looks between its stages.
 _ROWS = 2 + PEAK_PARTS // 3
 
 
@@ -201,7 +201,7 @@ def _may_peak_inside(path, work, resolved):
 
 @jit
 def _frame(work, row, stages, end):
-    """Write what a row says of the whole step, which ends at `end` [s]."""
+    """Write the fields of a row on the whole step, which ends at `end` [s]."""
     row.start, row.end, row.stages, row.stretch, row.sampled = work.time, end, stages, work.stretch, 0
     for i in range(3):
         row.power_before[i] = work.powers[i]

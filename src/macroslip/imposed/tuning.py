@@ -1,7 +1,7 @@
 """Numbers that steer the integrator, in one place, each with what chose it.
 
 None is physics: every result converges to the same value as the tolerance falls, whatever they are. "Bundled histories"
-are 21 cases × 2 rows of 600 s, measured by `make bench` (docs/integrator.md has the tables). Where no measurement is
+are 21 cases × 2 rows of 600 s, measured by `make bench` (docs/notes/integrator.md has the tables). Where no measurement is
 known the number is a judgement and called one.
 """
 

@@ -65,7 +65,7 @@ PYTHON, IN_FILE, FORM_ONLY = Given(), Given(in_file=True), Given(in_file=True, r
 
 @dataclass(frozen=True)
 class Form:
-    """What a value has to be, and in `about` what it is; a form reads it or raises `InputError`."""
+    """Form of a value, with its meaning in `about`; it reads a value or raises `InputError`."""
 
     about: str
     form: ClassVar[str] = ""
@@ -75,7 +75,7 @@ class Form:
         raise NotImplementedError
 
     def json(self) -> dict[str, Any]:
-        """JSON Schema of what a file may have."""
+        """JSON Schema of the value in a file."""
         return {"type": "object"}
 
     def wrong(self, value: Any, remedy: str = "", allowed: str = "") -> InputError:
@@ -90,7 +90,7 @@ class Quantity(Form):
     Parameters
     ----------
     about : str
-        What the value is.
+        Meaning of the value.
     dimension : Dimension
         Its units; NUMBER: a plain number.
     lowest, highest : float or callable
@@ -102,7 +102,7 @@ class Quantity(Form):
     whole : bool
         Whether it is a whole number.
     note, remedy : str
-        What to add to the range, and what to do about a value outside.
+        Words added to the range, and advice for a value outside.
     """
 
     dimension: Dimension = NUMBER
@@ -117,7 +117,7 @@ class Quantity(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What is accepted, in words."""
+        """Accepted values, in words."""
         if self.dimension is NUMBER:
             return self.range_text() if self.whole else "a number without unit"
         return " or ".join([*self.words, f"a number with its unit, {self.dimension.choices}"])
@@ -215,7 +215,7 @@ class Vector(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What is accepted, in words."""
+        """Accepted values, in words."""
         zero = f"0 {self.dimension.si_unit}"
         return f"a list of three quantities, such as [{zero}, {zero}, {zero}]"
 
@@ -257,7 +257,7 @@ class Text(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What is accepted, in words."""
+        """Accepted values, in words."""
         return "text" if self.may_be_empty else "non-empty text"
 
     def read(self, value: Any, given: Given) -> str:
@@ -310,7 +310,7 @@ class Choice(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What is accepted, in words."""
+        """Accepted values, in words."""
         return ", ".join(self.names())
 
     def read(self, value: Any, given: Given) -> str:

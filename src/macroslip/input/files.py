@@ -128,7 +128,7 @@ def parse(
     file : str
         Name of the file, for messages.
     remedy : str
-        What to do about a file that is not a mapping.
+        Advice for a file that is not a mapping.
 
     Returns
     -------

@@ -215,7 +215,7 @@ class Record:
             raise together(problems)
 
     def _wide_ranges(self, source: Source) -> Iterator[InputError]:
-        """Yield ranges of values that go beyond what the quantity may be."""
+        """Yield ranges of values that go beyond the range of the quantity."""
         for key, origin in self._provenance:
             quantity = quantities(type(self))[key]
             for limit in origin.range or ():
@@ -227,7 +227,7 @@ class Record:
                     )
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
-        """Yield what is wrong with values that are each within their range."""
+        """Yield contradictions between values that are each within their range."""
         yield from ()
 
     def __setattr__(self, key: str, value: Any) -> None:
@@ -351,7 +351,7 @@ class Record:
         *keys : str
             Names of the quantities.
         purpose : str
-            What needs them, for the message, for example "the physical model".
+            The user of these quantities, for the message, for example "the physical model".
 
         Raises
         ------

@@ -35,7 +35,7 @@ class Field(NamedTuple):
 
 
 class _Section(NamedTuple):
-    """What there is to know of a section class."""
+    """Fields and texts of a section class."""
 
     about: str
     fields: Fields
@@ -65,15 +65,15 @@ def input_section(
     noun : str
         Name of the section, for messages about a call in Python.
     about : str
-        What the section is, for messages and for the JSON Schema.
+        Meaning of the section, for messages and for the JSON Schema.
     one_of : tuple of str
-        Keys of which exactly one has to be given.
+        Keys, exactly one of which has to be given.
     positional : bool
         Whether a call in Python may leave out the names of the first arguments.
     gone : mapping
         Keys that there were, with a sentence on each.
     groups : mapping
-        Sections that only files have: by name what the section is, and the fields in it.
+        Sections that only files have: by name the meaning of the section, and the fields in it.
     """
     given = dataclasses.replace(PYTHON, place=Place(Source(), tuple(noun.split(".")) if noun else ()))
 
@@ -215,7 +215,7 @@ class Group(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What is accepted, in words."""
+        """Accepted values, in words."""
         return f"a section with the keys {', '.join(self.fields)}"
 
     def read(self, value: Any, given: Given) -> Any:
@@ -276,7 +276,7 @@ class OrWord(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What is accepted, in words."""
+        """Accepted values, in words."""
         return f"{self.word} or {self.section.form if self.section else ''}"
 
     def read(self, value: Any, given: Given) -> Any:
@@ -306,7 +306,7 @@ class Variants(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What is accepted, in words."""
+        """Accepted values, in words."""
         keys = fields_of(self.sections[self.default])
         return f"a section with the keys {', '.join([self.key, *keys])}"
 
@@ -362,7 +362,7 @@ class Made(Form):
 
     @property
     def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
-        """What a file has, in words."""
+        """Accepted content of a file, in words."""
         return self.written.form
 
     def read(self, value: Any, given: Given) -> Any:
@@ -375,7 +375,7 @@ class Made(Form):
         return value
 
     def json(self) -> dict[str, Any]:
-        """The schema of what the file has."""
+        """The schema of the content of a file."""
         return self.written.json()
 
 

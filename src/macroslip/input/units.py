@@ -145,7 +145,7 @@ def parse_quantity(given: str | float, dimension: Dimension, what: str = "it", w
         allowed = "a number" if pure else f"a number with its unit, {dimension.choices}"
         return InputError(f"{what} is {shown(given)}, which {why}", where=where, allowed=allowed, remedy=remedy)
 
-    # What follows the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
+    # The text after the number must not be more of it; a unit may begin with a digit, as 1/GPa does.
     match = re.fullmatch(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,]|$)\s*(?P<unit>.*?)\s*", text)
     if match is None:
         decimal = re.match(r"\s*[+-]?\d+,\d", text)

@@ -7,7 +7,7 @@ own axes, and the bearing's angle and speed:
     mbdy momentvec shaft 4 2 shaft ;
     constraint bearing1 shaft_rot 2 ;
 
-with the number of the shaft's last element in place of 4. The speed may be that of the rotor (``aero omega``) instead,
+with the number of the shaft's last element in place of 4. The speed of the rotor (``aero omega``) serves instead,
 or may be given. Of several nodes that with the highest number is taken, the hub's end.
 
 The axes of the main body ``shaft`` turn with the rotor. At angle zero x' points to the left (looking downwind), y' down
@@ -185,9 +185,9 @@ def _read_sel(path: Path) -> _Output:
 def _announced_time(stamps: NDArray, duration: float, resolution: float, data: Path) -> NDArray[np.float64]:
     """Times of the samples, which have to last as long as the list of channels announces.
 
-    16 bits resolve the time of a long run to more than a step, so that binary times are those of equal steps.
+    16 bits resolve the time of a long run to more than a step, so that binary times are taken as equal steps.
     """
-    # Some programs announce the time of the last sample, others that of one step more than from first to last.
+    # Some programs announce the time from first to last sample, others one step more.
     near = 2.5 * duration / stamps.size + resolution + 1e-3
     if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
         what = (

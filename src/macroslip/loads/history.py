@@ -65,7 +65,7 @@ def bundled_cases() -> list[str]:
 
 
 class _History:
-    """What both kinds of loads share: checks, windows and their printed form."""
+    """Checks, windows and printed form that both kinds of loads share."""
 
     __slots__ = ()
 
@@ -262,7 +262,7 @@ class BearingLoads(_History):
     Parameters
     ----------
     time, shaft_speed : (n,) array [s], [rad/s]
-        As in `HubLoads`; the speed is that of the inner ring, positive about +Z0.
+        As in `HubLoads`; speed of the inner ring, positive about +Z0.
     force : (n, 3) array [N]
         F_X0, F_Y0, F_Z0, the load of the shaft **on** the inner ring: a hanging weight has F_Y0 < 0, thrust on an
         upwind rotor has F_Z0 > 0. At most 1e8 N each.

@@ -95,7 +95,7 @@ def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
 
 
 class _Channels:
-    """Columns by name and unit; remembers what was not found, so that one error names it all."""
+    """Columns by name and unit; remembers missing channels, so that one error names them all."""
 
     def __init__(self, names: list[str], units: list[str], data: NDArray, where: str):
         self.names, self.units, self.data, self.where = names, units, data, where

@@ -30,7 +30,7 @@ def _end_of_shaft(given: Mapping[str, Any]) -> float:
 
 @input_section("drivetrain", "supports and mass of the shaft")
 class Drivetrain:
-    """Where the shaft is supported and what it weighs.
+    """Supports and weight of the shaft.
 
     Lengths are measured along the shaft, positive downwind. Valid for an upwind rotor. On a three-point mount one main
     bearing and the gearbox carry the shaft. On a four-point mount two main bearings carry it, and the gearbox takes
@@ -47,7 +47,7 @@ class Drivetrain:
         Three-point mount: main-bearing centre to the plane of the gearbox's support, above 0 up to 20 m. Default 2.2 m,
         an estimate as well.
     front_to_rear : float [m]
-        Four-point mount: centre of the front main bearing to that of the rear one, above 0 up to 20 m.
+        Four-point mount: centre of the front to centre of the rear main bearing, above 0 up to 20 m.
     locating : str
         Four-point mount: which bearing carries all thrust, `front` or `rear`; the other one floats along the shaft.
     bearing : str
@@ -56,7 +56,7 @@ class Drivetrain:
         Shaft tilt, positive when the hub end is up, at most 0.3 rad (17°) either way. OpenFAST's ShftTilt has the
         opposite sign. Directs the weight of the shaft and of the rollers.
     shaft_mass : float [kg]
-        Mass of the shaft with what is fixed to it, except the rotor, whose weight is in the hub loads. 0 to 1e6 kg.
+        Mass of the shaft with all that is fixed to it, except the rotor, whose weight is in the hub loads. 0 to 1e6 kg.
     shaft_mass_station : float [m]
         Distance of that mass behind the hub centre: on a three-point mount up to the gearbox's support, on a four-point
         mount up to 10 m behind the rear bearing.
@@ -140,7 +140,7 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 
     Examples
     --------
-    A rotor of 263 kN on two main bearings, 1.5 m apart, of which the rear one is locating:
+    A rotor of 263 kN on two main bearings, 1.5 m apart, the rear one locating:
 
     >>> rotor = HubLoads.constant([164.4e3, 0.0, -263.0e3], [0.0, 0.0, 0.0], 2.143, 1.0)
     >>> two = Drivetrain(mount="four-point", hub_to_bearing=1.2, front_to_rear=1.5, locating="rear", bearing="front")

@@ -1,4 +1,4 @@
-"""Base oil families: what is known of an oil of which a data sheet gives viscosities alone."""
+"""Base oil families: values for an oil whose data sheet gives viscosities alone."""
 
 from __future__ import annotations
 

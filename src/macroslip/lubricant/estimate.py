@@ -24,7 +24,7 @@ PRESSURE_VISCOSITY_SCATTER = 0.2
 much between a viscometer and a measured film."""
 
 INLET = 308.15
-"""Inlet temperature [K] of an estimated lubricant: that of the base case, 35 degC."""
+"""Inlet temperature [K] of an estimated lubricant: 35 degC, as in the base case."""
 
 _CONTACT_PRESSURE = 1e9
 
@@ -35,14 +35,14 @@ def estimate_lubricant(
     """Estimate a lubricant from kinematic viscosities and base oil.
 
     The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil family by Gold et al.,
-    and the Eyring stress 2 gamma/alpha at 1 GPa. What the family leaves open has the tag E and a range.
+    and the Eyring stress 2 gamma/alpha at 1 GPa. Values that the family leaves open have the tag E and a range.
 
     Parameters
     ----------
     kinematic_viscosity_40, kinematic_viscosity_100 : float
         At 40 and 100 degC [m2/s].
     base_oil : str
-        A family of `macroslip.lubricant.base_oil.BASE_OILS`. For a grease, that of its base oil.
+        A family of `macroslip.lubricant.base_oil.BASE_OILS`. For a grease, the family of its base oil.
     name : str
         Short name of the lubricant.
 

@@ -1,4 +1,4 @@
-"""From what a lubricant file gives to the values at the inlet of the contacts."""
+"""From the values of a lubricant file to the values at the inlet of the contacts."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
 
 
 def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
-    """What follows, at the inlet, from the figures of a data sheet.
+    """Values at the inlet that follow from the figures of a data sheet.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ from macroslip.lubricant.inlet import Inlet, derive, moved_inlet, scaled_range
 #: Inlet temperatures [K] over which `Lubricant.at` uses Walther's line: -20 to 150 degC.
 COLDEST, HOTTEST = 253.15, 423.15
 _Optional = float | None
-#: What a file may give instead of a value at the inlet.
+#: Keys that a file may give instead of a value at the inlet.
 _SOURCES: Mapping[str, tuple[str, ...]] = {
     "density": ("density_15",),
     "viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),
@@ -141,7 +141,7 @@ class Lubricant(Record):
         source: Source,
         derived: frozenset[str] = frozenset(),
     ) -> None:
-        """Add what follows from the figures of a data sheet, as far as they are positive numbers; then check all."""
+        """Add values that follow from the figures of a data sheet, if these are positive numbers; then check all."""
         usable = {key: float(value) for key, value in values.items() if is_finite_number(value) and value > 0}
         try:
             found = derive(usable, provenance)
@@ -279,5 +279,5 @@ class Lubricant(Record):
         return self._stated(**changes)
 
     def _moved(self, key: str, value: float, unit: str, note: str) -> Provenance:
-        """Origin of a value that follows from the one at another temperature; its range moves in proportion."""
+        """Origin of a value that follows from a value at another temperature; its range moves in proportion."""
         return Provenance(value, unit, "D", note, scaled_range(self.provenance[key], value))

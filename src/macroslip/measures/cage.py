@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from macroslip.whole.model import WholeBearing
     from macroslip.whole.sdirk import Part
 
-#: Sides of a pocket: the spar ahead and the one behind.
+#: Sides of a pocket: the spars ahead and behind.
 SIDES = ("front", "rear")
 #: Places on the orbit, 5° each, from φ = 0.
 PLACES = 72

@@ -48,7 +48,7 @@ _CHANGE, _RISE, _TURN = 0.1, 0.03, 0.35
 #: Looks from one at the quadrature's error to the next, which takes as long as a thousand others.
 _FINE = 1024
 
-#: What is kept from look to look: number of looks, orbit of the last one, its time [s] (NaN before the first) and shaft angle
+#: State from look to look: number of looks, orbit of the last one, its time [s] (NaN before the first) and shaft angle
 #: [rad], power at the raceways then [W]; the highest values in its orbit: powers of the interfaces [W], power over load^(2/3) at the
 #: raceways, and slide-roll ratio; and energy since then [J] and its moment about that time [J s] by raceway.
 _MEMORY = np.dtype(
@@ -165,7 +165,7 @@ def _is_due(step, last, memory, outer_radius, spacing):
 
 @jit_inline
 def _remember(step, last, orbit, angle, memory):
-    """Keep what the next look is decided by."""
+    """Keep the numbers that decide on the next look."""
     speed, slip = step.outer_speed[last], step.outer_slip[last]
     highest = memory.highest
     if orbit != memory.orbit:
@@ -274,7 +274,7 @@ def _look_along(details, interface, contact, way, orbit, load, film, share, ring
     start, end = min(way), max(way)
     for k in range(STATIONS):
         left = k * width - patch.half_length
-        # What the ellipse covers of the station, so that the lightest contact too lies in the two middle ones.
+        # The part of the station under the ellipse, so that the lightest contact too lies in the two middle ones.
         first, last = max(left, -across), min(left + width, across)
         if last - first < 1e-6 * width:
             powers[k] = 0.0

@@ -25,7 +25,7 @@ _KEPT = (
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is to be measured.
+    """Measures that are wanted.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Wanted:
 
 
 class Row:
-    """What the rollers of a row have in common when they are measured: models, laws, and their contacts as compiled code takes them."""
+    """Models, laws and contacts, as compiled code takes them, that the measures of a row's rollers share."""
 
     def __init__(self, model: RollerModel, roller: Roller, motion: Motion, wanted: Wanted):
         self.model, self.roller, self.motion, self.wanted = model, roller, motion, wanted

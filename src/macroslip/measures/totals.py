@@ -24,7 +24,7 @@ SPIN_RATIO_SPEED = 0.1
 
 
 class Totals(NamedTuple):
-    """What the steps of one roller add up to. Interfaces are in the order inner, outer, cage.
+    """Sums over the steps of one roller. Interfaces are in the order inner, outer, cage.
 
     Attributes
     ----------
@@ -209,5 +209,5 @@ def film_times(steps: np.ndarray, laws: RollerLaws, window: float) -> np.ndarray
 
 
 def spin_ratio(totals: Totals) -> float:
-    """Smallest ratio of spin to that of pure rolling; NaN where there is none."""
+    """Smallest ratio of spin to spin in pure rolling; NaN where there is none."""
     return float(totals.spin_ratio[0]) if math.isfinite(totals.spin_ratio[0]) else math.nan

@@ -83,7 +83,7 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
 def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0) -> float:
     """Range of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
 
-    Cycles are those of `rainflow_ranges`.
+    `rainflow_ranges` counts the cycles.
 
     Parameters
     ----------

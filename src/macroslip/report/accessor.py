@@ -1,4 +1,4 @@
-"""What a result can draw in a notebook: `result.macroslip.plot.load_zone()`.
+"""Plots of a result in a notebook: `result.macroslip.plot.load_zone()`.
 
 Importing this module registers the accessor with xarray; `macroslip.simulate` and `macroslip.open_result` bring it.
 Pictures need matplotlib, which is imported when the first one is drawn.
@@ -74,7 +74,7 @@ def _read(file: Path) -> xr.Dataset:
 
 @xr.register_dataset_accessor("macroslip")
 class Macroslip:
-    """What macroslip adds to a result: `plot`, and a summary for its display."""
+    """Accessor `macroslip` of a result: `plot`, and a summary for its display."""
 
     def __init__(self, result: xr.Dataset):
         self._result = result
@@ -125,7 +125,7 @@ class Plot:
         return _legend(draw.plot_peak_exceedance(axes or _new_axes(), self._result))
 
     def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
-        """Spin of a roller over time, with that of pure rolling; the first roller if none is named. Needs traces."""
+        """Spin of a roller over time, with its spin in pure rolling; by default the first roller. Needs traces."""
         number = int(self._result.roller[0]) if roller is None else roller
         return draw.plot_spin_over_time(axes or _new_axes(), self._result, row, number)
 

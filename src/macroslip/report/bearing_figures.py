@@ -210,7 +210,7 @@ def plot_over_station(axes: Axes, values: xr.DataArray, title: str = "") -> Axes
 
 
 def plot_spin_over_time(axes: Axes, result: xr.Dataset, row: str, roller: int) -> Axes:
-    """Spin speed of a roller [rad/s] over time, with that of pure rolling; where they part, the roller slips.
+    """Spin speed of a roller [rad/s] over time, with its spin in pure rolling; where they part, the roller slips.
 
     Takes a result with traces.
     """
@@ -294,7 +294,7 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
 
 
 def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
-    """Residuals of the balances of a whole bearing over time, each over what has passed through by the end."""
+    """Residuals of the balances of a whole bearing over time, each over all that has passed through by the end."""
     impulse = float(abs(result.book_inner_impulse).max()) or 1.0
     spent = float(abs(result.book_raceway_loss[-1])) + float(abs(result.pocket_loss[-1])) or 1.0
     for values, label, style in (

@@ -36,7 +36,7 @@ _COLOURS = 16
 def quantise(values: NDArray, low: float, high: float) -> bytes:
     """Values between `low` and `high` as little-endian numbers of 16 bits, 0 to 65534; 65535 for NaN.
 
-    Only what is not above `low` becomes 0, so that a load of zero differs from a small one.
+    Only values that are not above `low` become 0, so that a load of zero differs from a small one.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def quantise(values: NDArray, low: float, high: float) -> bytes:
 
 
 def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
-    """What the page's script needs of one scene.
+    """Data of one scene for the page's script.
 
     Parameters
     ----------

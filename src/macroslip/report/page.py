@@ -64,9 +64,9 @@ class Section:
     body : Markup
         From a template; a section without a body is left out.
     gist : str
-        What is in it, in a line; shown beside the title of a folded section.
+        Its content in a line; shown beside the title of a folded section.
     group : str
-        What several sections in a row belong to, such as one of several results.
+        Name of the group that several sections in a row make, such as one of several results.
     """
 
     name: str

@@ -175,7 +175,7 @@ def counterpart(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> str | 
 
 
 def balances(result: xr.Dataset) -> dict[str, float]:
-    """Residuals of a whole bearing's balances, and what has passed through: [N m s] and [J]."""
+    """Residuals of a whole bearing's balances, and all that has passed through: [N m s] and [J]."""
     impulses = [str(name) for name in result if str(name).endswith("_impulse") and "book" in str(name)]
     losses = ("book_raceway_loss", "book_friction_loss", "pocket_loss")
     return {
@@ -187,7 +187,7 @@ def balances(result: xr.Dataset) -> dict[str, float]:
 
 
 def comparison_table(result: xr.Dataset, imposed: xr.Dataset) -> Table:
-    """Energy of friction at every interface beside that of the same case on imposed orbits."""
+    """Energy of friction at every interface beside the energy of the same case on imposed orbits."""
     rows = []
     for row in result.row.values.tolist():
         for interface in result.interface.values.tolist():

@@ -98,7 +98,7 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
 
 
 def _check(name: str, dataset: xr.Dataset) -> None:
-    """Refuse what is neither a result nor a study."""
+    """Refuse a dataset that is neither a result nor a study."""
     missing = [one for one in ("energy", "status") if one not in dataset]
     missing += [one for one in ("row", "roller", "interface") if one not in dataset.dims]
     if missing:

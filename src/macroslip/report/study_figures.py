@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-#: Curves of `macroslip.study.exceedance.exceedance`, and what is exceeded.
+#: Curves of `macroslip.study.exceedance.exceedance`, and the quantity that is exceeded.
 EXCEEDED: Mapping[str, str] = MappingProxyType(
     {"energy_orbits": "energy of an orbit [J]", "power_orbits": "peak power of an orbit [W]"}
 )
@@ -98,7 +98,7 @@ def groups(values: xr.DataArray) -> list[int]:
 
 
 def group_labels(dataset: xr.Dataset, group: int) -> list[str]:
-    """What distinguishes a group from the others; nothing if there is one."""
+    """Values that distinguish a group from the others; none if there is one group."""
     if dataset.sizes["group"] < 2:
         return []
     found = []
@@ -106,7 +106,7 @@ def group_labels(dataset: xr.Dataset, group: int) -> list[str]:
         value = str(one.values[group]) if one.dims == ("group",) and np.unique(one.values).size > 1 else ""
         # A parameter that only other models set has no value.
         if value not in ("", "nan"):
-            # The names of parameters have a dot; those of bearings, lubricants and models need no name.
+            # The names of parameters have a dot; bearings, lubricants and models need no name.
             found.append(f"{str(name).rpartition('.')[2]} {_short(value)}" if "." in str(name) else value)
     return found
 

@@ -121,7 +121,7 @@ def _without_folders(study: str) -> str:
 
 
 def _subtitle(study: xr.Dataset, title: str) -> str:
-    """Title of the study, if the page has another, and how many runs of what it has."""
+    """Title of the study, if the page has another, and its numbers of runs, loads and parameters."""
     values = {name: np.unique(study[name].values) for name in _SEVERAL}
     parts = [f"{one.size} {_SEVERAL[name]}" if one.size > 1 else f"{name} {one[0]}" for name, one in values.items()]
     own = f"{study.attrs['title']}: " if study.attrs["title"] not in ("", title) else ""

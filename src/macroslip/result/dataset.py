@@ -84,7 +84,7 @@ def whole_dataset(
     cages: CageMeasures,
     tables: TableReport,
 ) -> xr.Dataset:
-    """Collect the measures of the whole bearing, with those of its cages; parameters and result as for `to_dataset`."""
+    """Collect the measures of the whole bearing and its cages; parameters and result as for `to_dataset`."""
     results = {job: Measured(one, outcome) for job, one in measures.items()}
     attributes = _attributes(ready, tables, [_SDIRK]) | {"dynamics": ready.case.dynamics}
     attributes["title"] += ", whole bearing"
@@ -140,7 +140,7 @@ def _dataset(
 
 
 def status_flags() -> dict[str, Any]:
-    """What the numbers of `status` mean, as CF conventions have it."""
+    """Meanings of the numbers of `status`, in the form of the CF conventions."""
     return {
         "flag_values": np.array([int(one) for one in Status], dtype=np.int8),
         "flag_meanings": " ".join(one.name.lower() for one in Status),
@@ -176,7 +176,7 @@ def _gathered(table: list[list[Measured]], name: str) -> np.ndarray:
 
 
 def _window_values(table: list[list[Measured]]) -> dict[str, np.ndarray]:
-    """Energies, powers and shares of time in the window, and what the integrator did, also of rollers that failed."""
+    """Energies, powers and shares of time in the window, and counts of the integrator, also of rollers that failed."""
 
     def outcome(name: str) -> np.ndarray:
         return np.array([[getattr(one.outcome, name) for one in line] for line in table])

@@ -161,7 +161,7 @@ def over_orbit(
 
 
 def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
-    """What a report shows of one result with traces, without the traces.
+    """Averages over traces that a report shows of one result.
 
     Parameters
     ----------

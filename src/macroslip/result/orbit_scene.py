@@ -18,7 +18,7 @@ SCENE_SAMPLES, SCENE_STEP = 2400, 0.05
 
 
 def scene(result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCENE_STEP) -> xr.Dataset:
-    """A part of the traces to be played: the one around the largest power.
+    """A part of the traces to be played, around the largest power.
 
     Parameters
     ----------

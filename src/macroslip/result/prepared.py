@@ -141,7 +141,7 @@ def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> 
         start = times[0] if times.size and times[0] < end else motion.time[0]
         return np.concatenate([[start], times[(times > start) & (times <= end)]])
     start = float(case.window.start)
-    # Orbits are counted from the start of the window, not from that of the history.
+    # Orbits are counted from the start of the window, not of the history.
     late = motion.time > start
     time = np.concatenate([[start], motion.time[late]])
     speed = np.concatenate([[np.interp(start, motion.time, motion.shaft_speed)], motion.shaft_speed[late]])

@@ -45,7 +45,7 @@ def simulate(
     threads : int, optional
         Threads over rollers; the number of usable processors by default. Results do not depend on it.
     progress : callable, optional
-        Called as progress(done, total) after each roller, and twice a second meanwhile. What it raises ends the simulation.
+        Called as progress(done, total) after each roller, and twice a second meanwhile. An exception in it ends all.
 
     Returns
     -------
@@ -85,7 +85,7 @@ def simulate(
 
 
 class _InterruptedError(Exception):
-    """The simulation was ended; what is under way is thrown away."""
+    """The simulation was ended; runs under way are thrown away."""
 
 
 def _imposed_orbits(
@@ -141,7 +141,7 @@ def _finished(pending: set, progress: Callable | None, done: int, total: int):
 
 
 def _problem(ready: Prepared, roller: Roller) -> Problem:
-    """What all rollers of a row have in common."""
+    """Numbers common to all rollers of a row."""
     integrator, motion = ready.case.integrator, ready.motion
     if isinstance(integrator, Radau):
         limits = radau_limits(

@@ -60,7 +60,7 @@ def check_result(result: xr.Dataset, where: str) -> None:
 
 
 def _names(result: xr.Dataset) -> str:
-    """What is missing."""
+    """Names that are missing."""
     missing = [name for name in ("energy", "status") if name not in result.data_vars]
     missing += [name for name in ("row", "roller", "interface") if name not in result.dims]
     if "time" in result.dims:
@@ -70,7 +70,7 @@ def _names(result: xr.Dataset) -> str:
 
 
 def _kinds(result: xr.Dataset) -> str:
-    """What is no number, or over other dimensions than it should be."""
+    """Variables that are no numbers, or have wrong dimensions."""
     for name, (expected, _, _) in VARIABLES.items():
         if name not in result:
             continue

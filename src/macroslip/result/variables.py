@@ -1,10 +1,10 @@
-"""What a result may hold: its variables with their dimensions, units and meaning."""
+"""Variables that a result may hold, with their dimensions, units and meaning."""
 
 from __future__ import annotations
 
 from macroslip.result import surface_maps
 
-#: What an integrator counts.
+#: Counts of an integrator.
 COUNTS = ("steps", "rejections", "force_evaluations")
 _ROLLERS = ("row", "roller")
 _INTERFACES = (*_ROLLERS, "interface")

@@ -25,7 +25,7 @@ _LONGEST_PUSH = 1e3
 
 
 class RingGeometry(NamedTuple):
-    """What the balance needs of a bearing.
+    """Geometry and stiffness of a bearing, for the balance.
 
     Attributes
     ----------
@@ -186,7 +186,7 @@ def balance(ring, shaft_angle, force, displacement):
 
 @jit
 def balance_series(ring, shaft_angle, force, current, displacement, unbalanced):
-    """`balance` over a series, each sample started from the one before.
+    """`balance` over a series, each sample started from its predecessor.
 
     Parameters
     ----------

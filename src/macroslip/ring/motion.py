@@ -1,4 +1,4 @@
-"""Motion of the inner ring under a load history: the ring balance at every sample, and what it must not exceed."""
+"""Motion of the inner ring under a load history: the ring balance at every sample, and loads it must not exceed."""
 
 from __future__ import annotations
 

@@ -156,7 +156,7 @@ def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.
 def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
     """Times at which the rollers have completed 1, 2, 3, … orbits [s].
 
-    Parameters are those of `travel`.
+    Parameters as for `travel`.
 
     Returns
     -------
@@ -170,7 +170,7 @@ def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -
     """
     path = travel(time, shaft_speed, orbit_ratio)
     found = []
-    # What the rounding of the sum takes from the last orbit of a whole number is given back.
+    # Rounding of the sum may take a little from the last orbit of a whole number; it is given back.
     rounding = 4e-16 * (time.size + 10)
     for orbit in range(1, math.floor(path[-1] / (2.0 * math.pi) * (1.0 + rounding)) + 1):
         target = min(2.0 * math.pi * orbit, path[-1])

@@ -1,4 +1,4 @@
-"""What a roller meets at its place on the orbit, and the forces of its slip, from tables or the paper's closed form.
+"""Loads of a roller at its place on the orbit, and the forces of its slip, from tables or the paper's closed form.
 
 Signs follow the roller frame: x tangential, against a positive orbit; a tangential force that drives the spin ω up is
 positive in the spin equation. Δu = u2 − u1 at every interface (28)-(31).
@@ -27,7 +27,7 @@ _FADED = 1.0 / 30.0
 _LIGHTEST, _HEAVIEST, _ITERATIONS = math.log(1e-9), math.log(1e7), 60
 
 
-#: What a roller meets at one place and time, whatever its spin.
+#: Loads and speeds of a roller at one place and time, whatever its spin.
 #:
 #: ring_speed : speed of both raceway surfaces past the roller's centre, u2 = −Ω r~_out = −(Ω_in − Ω) r~_in [m/s]
 #: interference : elastic approach δ of ring, roller and ring [m]; negative where there is play

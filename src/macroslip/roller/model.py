@@ -118,7 +118,7 @@ class Roller(NamedTuple):
 
 
 class TableReport(NamedTuple):
-    """What a result says of its tables: relative errors of force and power, size [bytes], and processor time they took [s]."""
+    """Numbers on tables for a result: relative errors of force and power, size [bytes], and processor time they took [s]."""
 
     typical_error: float
     worst_error: float
@@ -127,7 +127,7 @@ class TableReport(NamedTuple):
 
 
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
-    """What the ring balance needs of a bearing; `model` is a roller of the downwind row."""
+    """Geometry and stiffness for the ring balance; `model` is a roller of the downwind row."""
     count = bearing.rollers_per_row
     angles = np.concatenate([initial_angles(row, count) for row in ROWS])
     signs = np.repeat([AXIAL_SIGNS[row] for row in ROWS], count)

@@ -51,7 +51,7 @@ def tables(
         From `open_study`.
     weights : Weibull or Given, optional
         Without them there are `cases`, `failures`, `worst` and `percentiles`; with them also `lifetime`, `bins`,
-        `exceedance`, where results keep what it needs, and, if the study counts cycles, `cycles`.
+        `exceedance`, where results keep its variables, and, if the study counts cycles, `cycles`.
     years, field, width, by
         As in `macroslip.study.lifetime.lifetime_energy`.
     """
@@ -105,5 +105,5 @@ def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> lis
 
 
 def _harmless(value: Any) -> Any:
-    """Text with an apostrophe in front of what a spreadsheet would take as a formula; anything else as it is."""
+    """Text with an apostrophe in front where a spreadsheet would take it as a formula; else unchanged."""
     return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value

@@ -14,7 +14,7 @@ from macroslip.study.weights import YEAR, Weights, binned, weighted
 if TYPE_CHECKING:
     import xarray as xr
 
-#: What is over the places of the raceways in a result.
+#: Variables over the places of the raceways in a result.
 _PLACES = ("row", "raceway", "angle", "station")
 
 
@@ -191,7 +191,7 @@ def weighted_maps(
     Returns
     -------
     xarray.Dataset
-        `surface_energy` [J] and `surface_power_density` [W/m²] over group and what they are over in a result, and
+        `surface_energy` [J] and `surface_power_density` [W/m²] over group and their dimensions in a result, and
         `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete run. In which place the inner ring
         is when a case begins is by chance, so its map is spread evenly over the angle.
 

@@ -45,7 +45,7 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
         Over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`. Coordinates
         over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters that vary
         under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
-        case and row, and the variables of `simulate`, all of them as floats. What a run does not have is NaN: a run
+        case and row, and the variables of `simulate`, all of them as floats. Missing values are NaN: a run
         that failed or is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time`
         over (case, sample).
 
@@ -164,7 +164,7 @@ def _of_results(directory: Path, runs: pd.DataFrame) -> tuple[dict[str, Any], di
 
 @dataclass(frozen=True)
 class _Shared:
-    """What all variables of a study have in common."""
+    """Properties common to all variables of a study."""
 
     opened: str
     directory: Path

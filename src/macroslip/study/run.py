@@ -97,7 +97,7 @@ class Progress:
 
     @property
     def short(self) -> str:
-        """What fits beside a bar."""
+        """Counts and pace, short enough to stand beside a bar."""
         return f"{self.done} of {self.total}, {self.failed} failed, {self._pace}"
 
     @property
@@ -161,14 +161,14 @@ def run_study(
     """Compute all runs of a study whose results are not there yet.
 
     Without `workers` and `scheduler` the runs are computed in this process: one after the other, or several at once
-    where a run has few rollers or is of the whole bearing. What is computed and stored does not depend on these arguments.
+    where a run has few rollers or is of the whole bearing. Results do not depend on these arguments.
 
     Parameters
     ----------
     study : Study or path
         From `read_study` or `study_of`, or the path of a study file.
     directory : path
-        Folder for the results: new, empty, or that of an earlier run of a study with `resume`.
+        Folder for the results: new, empty, or with `resume` the folder of an earlier run of a study.
     workers : int, optional
         Worker processes to start on this machine. Each imports the script that calls this function, so that the call
         belongs below `if __name__ == "__main__":`.
@@ -359,7 +359,7 @@ class Session:
             raise MacroslipError(f"{what} {_KEPT} Mend it, and go on with --resume.")
 
     def _sound(self, result: dict[str, Any]) -> bool:
-        """Whether the result that a worker found is the one in the database."""
+        """Whether a result that a worker found is the result in the database."""
         known = self.database.checksum(result["key"])
         if known == result["detail"]:
             return True
@@ -368,7 +368,7 @@ class Session:
         return False
 
     def _record(self, entries: list[tuple[Run, dict[str, Any]]]) -> int:
-        """Enter what was done in the database, and only then in the counts; gives the number of failures."""
+        """Enter finished runs in the database, and only then in the counts; gives the number of failures."""
         changed = []
         for run, result in entries:
             if "outcome" in result:
@@ -429,7 +429,7 @@ def study_at_balance(study: Study, directory: Path, compute: Callable[[Study, Pa
 
     Ten minutes of wind do not change the temperature of a bearing whose time constant is hours; the mean power
     Σ w_k P_k of all load histories does, with w_k from `Study.weights`, together 1. All are simulated at the surroundings'
-    temperature, 30 K above, and then at the balance of what is known, three to five times.
+    temperature, 30 K above, and then at the balance found so far, three to five times.
 
     The runs on the way are computed by compute(study, directory) in a folder of their own. Raises InputError if there is no
     balance, and MacroslipError if a run fails, so that the mean is not known.

@@ -257,7 +257,7 @@ class Range:
 
 
 def _checked_range(key: str, interval: Range | None) -> Range | None:
-    """Check both ends as values of the parameter; those of a file are checked with it."""
+    """Check both ends as values of the parameter; a file's are checked with the file."""
     if interval is None:
         if key.partition(".")[0] not in RECORDS:
             raise InputError(

@@ -43,12 +43,12 @@ MANIFEST, DATABASE, SUMMARY, LOG, CASES, LOCK = (
 BALANCE_RUNS = "balance"
 _FILES = (MANIFEST, DATABASE, f"{DATABASE}-wal", f"{DATABASE}-shm", SUMMARY, LOG, LOCK)
 _EARLIER = "journal.jsonl"
-#: What to do about a damaged manifest or a damaged database.
+#: Advice for a damaged manifest or a damaged database.
 REMEDY = "Write it again with macroslip study STUDY.yaml -o DIR --resume; results are kept."
 _DAMAGED = "Put back a copy of it, or remove it and go on with --resume: then all runs are computed again."
 #: Attribute with the description of variables that have no values.
 _EMPTY = "variables_without_values"
-#: Columns of a run that is not done, and what is in them then.
+#: Columns of a run that is not done, and their values then.
 TEXTS = {"outcome": "missing", "reason": "", "key": "", "detail": "", "layout": ""}
 _COLUMNS = ["key", "outcome", "reason", "detail", "layout", *NUMBERS, "crc"]
 _BATCH = 20_000
@@ -129,7 +129,7 @@ class Database:
             self._db.close()
 
     def begin(self, runs: Iterable[tuple[str, Mapping[str, Any]]]) -> int:
-        """Replace the list of runs, each with its name and labels; what is known of those that stay is kept.
+        """Replace the list of runs, each with its name and labels; outcomes of runs that stay are kept.
 
         Rows of results that were damaged are removed; gives their number.
         """
@@ -314,7 +314,7 @@ def checksum(content: bytes) -> str:
 
 
 def layout(result: xr.Dataset) -> str:
-    """What a reader needs of a result before it opens it, as JSON.
+    """Layout of a result that a reader needs before it opens the file, as JSON.
 
     `sizes` by dimension; `rollers`, their numbers, left out where they count from 0; and `variables`, a hash of names,
     dimensions and types.
@@ -429,7 +429,7 @@ def check_folder(directory: Path, *, resume: bool) -> None:
 
 
 def remove_unfinished(directory: Path) -> int:
-    """Remove what was being written when a process ended; gives how many files there were."""
+    """Remove files that a process had not finished when it ended; gives their number."""
     found = itertools.chain(directory.glob(f".*{UNFINISHED}"), (directory / CASES).glob(f"*/.*{UNFINISHED}"))
     return sum(path.unlink(missing_ok=True) is None for path in list(found))
 

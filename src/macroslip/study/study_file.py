@@ -388,7 +388,7 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     combinations = itertools.product(
         grid(variations.grid or {}), variations.list or [[]], sample.points() if sample else [[]]
     )
-    # The study's name for the base case's bearing or lubricant is what the file has.
+    # The study names the base case's bearing or lubricant as the file does.
     own = {noun: {mapping.get(noun) or getattr(base, noun).name: getattr(base, noun)} for noun in RECORDS}
     return Study(
         title=values.get("title", ""),
@@ -439,7 +439,7 @@ def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]
     open_nouns = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
     if sample is None or not open_nouns:
         return sample
-    if base is None:  # what is wrong with the case comes first
+    if base is None:  # faults of the case come first
         return None
     found = {}
     for noun in open_nouns:

@@ -73,7 +73,7 @@ CASE_VARIABLES = {
     "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
     "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
 }
-#: Units of all columns of numbers; those of rows end in the name of the row.
+#: Units of all columns of numbers; names of columns by row end in the row.
 NUMBERS = {f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in ROWS} | {
     name: units for name, (units, _) in CASE_VARIABLES.items()
 }
@@ -126,7 +126,7 @@ def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
 
 
 def rating_values(case: Case) -> dict[str, float]:
-    """The numbers of a rating; NaN for a case without one, or a bearing that lacks what it needs."""
+    """The numbers of a rating; NaN for a case without a rating, or a bearing that lacks values for it."""
     nothing = dict.fromkeys(RATING_VARIABLES, math.nan)
     if not case.rating:
         return nothing

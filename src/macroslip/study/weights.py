@@ -114,7 +114,7 @@ Weights = Weibull | Given
 
 @input_section("weights", "what each load history counts in the mean friction power, for temperature: balance")
 class Weighting:
-    """How much each load history counts, by how likely its wind speed is; those of a bin share its probability."""
+    """How much each load history counts, by the probability of its wind speed, which the histories of a bin share."""
 
     field: Annotated[str, Text("label of the loads to sort into bins")] = "wind_speed"
     width: Annotated[float, Quantity("width of a bin, in the unit of the field", NUMBER, 0.0, above=True)] = 2.0
@@ -195,9 +195,9 @@ class Binning:
         return found
 
     def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Mean of the values of each run in each cell, over runs without NaN; their number, and that of the others.
+        """Mean of the values of each run in each cell, over runs without NaN; numbers of these and of the others.
 
-        Values are taken one run after the other, so that those of a large study need not fit into memory.
+        Values are taken one run after the other, so that a large study need not fit into memory.
 
         Returns
         -------

@@ -51,7 +51,7 @@ def program() -> str:
 
 
 def case_key(case: Case, options: Mapping[str, Any]) -> str:
-    """Hash of the full input of a case, of the program, and of what is stored beyond the result of `simulate`.
+    """Hash of the full input of a case, of the program, and of all that is stored beyond the result of `simulate`.
 
     Only the numbers of the loads enter, not their source: a file may be moved, renamed or converted.
 
@@ -79,7 +79,7 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
         `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
         compute even if a result is there.
     progress : callable, optional
-        As for `macroslip.simulate`; what it raises ends the run.
+        As for `macroslip.simulate`; an exception in it ends the run.
 
     Returns
     -------
@@ -144,7 +144,7 @@ def work_several(
 
 @functools.lru_cache(maxsize=2)
 def _setup(directory: str, expected: str) -> dict[str, Any]:
-    """What all runs of a study have in common, from its manifest."""
+    """Settings common to all runs of a study, from its manifest."""
     try:
         manifest, found = read_manifest(Path(directory))
     except InputError as error:
@@ -187,7 +187,7 @@ def _stored(path: Path) -> bytes | None:
 def _computed(
     case: Case, options: Mapping[str, Any], threads: int | None, progress: Callable[[int, int], None] | None
 ) -> tuple[xr.Dataset, dict[str, float]]:
-    """What is stored of a case, and the numbers of its summary."""
+    """Stored dataset of a case, and the numbers of its summary."""
     from macroslip.result.simulate import simulate
 
     started = time.perf_counter()

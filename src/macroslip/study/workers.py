@@ -252,7 +252,7 @@ def dask_workers(scheduler: str, note: Callable[[str], None]) -> Iterator[Dask]:
     """The workers of a Dask scheduler at an address such as `tcp://10.0.0.1:8786`."""
     from distributed import Client
 
-    # The study itself reports what is important in Dask's own messages.
+    # The study itself reports the important part of Dask's own messages.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
         # Not Dask's default: that is the user's own, and whatever they compute meanwhile would come here.

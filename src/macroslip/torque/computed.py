@@ -23,7 +23,7 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         T = (Σ P + Σ P_r + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
 
     The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without, P_r the
-    power of rolling resistance. It is the torque a drive has to supply for what is dissipated at that moment. Kinetic
+    power of rolling resistance. It is the torque a drive has to supply for the dissipation of that moment. Kinetic
     energy of the rollers and the work of their weight, whose mean over an orbit vanishes, are left out, and so is what the
     model does not have: churning beyond the rollers' drag, hysteresis of the steel, seals.
 
@@ -42,8 +42,8 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     -------
     xarray.Dataset
         Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque
-        [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: what it consists of;
-        ring_torque [N m] over (raceway, time): what the contacts exert on inner and outer ring, positive along the
+        [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: its parts;
+        ring_torque [N m] over (raceway, time): torque of the contacts on inner and outer ring, positive along the
         orbit. NaN where the shaft is at rest, or from where a roller failed.
 
     Raises
@@ -75,7 +75,7 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
             remedy="Simulate with rollers: all.",
         )
     model = next(iter(models.values()))
-    # Every roller has the same speed in pure rolling; that of a failed one is NaN.
+    # Every roller has the same speed in pure rolling; a failed roller has NaN.
     spin = np.nan_to_num(result.spin_pure.values.reshape(-1, result.sizes["time"]))
     spin = spin[np.argmax(np.abs(spin).max(axis=1))]
     orbital = -spin * model.radius / model.outer_radius
@@ -113,7 +113,7 @@ def _per_speed(power: xr.DataArray, per_power: np.ndarray) -> xr.DataArray:
     """Torque over (row, interface, time) of the power of all rollers."""
     total = power.sum("roller", skipna=False).transpose("row", "interface", "time")
     total = total.drop_vars("start_angle", errors="ignore") * per_power
-    # In the order in which files hold it: sums over what was stored and read give the same digits.
+    # In the order of files, so that sums over a stored result give the same digits.
     return total.copy(data=np.ascontiguousarray(total.values))
 
 
@@ -128,7 +128,7 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
         orbit = orbit + result.orbit_speed_deviation
     roller = (result.spin * model.radius).transpose("row", "roller", "time")
     found = []
-    # Positive speeds are those of a ring that turns back at the inner raceway, forth at the outer one.
+    # At a positive speed the ring turns back at the inner raceway, forth at the outer raceway.
     for name, arm, turning in (
         ("inner", -geometry.inner_contact_radius(bearing), shaft),
         ("outer", geometry.outer_contact_radius(bearing), 0.0),

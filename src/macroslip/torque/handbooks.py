@@ -1,6 +1,6 @@
 """Friction torque of spherical roller bearings by the handbooks: Palmgren's formula and the SKF model.
 
-Both are stated in mm, N, r/min and mm²/s, and give N mm; `_Operation` is the one place where SI is converted.
+Both are stated in mm, N, r/min and mm²/s, and give N mm; only `_Operation` converts from SI.
 """
 
 from __future__ import annotations
@@ -271,7 +271,7 @@ class SkfTorque:
     seal : float | array
         M_seal: seals of the bearing itself [N m]; zero, for open bearings have none.
     out_of_range : tuple of str
-        What lies outside the range for which the model is stated; empty if nothing does.
+        Values outside the range for which the model is stated; empty if none is.
     """
 
     rolling: float | NDArray[np.float64]
@@ -319,7 +319,7 @@ def skf_torque(
     radial_load, axial_load : array_like [N]
         Load on the bearing; signs are dropped.
     shaft_speed : array_like [rad/s]
-        Speed of the inner ring; its sign is dropped. At zero speed the torque is that of starting, with μ_bl = 0.15.
+        Speed of the inner ring; its sign is dropped. At zero speed it is the torque of starting, with μ_bl = 0.15.
     series : str
         Dimension series: a key of `SKF_SERIES`.
     oil : str
@@ -347,7 +347,7 @@ def skf_torque(
     ----------
     SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "The SKF model for calculating the frictional moment".
     Formulas and constants from memory, then confirmed in public excerpts of the catalogue and in transcriptions of it,
-    except for what is tagged R or E.
+    except for numbers tagged R or E.
 
     Examples
     --------

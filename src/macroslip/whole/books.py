@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from macroslip.whole.model import WholeBearing
     from macroslip.whole.sdirk import Part
 
-#: What is booked over time: angular impulses [N m s] and energies [J].
+#: Flows that are booked over time: angular impulses [N m s] and energies [J].
 FLOWS = (
     "inner_impulse", "outer_impulse", "body_impulse", "guide_impulse", "eccentric_impulse",
     "shaft_work", "body_work", "cage_weight_work", "raceway_loss", "friction_loss", "guide_loss", "pocket_work", "support_work",
 )  # fmt: skip
-#: What the bearing holds: angular momentum [N m s], kinetic and elastic energy [J].
+#: Stocks of the bearing: angular momentum [N m s], kinetic and elastic energy [J].
 STOCKS = ("momentum", "kinetic_energy", "elastic_energy")
 #: Flows that bring energy (+) or take it away (−).
 _ENERGY_SIGNS = {

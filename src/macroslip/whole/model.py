@@ -28,8 +28,8 @@ _NUMBERS = (
 )  # fmt: skip
 #: The numbers of a `WholeBearing`.
 BEARING = np.dtype([*((name, "f8") for name in _NUMBERS), ("cages", "i8"), ("translates", "i8"), ("pocket", POCKET)])
-#: What differs between rollers: index of row and cage; angle of its pocket at the first sample [rad] with cosine and sine; its
-#: effective r~_in [m], see `macroslip.whole.cage.inner_radii`.
+#: Numbers that differ between rollers: index of row and cage; angle of the pocket at the first sample [rad] with cosine and
+#: sine; effective r~_in [m], see `macroslip.whole.cage.inner_radii`.
 PLACE = np.dtype(
     [("row", "i8"), ("cage", "i8"), ("angle", "f8"), ("cosine", "f8"), ("sine", "f8"), ("inner_radius", "f8")]
 )

@@ -31,7 +31,7 @@ _ROUGHNESS_FILMS = 3.0
 
 
 class Pocket(NamedTuple):
-    """What the spars do.
+    """Numbers of the spars' forces.
 
     Attributes
     ----------

@@ -82,7 +82,7 @@ LIMITS = np.dtype(
         ("cage_reach", "f8"), ("slowest", "f8"), ("max_steps", "i8"), ("rests", "i8"),
     ]
 )  # fmt: skip
-#: What the kernel remembers between two calls: whether it has begun; time [s], sample interval and shaft speed [rad/s]; the next
+#: State of the kernel between two calls: whether it has begun; time [s], sample interval and shaft speed [rad/s]; the next
 #: step [s], whether the last one was rejected, and the next stop; energy of the raceways so far [J] and the largest force that
 #: an accepted step left unbalanced [N]; and counts: evaluations are those of a raceway contact, `refreshed` rollers evaluated
 #: after a rest, and the last three rejections for an unsolved stage, for the error, and for forces not as predicted.

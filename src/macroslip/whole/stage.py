@@ -194,7 +194,7 @@ def _write_block(inertia, at, sheet, met, block):
 
 @jit_inline
 def _add_to_border(bearing, stage, at, met, block, border):
-    """What a roller adds to its cage's equations, and how the cage enters its own."""
+    """Add a roller to its cage's equations, and the cage to the roller's."""
     matrix, rest, row, column = border.matrix, border.rest, block.row, block.column
     lever, by_w = bearing.lever, -met.give
     rest[0] += met.push * met.arm + met.friction * lever

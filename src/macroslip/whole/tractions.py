@@ -1,4 +1,4 @@
-"""What the rollers meet at one time, and their tractions: each as its value, its slopes and the place they belong to.
+"""Loads of the rollers at one time, and their tractions: each as its value, its slopes and the place they belong to.
 
 A contact is evaluated where it has to be; in between its force follows from the slopes by slip, load and ring speed. A
 gripped or a coasting roller then costs an evaluation now and then, while one that enters or leaves the load zone is
@@ -89,7 +89,7 @@ def _is_near(value, known):
 
 @jit_inline
 def _film_load(body, tables, load, approach, outward, ring_speed, at):
-    """What films carry beside the load of the rings [N], found anew where the roller's place has changed by `FILM_REACH`."""
+    """Load of the films beside the load of the rings [N], found anew where the roller's place has changed by `FILM_REACH`."""
     near = _is_near(approach, at.film_interference) and _is_near(outward, at.film_outward)
     if load > 0.0 or not (near and _is_near(ring_speed, at.film_speed)):
         at.film_load = film_load(body, tables, load, approach, outward, ring_speed)

@@ -1,7 +1,7 @@
 """Numbers that steer the integration of the whole bearing, in one place, each with what chose it.
 
 None is physics: every result converges to the same value as the tolerance falls, whatever they are. "The page's cases" are
-those of docs/whole-bearing.md, whose tables `docs/whole_bearing.py` makes. Where no measurement is known the number is a
+those of docs/notes/whole-bearing.md, whose tables `docs/whole_bearing.py` makes. Where no measurement is known the number is a
 judgement and called one.
 """
 
