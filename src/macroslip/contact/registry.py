@@ -206,6 +206,12 @@ class LawList:
 FILM_LAWS, TRACTION_LAWS = LawList("film"), LawList("traction", reserved=(MECHANISMS,))
 
 
+def own_laws() -> list[str]:
+    """Texts of the registered laws of one's own, which change whenever one of them may; sorted, empty without any."""
+    laws = [kind.named(name) for kind in (FILM_LAWS, TRACTION_LAWS) for name in kind.names()]
+    return sorted(law.source for law in laws if law.is_own)
+
+
 def register_film(
     name: str,
     function: Callable,
