@@ -38,7 +38,10 @@ def test_the_closed_form_serves_the_papers_traction_alone():
 @pytest.mark.parametrize(
     ("choice", "message"),
     [
-        ({"viscosity": "arrhenius"}, "laws.viscosity: 'arrhenius' does not exist. Allowed: barus, roelands. Choose one of these."),
+        (
+            {"viscosity": "arrhenius"},
+            "laws.viscosity: 'arrhenius' does not exist. Allowed: barus, roelands. Choose one of these.",
+        ),
         (
             {"rheology": "maxwell"},
             "laws.rheology: 'maxwell' does not exist. Allowed: newtonian, limiting-shear, eyring. Choose one of these.",
