@@ -242,9 +242,10 @@ def test_a_kernel_without_laws_stays_where_it_is_when_one_comes(small):
 
 def test_the_integrators_and_the_ring_balance_are_stored_once_for_all_laws():
     """They are most of what a case under the paper's laws compiles, and know laws by address or not at all."""
-    from macroslip import compiled
     from macroslip.integrate.fixed_step import integrate_fixed_step
     from macroslip.integrate.radau import integrate_radau
+
+    from macroslip import compiled
     from macroslip.ring.balance import balance_series
 
     for kernel in (integrate_radau, integrate_fixed_step, balance_series):

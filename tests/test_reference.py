@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numba
 import numpy as np
 import pytest
+from macroslip.reference import Reference, by_reference, calling, packed, tuple_type, write
 from numba import TypingError
 
 from macroslip.compiled import entry, jit
-from macroslip.reference import Reference, by_reference, calling, packed, tuple_type, write
 
 
 class _Inner(NamedTuple):

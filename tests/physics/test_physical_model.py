@@ -19,24 +19,21 @@ from scipy.optimize import brentq
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, simulate
 from macroslip.bearing import Bearing
 from macroslip.bearing.geometry import initial_angles
+from macroslip.contact.patch import patch_power, patch_traction
+from macroslip.contact.table import chords_for, patch_of, tractions
 from macroslip.errors import InputError
-from macroslip.integrate.entries import sealed
-from macroslip.integrate.load_zone import empty_classes
-from macroslip.integrate.path import Path
-from macroslip.integrate.radau import integrate_radau
-from macroslip.integrate.record import new_record
-from macroslip.imposed.status import Status
+from macroslip.imposed.radau import WORK, Path
+from macroslip.imposed.run import radau_limits
+from macroslip.imposed.solve import integrate as integrate_radau
+from macroslip.imposed.status import UNDER_WAY, Status
+from macroslip.imposed.zones import classify
 from macroslip.lubricant import Lubricant
 from macroslip.mechanisms import Laws
-from macroslip.result.simulate import radau_limits
-from macroslip.ring.motion import ring_motion
-from macroslip.ring.orbit import Motion, instant
-from macroslip.roller.contact import cage_contact
-from macroslip.roller.contact_force import raceway_force, slip_field
-from macroslip.roller.friction_power import friction_power
-from macroslip.roller.model import ring_geometry, roller_model
-from macroslip.traction.film_shear_law import microslip_traction
-from tests.by_address import forces_by_address, station_by_address
+from macroslip.result.prepared import prepare
+from macroslip.ring.orbit import instant
+from macroslip.roller.forces import FORCES, STATION, slip_forces, station
+from macroslip.roller.model import roller_model, with_tables
+from macroslip.roller.step import new_steps
 
 pytestmark = pytest.mark.slow
 
@@ -64,44 +61,69 @@ def coulomb():
     return roller_model(BEARING, oil, 1, tilt=0.0, laws=LIMITED.but(heating=False, asperities="none"))
 
 
+def slip_along(contact, z, slip, ring_speed):
+    """Slip [m/s] at stations z [m], and the contour's drop there [m]."""
+    shape = contact.shape
+    drop = z**2 / (2 * shape.contour_radius)
+    rate = ring_speed * shape.curvature_ratio - slip / RADIUS
+    return slip + rate * drop - ring_speed * shape.spin_ratio * z, drop
+
+
 def constant_friction(contact, load, slip, ring_speed):
     """The same by hand: µ p over the stations of a Hertz contact; power, force, moment/r, skew, |v| largest and mean."""
-    across = contact.semi_axis_across * load ** (1 / 3)
+    across = contact.interface.hertz.semi_axis_across * load ** (1 / 3)
     z = (np.arange(200000) + 0.5) / 100000 * across - across
-    field = slip_field(contact.shape, slip, ring_speed)
-    drop = z**2 / (2 * contact.shape.contour_radius)
-    v = field.sliding + field.curvature_rate * drop - field.spin_rate * z
+    v, drop = slip_along(contact, z, slip, ring_speed)
     carried = 0.75 * load / across * (1 - (z / across) ** 2) * (z[1] - z[0])
     pull = 0.05 * carried * np.sign(v)
     mean = (carried * np.abs(v)).sum() / load
     return (pull * v).sum(), pull.sum(), (pull * (1 - drop / RADIUS)).sum(), (pull * z).sum(), np.abs(v).max(), mean
 
 
+class Film:
+    """Traction of a contact's film of a given thickness at 50 kN."""
+
+    def __init__(self, contact, thickness, ring_speed):
+        self._patch, self._chords = patch_of(contact), chords_for(contact)
+        self._state = 5e4, thickness
+        self._ring_speed = ring_speed
+
+    def __call__(self, slip):
+        """Pull and lag [N], and skew moment [N m]."""
+        found = np.empty(4)
+        patch_traction(self._patch, self._chords, *self._state, 0.0, self._ring_speed, slip, found)
+        return found[:3]
+
+    def power(self, slip):
+        return patch_power(self._patch, self._chords, *self._state, self._ring_speed, slip)
+
+    def still(self):
+        """Slip without a moment on the roller."""
+        return brentq(lambda slip: self(slip)[0] - self(slip)[1], -0.02, 0.02, xtol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("ring", "power", "fastest", "mean"), [("inner", 8.7, 23e-3, 3.5e-3), ("outer", 7.1, 19e-3, 2.9e-3)]
 )
 def test_a_loaded_contact_dissipates_what_constant_friction_does(coulomb, ring, power, fastest, mean):
-    contact = getattr(coulomb, ring)
+    contact = getattr(coulomb.laws, ring)
     ring_speed = -RATED * coulomb.orbit_ratio * coulomb.outer_radius
-
-    def film(slip):
-        return microslip_traction(
-            contact.traction, 5e4, 1e-11, slip_field(contact.shape, slip, ring_speed), contact.shape, False
-        )
-
-    still = brentq(lambda s: film(s).force - film(s).lag, -0.02, 0.02, xtol=1e-12)
-    found = film(still)
-    spent = friction_power(contact, still, ring_speed, found.force - found.lag, found)
+    film = Film(contact, 1e-11, ring_speed)
+    still = film.still()
+    spent, skew = film.power(still), film(still)[2]
     assert spent == pytest.approx(power, rel=0.03)
-    assert abs(found.skew) == pytest.approx(17.0, rel=0.03)
+    assert abs(skew) == pytest.approx(17.0, rel=0.03)
     hand = brentq(lambda s: constant_friction(contact, 5e4, s, ring_speed)[2], -0.02, 0.02, xtol=1e-12)
     exact = constant_friction(contact, 5e4, hand, ring_speed)
-    assert (spent, found.skew) == pytest.approx((exact[0], exact[3]), rel=5e-3)
+    # A patch has its axis tilted to the positive side.
+    assert (spent, skew) == pytest.approx((exact[0], math.copysign(1.0, contact.shape.spin_ratio) * exact[3]), rel=5e-3)
     assert still == pytest.approx(hand, rel=0.02)
     assert exact[4] == pytest.approx(fastest, rel=0.03) and exact[5] == pytest.approx(mean, rel=0.03)
     # Where both raceways share one slip the sizes hardly change.
     both = brentq(
-        lambda s: sum(constant_friction(c, 5e4, s, ring_speed)[2] for c in (coulomb.inner, coulomb.outer)), -0.02, 0.02
+        lambda s: sum(constant_friction(c, 5e4, s, ring_speed)[2] for c in (coulomb.laws.inner, coulomb.laws.outer)),
+        -0.02,
+        0.02,
     )
     assert constant_friction(contact, 5e4, both, ring_speed)[0] == pytest.approx(power, rel=0.03)
 
@@ -109,17 +131,8 @@ def test_a_loaded_contact_dissipates_what_constant_friction_does(coulomb, ring, 
 def test_film_at_its_limit_by_its_own_thickness_comes_close(coulomb):
     """At the thickness the film law gives, oil near the contact's edge is below its limit: less power, not more."""
     ring_speed = -RATED * coulomb.orbit_ratio * coulomb.outer_radius
-    contact = coulomb.inner
-    powers = []
-    for thickness in (1e-11, 6e-7):
-
-        def film(slip, thickness=thickness):
-            field = slip_field(contact.shape, slip, ring_speed)
-            return microslip_traction(contact.traction, 5e4, thickness, field, contact.shape, False)
-
-        still = brentq(lambda s: film(s).force - film(s).lag, -0.02, 0.02, xtol=1e-12)
-        found = film(still)
-        powers.append(friction_power(contact, still, ring_speed, found.force - found.lag, found))
+    films = [Film(coulomb.laws.inner, thickness, ring_speed) for thickness in (1e-11, 6e-7)]
+    powers = [film.power(film.still()) for film in films]
     assert 0.5 * powers[0] < powers[1] < powers[0]
 
 
@@ -184,10 +197,11 @@ def test_net_skew_moment_of_a_held_roller_is_the_small_difference_of_its_raceway
     load, slip = float(at.roller_load), float(at.slip)
     ring_speed = float(at.spin_pure) * model.radius
     along_x = 0.0
-    for contact, sign in ((model.inner, 1.0), (model.outer, -1.0)):
+    for contact, sign in ((model.laws.inner, 1.0), (model.laws.outer, -1.0)):
         # Body forces of some tens of newtons beside the load are left out.
-        force = raceway_force(contact, load, slip, ring_speed, abs(ring_speed - 0.5 * slip), 0.0)
-        along_x += sign * force.detail.skew
+        _, _, skew, _ = tractions(contact, *(np.array([one]) for one in (load, ring_speed, slip)))
+        # A patch has its axis tilted to the positive side.
+        along_x += sign * math.copysign(1.0, contact.shape.spin_ratio) * float(skew[0])
     inner, outer = at.skew_moment.values
     # As a sum of like signs it would be larger than either.
     assert abs(along_x) < min(abs(inner), abs(outer))
@@ -273,51 +287,80 @@ def test_no_load_no_friction():
 # --- Slip between several roots ---------------------------------------------------------------------------------------
 
 
-def setup(laws, force, speed, time, *, gravity=False):
-    """Model, motion and bounds of roller 0 of the downwind row as `simulate` makes them."""
-    from macroslip.roller.model import truncation_load
+class Setup:
+    """Roller 0 of the downwind row with its tables, its motion and bounds, as `simulate` makes them."""
 
+    def __init__(self, case):
+        ready = prepare(case)
+        rollers, _ = with_tables(ready.models, ready.box)
+        self.model, self.motion = ready.models["downwind"], ready.motion
+        self.body, self.tables = rollers["downwind"].body[0], rollers["downwind"].tables
+        self.limits = radau_limits(
+            rollers["downwind"], self.motion, tolerance=1e-6, max_steps=10**6, heaviest=ready.heaviest, window=0.0
+        )
+        self.angle = float(initial_angles("downwind", 28)[0])
+
+    def integrate(self, slip, trace_time):
+        """Slip [m/s] at times [s], from a slip at the first sample on."""
+        time = self.motion.time
+        stops = np.unique(np.concatenate([trace_time, time[-1:]]))
+        classes = np.empty(time.size - 1, dtype=np.int8)
+        classify(self.body, self.motion, self.angle, self.limits[0]["firm"], classes)
+        path = Path(self.body, self.tables, self.motion, self.angle, self.limits[0])
+        work, steps, parts, status = np.zeros(1, WORK), new_steps(), [], UNDER_WAY
+        work[0]["slip"] = slip
+        while status == UNDER_WAY:
+            status, count = integrate_radau(path, stops, classes, work[0], steps[:, 0])
+            parts.append(steps[:count, 0].copy())
+        assert status == Status.COMPLETED
+        steps = np.concatenate(parts)
+        last = steps["stages"] - 1
+        slips = dict(zip(steps["end"], steps["inner_slip"][np.arange(steps.size), last], strict=True))
+        return np.array([slips[one] for one in trace_time])
+
+    def at(self, time):
+        """What the roller meets at a time [s]."""
+        interval = min(int(np.searchsorted(self.motion.time, time, side="right")) - 1, self.motion.time.size - 2)
+        found = np.zeros(1, STATION)
+        station(self.body, self.tables, self.angle, instant(self.motion, interval, time), found[0])
+        return found[0]
+
+    def forces(self, at, slip):
+        found = np.zeros(1, FORCES)
+        slip_forces(self.body, self.tables, at, float(slip), found[0])
+        return found[0]
+
+    def moment(self, at, slip):
+        """F_i + F_o + F_c [N]."""
+        found = self.forces(at, slip)
+        return found["inner"] + found["outer"] + found["cage"]
+
+    def by_scipy(self, slip, trace_time):
+        """dv/dt = du2/dt − (r²/I)(F_i + F_o + F_c) by SciPy's Radau with small steps."""
+        motion, model = self.motion, self.model
+
+        def rate(t, v):
+            k = min(int(np.searchsorted(motion.time, t, side="right")) - 1, motion.time.size - 2)
+            acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+            drive = -model.orbit_ratio * model.outer_radius * acceleration
+            return [drive - model.mobility * self.moment(self.at(t), v[0])]
+
+        state = slip
+        ends = np.unique(np.concatenate([motion.time, trace_time]))
+        at = {ends[0]: slip}
+        for start, end in itertools.pairwise(ends):
+            piece = solve_ivp(rate, (start, end), [state], method="Radau", rtol=1e-8, atol=1e-12)
+            assert piece.success
+            state = float(piece.y[0, -1])
+            at[end] = state
+        return np.array([at[t] for t in trace_time])
+
+
+def setup(laws, force, speed, time):
+    """Without weight and drag under a steady force [N]."""
     time = np.asarray(time, dtype=float)
     loads = BearingLoads(time, np.broadcast_to(speed, time.shape) * 1.0, np.tile(force, (time.size, 1)), "made")
-    case = Case(loads=loads, laws=laws, gravity=gravity, drag=gravity, integrator=Radau(tolerance=1e-6))
-    model = roller_model(BEARING, OIL, 1, tilt=case.drivetrain.tilt, gravity=gravity, drag=gravity, laws=laws)
-    motion, largest = ring_motion(loads, BEARING, ring_geometry(BEARING, model), truncation_load(BEARING, OIL))
-    assert isinstance(motion, Motion)
-    return model, motion, radau_limits(case, motion, model, largest), initial_angles("downwind", 28)[0]
-
-
-def integrate(model, motion, limits, angle, slip, trace_time):
-    record = new_record(np.array([motion.time[0]]), np.asarray(trace_time), limits.speed_scale)
-    stops = np.unique(np.concatenate([trace_time, motion.time[-1:]]))
-    status = integrate_radau(
-        Path(sealed(model), motion, angle, limits), slip, stops, empty_classes(motion.time.size), record
-    )
-    assert status == Status.COMPLETED
-    return record.trace[:, 0]
-
-
-def by_scipy(model, motion, angle, slip, trace_time):
-    """dv/dt = du2/dt − (r²/I)(F_i + F_o + F_c) by SciPy's Radau with small steps."""
-    roller = sealed(model)
-
-    def rate(t, v):
-        k = min(int(np.searchsorted(motion.time, t, side="right")) - 1, motion.time.size - 2)
-        now = instant(motion, k, t)
-        acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
-        forces = forces_by_address(roller, station_by_address(roller, angle, now), float(v[0]))
-        drive = -model.orbit_ratio * model.outer_radius * acceleration
-        return [drive - model.mobility * (forces.inner + forces.outer + forces.cage)]
-
-    found, state = [], slip
-    ends = np.unique(np.concatenate([motion.time, trace_time]))
-    at = {ends[0]: slip}
-    for start, end in itertools.pairwise(ends):
-        piece = solve_ivp(rate, (start, end), [state], method="Radau", rtol=1e-8, atol=1e-12)
-        assert piece.success
-        state = float(piece.y[0, -1])
-        at[end] = state
-    found = [at[t] for t in trace_time]
-    return np.array(found)
+    return Setup(Case(loads=loads, laws=laws, gravity=False, drag=False, integrator=Radau(tolerance=1e-6)))
 
 
 HOT = {
@@ -334,24 +377,23 @@ def test_a_skidding_roller_follows_its_past(name, slip):
     """A roller set down far from rolling under a heavy load: traction falls with slip at first, and rolling, where it
     would be gripped, is another root of a long implicit step. SciPy's integrator in small steps knows the way."""
     time = np.linspace(0.0, 4e-3, 5)
-    model, motion, limits, angle = setup(HOT[name], [0.0, 0.0, 100e3], RATED, time)
+    roller = setup(HOT[name], [0.0, 0.0, 100e3], RATED, time)
     trace_time = np.linspace(1e-5, 4e-3, 60)
-    found = integrate(model, motion, limits, angle, slip, trace_time)
-    wanted = by_scipy(model, motion, angle, slip, trace_time)
+    found = roller.integrate(slip, trace_time)
+    wanted = roller.by_scipy(slip, trace_time)
     assert np.abs(found - wanted).max() < 2e-4 * abs(slip) + 2e-6
     if name == "barus, newtonian" and abs(slip) > 0.1:
-        now = station_by_address(sealed(model), angle, instant(motion, 0, 0.0))
-        assert forces_by_address(sealed(model), now, slip).slope < 0.0
+        assert roller.forces(roller.at(0.0), slip)["slope"] < 0.0
 
 
 def test_a_roller_whose_shaft_jerks_follows_its_past():
     """The shaft gains a third of its speed within 2 ms: more than limited traction of a lightly loaded roller can give."""
     time = np.array([0.0, 0.02, 0.022, 0.05])
     speed = np.array([RATED, RATED, 1.33 * RATED, 1.33 * RATED])
-    model, motion, limits, angle = setup(FULL, [0.0, 0.0, 4e3], speed, time)
+    roller = setup(FULL, [0.0, 0.0, 4e3], speed, time)
     trace_time = np.linspace(1e-3, 0.05, 80)
-    found = integrate(model, motion, limits, angle, 0.0, trace_time)
-    wanted = by_scipy(model, motion, angle, 0.0, trace_time)
+    found = roller.integrate(0.0, trace_time)
+    wanted = roller.by_scipy(0.0, trace_time)
     assert np.abs(wanted).max() > 0.05
     assert np.abs(found - wanted).max() < 3e-4 * np.abs(wanted).max()
 
@@ -361,14 +403,12 @@ def test_a_roller_whose_shaft_jerks_follows_its_past():
 def test_slip_settles_where_moments_balance(name, force):
     """Under steady thrust without weight: the root of F_i + F_o + F_c found by bracketing."""
     time = np.linspace(0.0, 0.5, 11)
-    model, motion, limits, angle = setup(HOT[name], [0.0, 0.0, force], RATED, time)
-    found = integrate(model, motion, limits, angle, 0.0, np.array([0.5]))[0]
-    roller = sealed(model)
-    now = station_by_address(roller, angle, instant(motion, 9, 0.5))
+    roller = setup(HOT[name], [0.0, 0.0, force], RATED, time)
+    found = roller.integrate(0.0, np.array([0.5]))[0]
+    now = roller.at(0.5)
 
     def moment(slip):
-        forces = forces_by_address(roller, now, slip)
-        return forces.inner + forces.outer + forces.cage
+        return roller.moment(now, slip)
 
     root = brentq(moment, -0.02, 0.02, xtol=1e-15)
     assert abs(root) > 1e-5
@@ -384,24 +424,13 @@ def test_slip_of_an_orbiting_roller_is_the_balance_of_the_instant():
         .sel(row="downwind")
         .isel(roller=0)
     )
-    model = roller_model(BEARING, OIL, 1, tilt=Drivetrain().tilt, laws=FULL)
-    roller = sealed(model)
-    from macroslip.roller.model import truncation_load
-
-    motion, _ = ring_motion(loads, BEARING, ring_geometry(BEARING, model), truncation_load(BEARING, OIL))
+    roller = Setup(Case(loads=loads, laws=FULL))
     checked = 0
     for k in range(1, found.time.size):
-        t = float(found.time[k])
-        interval = min(int(np.searchsorted(motion.time, t, side="right")) - 1, motion.time.size - 2)
-        at = station_by_address(roller, initial_angles("downwind", 28)[0], instant(motion, interval, t))
-        if at.elastic_load < 3e3:
+        at = roller.at(float(found.time[k]))
+        if at["elastic_load"] < 3e3:
             continue
-
-        def moment(slip, at=at):
-            forces = forces_by_address(roller, at, slip)
-            return forces.inner + forces.outer + forces.cage
-
-        root = brentq(moment, -0.01, 0.01, xtol=1e-14)
+        root = brentq(lambda slip, at=at: roller.moment(at, slip), -0.01, 0.01, xtol=1e-14)
         assert float(found.slip[k]) == pytest.approx(root, rel=2e-3, abs=1e-7)
         checked += 1
     assert checked > 3
@@ -577,17 +606,17 @@ def test_the_largest_power_per_area_at_the_cage_is_that_of_its_contact():
     case = Case(loads=loads, laws=Laws.physical(), rollers=[0], window=Window(start=8.0))
     extremes = simulate(case).power_density.sel(interface="cage").isel(roller=0)
     result = simulate(replace(case, traces=Traces(step=0.01)))
-    cage = roller_model(BEARING, OIL, 1, tilt=math.radians(5.0), laws=Laws.physical()).cage
-    area = 2.0 * cage.semi_axis_across * cage.semi_axis_along
+    cage = roller_model(BEARING, OIL, 1, tilt=math.radians(5.0), laws=Laws.physical()).laws.cage
+    hertz = cage.interface.hertz
+    area = 2.0 * hertz.semi_axis_across * hertz.semi_axis_along
     for row in result.row.values:
         trace = result.sel(row=row).isel(roller=0)
         pushes, surfaces = np.abs(trace.cage_force.values), RADIUS * trace.spin.values
-        density = np.array(
-            [
-                0.75 * cage_contact(cage, push, -surface).power / (area * push ** (2.0 / 3.0)) if push else 0.0
-                for push, surface in zip(pushes, surfaces, strict=True)
-            ]
-        )
+        pressed = pushes > 0.0
+        thickness = cage.film_thickness(pushes[pressed], 0.5 * np.abs(surfaces[pressed]))
+        power = np.abs(surfaces[pressed]) * cage.uniform_traction(pushes[pressed], thickness, np.abs(surfaces[pressed]))
+        density = np.zeros(pushes.size)
+        density[pressed] = 0.75 * power / (area * pushes[pressed] ** (2.0 / 3.0))
         for orbit in range(result.sizes["orbit"]):
             inside = (result.time >= result.orbit_start[orbit]) & (result.time <= result.orbit_end[orbit])
             largest = float(extremes.sel(row=row)[orbit])

@@ -5,7 +5,6 @@ import pytest
 
 from macroslip import BearingLoads, Case, HubLoads, InputError, Traces, simulate
 from macroslip.bearing import geometry
-from macroslip.film.film_law import film_thickness
 from macroslip.result.orbit_films import films
 from macroslip.result.orbit_position import in_window, position
 from macroslip.result.orbit_profile import energy_over_orbit, load_zone, orbit_profile, over_orbit
@@ -92,7 +91,7 @@ def test_films_are_those_of_the_law(constant):
     outward = outward * model.cos_contact_angle + model.weight_along_axis * model.sin_contact_angle
     load = float(one.roller_load) + max(outward, 0.0)
     speed = abs(float(one.spin_pure + one.spin)) / 2 * model.radius
-    thickness, _, _ = film_thickness(model.outer.film, load, speed)
+    thickness = float(model.laws.outer.film_thickness(load, speed))
     assert float(at.film_thickness.sel(interface="outer")) == pytest.approx(thickness, rel=1e-9)
     ratio = found.film_parameter / found.film_thickness
     roughness = run_input(constant).bearing.composite_roughness

@@ -5,7 +5,7 @@ import pytest
 
 from macroslip import Bearing, BearingLoads, Case, rate_case, simulate
 from macroslip.result.rating import with_rating
-from macroslip.study.summary import VARIABLES, rating_values
+from macroslip.study.summary import RATING_VARIABLES, rating_values
 
 pytestmark = pytest.mark.slow
 
@@ -52,14 +52,14 @@ def test_a_bearing_without_load_ratings_is_not_rated(result):
 
 def test_the_summary_keeps_what_the_rating_gives(case):
     values, rating = rating_values(case), rate_case(case)
-    assert list(values) == list(VARIABLES)
+    assert list(values) == list(RATING_VARIABLES)
     assert values["static_safety"] == float(rating.static_safety)
     assert values["reference_life"] == float(rating.reference_life.sel(load_along_roller="hertz"))
     assert values["largest_pressure"] == float(rating.largest_pressure.max())
     assert values["damage_equivalent_load_10"] == float(
         rating.damage_equivalent_load.sel(load="radial").isel(wohler_exponent=1)
     )
-    shared = [name for name in VARIABLES if name in rating]
+    shared = [name for name in RATING_VARIABLES if name in rating]
     assert {"static_safety", "basic_life", "largest_pressure"} <= set(shared)
     for name in shared:
-        assert rating[name].units == VARIABLES[name][0]
+        assert rating[name].units == RATING_VARIABLES[name][0]

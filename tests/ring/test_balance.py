@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog, minimize
 from scipy.special import beta
 
+from macroslip.contact.interface import truncation_load
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads
 from macroslip.ring.balance import (
@@ -19,7 +20,7 @@ from macroslip.ring.balance import (
     roller_loads,
 )
 from macroslip.ring.motion import largest_load, ring_motion
-from macroslip.roller.model import ring_geometry, roller_model, truncation_load
+from macroslip.roller.model import ring_geometry, roller_model
 
 COUNT, ALPHA, PLAY, STIFFNESS, RATIO = 28, math.radians(11.2), 1e-4, 9.258e10, 0.4539
 PITCH = 2 * math.pi / COUNT

@@ -130,17 +130,13 @@ class Contact(NamedTuple):
 
 def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
     """Inner, outer and cage contact of a roller."""
-    return tuple(
-        Contact(
-            # Tables are made for one side; here the row's own tilt counts.
-            patch_of(one)._replace(spin_ratio=one.shape.spin_ratio),
-            chords_for(one),
-            one.fluid is not None,
-            one.interface.roughness,
-            one.effusivity,
-        )
-        for one in (laws.inner, laws.outer, laws.cage)
-    )
+
+    def contact(one: ContactLaws) -> Contact:
+        # Tables are made for one side; here the row's own tilt counts.
+        patch = patch_of(one)._replace(spin_ratio=one.shape.spin_ratio)
+        return Contact(patch, chords_for(one), one.fluid is not None, one.interface.roughness, one.effusivity)
+
+    return contact(laws.inner), contact(laws.outer), contact(laws.cage)
 
 
 @jit_inline
@@ -423,7 +419,8 @@ class Looker:
         states, ratio = self._states(steps[looks["step"], j]), float(self._roller.body[0]["orbit_ratio"])
         hottest = _look(steps, j, looks, states, self._contacts, self._start_angle, ratio, self.details)
         steel, inside = self._contacts[0].effusivity, looks["orbit"] >= 0
-        flash = flash_temperature(*np.moveaxis(hottest[inside], -1, 0), steel, steel)
+        power, half_width, speed, other = np.moveaxis(hottest[inside], -1, 0)
+        flash = flash_temperature(power, half_width, speed, other, steel, steel)
         np.maximum.at(self.details.extreme[..., 0], looks["orbit"][inside], flash)
         self._check_quadrature(steps[looks["step"], j], looks, states)
 

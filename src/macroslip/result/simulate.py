@@ -45,7 +45,8 @@ def simulate(
     threads : int, optional
         Threads over rollers; the number of usable processors by default. Results do not depend on it.
     progress : callable, optional
-        Called as progress(done, total) after each roller, and twice a second meanwhile. An exception in it ends all.
+        Called as progress(done, total) whenever rollers are done, and twice a second meanwhile; the rollers of a whole
+        bearing are done together. An exception in it ends the simulation.
 
     Returns
     -------
@@ -177,12 +178,15 @@ def _whole_bearing(
         case.bearing, case.oil, case.cage, tilt=case.drivetrain.tilt, gravity=case.gravity, drag=case.drag,
         laws=case.laws,
     )  # fmt: skip
+    count = bearing.places.size
+    # All rollers are done together.
+    together = progress and (lambda done, total: progress(done * count, total * count))
     with ThreadPoolExecutor(1) as pool:
         for _ in range(_ENLARGED + 1):
             # In a thread of its own, so that an interrupt arrives here.
             future = pool.submit(_run_whole, ready, wanted, bearing, stop)
             try:
-                for _ in _finished({future}, progress, 0, bearing.places.size):
+                for _ in _finished({future}, together, 0, 1):
                     pass
             except BaseException:
                 stop.set()
