@@ -4,7 +4,7 @@ import importlib.util
 
 import pytest
 
-from macroslip.cli.needs import FIGURES, WORKERS, require
+from macroslip.cli.needs import FIGURES, SCHEDULER, require
 from macroslip.errors import MacroslipError
 
 
@@ -22,7 +22,7 @@ def without(monkeypatch):
 
 
 def test_all_is_there():
-    require(FIGURES, WORKERS)
+    require(FIGURES, SCHEDULER)
 
 
 def test_the_message_names_package_and_remedy(without):
@@ -30,7 +30,7 @@ def test_the_message_names_package_and_remedy(without):
     with pytest.raises(
         MacroslipError, match=r"for a page or a picture: jinja2\. .*pip install 'macroslip\[figures\]'$"
     ):
-        require(FIGURES, WORKERS)
+        require(FIGURES, SCHEDULER)
 
 
 def test_a_dry_run_refuses_what_the_run_would_refuse(folder, macroslip, without):

@@ -181,6 +181,10 @@ class LawList:
         """Take a law away again."""
         del self._laws[name]
 
+    def all(self) -> list[Law]:
+        """The laws."""
+        return list(self._laws.values())
+
     def names(self) -> list[str]:
         """Names of the laws."""
         return sorted(self._laws)
@@ -204,6 +208,11 @@ class LawList:
 
 
 FILM_LAWS, TRACTION_LAWS = LawList("film"), LawList("traction", reserved=(MECHANISMS,))
+
+
+def own_sources() -> list[str]:
+    """Texts that change whenever a registered law of one's own may."""
+    return sorted(law.source for laws in (FILM_LAWS, TRACTION_LAWS) for law in laws.all() if law.is_own)
 
 
 def register_film(
