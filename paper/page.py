@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from macroslip.report.bibliography import bibtex
+from macroslip.report.provenance import bibtex
 
 from macroslip.imposed.status import Status
 from macroslip.input.record import TAGS

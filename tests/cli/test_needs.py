@@ -36,7 +36,7 @@ def test_the_message_names_package_and_remedy(without):
 def test_a_dry_run_refuses_what_the_run_would_refuse(folder, macroslip, without):
     (folder / "study.yaml").write_text("loads: {bundled: [14B]}\n")
     without("distributed")
-    done = macroslip("study", "study.yaml", "--dry-run", "--workers", "2")
+    done = macroslip("study", "study.yaml", "--dry-run", "--scheduler", "tcp://127.0.0.1:1")
     assert (done.code, done.out) == (2, "")
     assert "distributed" in done.err and "[cluster]" in done.err
 
@@ -45,4 +45,4 @@ def test_doctor_says_which_command_lacks_what(macroslip, without):
     without("matplotlib")
     lines = macroslip("doctor").out.splitlines()
     assert any(line.startswith("macroslip report ") and "lacks matplotlib" in line for line in lines)
-    assert any(line.startswith("macroslip study --workers ") and "ready" in line for line in lines)
+    assert any(line.startswith("macroslip study --scheduler ") and "ready" in line for line in lines)
