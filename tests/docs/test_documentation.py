@@ -13,9 +13,10 @@ from macroslip.input.section import fields_of, form_of, keys_of
 from macroslip.imposed.status import Status
 from macroslip.study.export import tables
 from macroslip.study.store import Outcome
-from macroslip.study.study_file import KINDS, StudyFile, study_of
+from macroslip.study.study_file import study_of
+from macroslip.study.study_keys import KINDS, StudyFile
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.settings import METHODS, SCALES
+from macroslip.study.variation import METHODS, SCALES
 from macroslip.study.weights import Weibull
 
 ROOT = Path(__file__).parents[2]
