@@ -99,14 +99,16 @@ class Law(NamedTuple):
 
     def inside(self, interface: Interface, load, entrainment_speed) -> np.ndarray:
         """Whether a film law is in its range."""
-        shape = np.broadcast(load, entrainment_speed).shape
+        arrays = np.broadcast_arrays(np.asarray(load, dtype=float), np.asarray(entrainment_speed, dtype=float))
+        shape, size = arrays[0].shape, arrays[0].size
         if self.in_range is None:
             return np.ones(shape, dtype=bool)[()]
         where = f"in_range of {self.kind} law '{self.name}', {interface.name}"
-        found = self._called(where, self.in_range, interface, np.asarray(load), np.asarray(entrainment_speed))
-        if found.shape != shape or found.dtype != bool:
-            raise _wrong(f"it gives {_described(found)}", where, f"an array of truth values of shape {shape}")
-        return found[()]
+        found = self._called(where, self.in_range, interface, *(np.array(one).ravel() for one in arrays))
+        if found.shape != (size,) or found.dtype != bool:
+            what = f"for {size} states it gives {_described(found)}"
+            raise _wrong(what, where, f"an array of {size} truth values, one for each state")
+        return found.reshape(shape)[()]
 
     @staticmethod
     def _called(where: str, function: Callable, *arguments: Any) -> np.ndarray:
@@ -181,10 +183,6 @@ class LawList:
         """Take a law away again."""
         del self._laws[name]
 
-    def all(self) -> list[Law]:
-        """The laws."""
-        return list(self._laws.values())
-
     def names(self) -> list[str]:
         """Names of the laws."""
         return sorted(self._laws)
@@ -210,9 +208,10 @@ class LawList:
 FILM_LAWS, TRACTION_LAWS = LawList("film"), LawList("traction", reserved=(MECHANISMS,))
 
 
-def own_sources() -> list[str]:
-    """Texts that change whenever a registered law of one's own may."""
-    return sorted(law.source for laws in (FILM_LAWS, TRACTION_LAWS) for law in laws.all() if law.is_own)
+def own_laws() -> list[str]:
+    """Texts of the registered laws of one's own, which change whenever one of them may; sorted, empty without any."""
+    laws = [kind.named(name) for kind in (FILM_LAWS, TRACTION_LAWS) for name in kind.names()]
+    return sorted(law.source for law in laws if law.is_own)
 
 
 def register_film(
@@ -392,7 +391,7 @@ def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, sp
 
 def _described(found: np.ndarray) -> str:
     if found.ndim == 0:
-        return f"{found[()]!r:.80}"
+        return f"{found.item()!r:.80}"
     return f"an array of shape {found.shape} of type {found.dtype}"
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from macroslip.case.parts import Traces, Window
-from macroslip.contact.registry import own_sources
+from macroslip.contact.registry import own_laws
 from macroslip.errors import InputError, MacroslipError
 from macroslip.files import is_special, write_durably
 from macroslip.fingerprint import KERNEL_PARTS, RESULT_PARTS, fingerprint
@@ -47,7 +47,7 @@ class StoreError(MacroslipError):
 def program() -> str:
     """Hash of the program as far as results depend on it: its sources, and registered laws of the user's own."""
     parts = fingerprint(*KERNEL_PARTS, *RESULT_PARTS, *_STORED_PARTS)
-    return hashlib.sha256("\0".join([parts, *own_sources()]).encode()).hexdigest()
+    return hashlib.sha256("\0".join([parts, *own_laws()]).encode()).hexdigest()
 
 
 def case_key(case: Case, options: Mapping[str, Any]) -> str:
