@@ -24,7 +24,7 @@ test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs;
 
 test-lowest:  ## input, a computed case and results with the lowest versions that pyproject.toml allows
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
-	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing tests/integrate/test_sealed.py src/macroslip/result/simulate.py
+	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing src/macroslip/result/simulate.py
 
 lint: $(VENV)/.ready  ## format, lint and types
 	$(BIN)/ruff format --check .
@@ -36,6 +36,7 @@ docs: $(VENV)/.ready  ## the documentation site in build/docs; warnings are erro
 
 bench: $(VENV)/.ready  ## the integrator against its rivals, measured here and now
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
+	@$(BIN)/python -m pip install --quiet --editable '.[lsoda]' 2>/dev/null || echo "LSODA (numbalsoda) is left out: it is built from source, and that needs gfortran, g++ and CMake"
 	$(BIN)/python -m benchmarks $(ARGS)
 
 $(VENV)/.figures: pyproject.toml

@@ -80,9 +80,7 @@ def long_histories(*, quick: bool, laws: Laws = Laws.paper()) -> list[History]:
     """All 21 cases over their 600 s, one roller of each row; in the quick run the one case of the comparison."""
     names = bundled_cases()
     chosen = [(number, name) for number, name in enumerate(names) if not quick or name in QUICK[0]]
-    return [
-        history for number, name in chosen for history in histories_of(name, None, None, [7 * number % 28], laws)
-    ]
+    return [history for number, name in chosen for history in histories_of(name, None, None, [7 * number % 28], laws)]
 
 
 def histories_of(

@@ -45,9 +45,7 @@ def evaluations(d: np.ndarray) -> float:
 @jit_inline
 def _motion(d, samples):
     k, n = _SIZE, samples
-    return Motion(
-        d[k : k + n], d[k + n : k + 2 * n], d[k + 2 * n : k + 3 * n], d[k + 3 * n : k + 6 * n].reshape(n, 3)
-    )
+    return Motion(d[k : k + n], d[k + n : k + 2 * n], d[k + 2 * n : k + 3 * n], d[k + 3 * n : k + 6 * n].reshape(n, 3))
 
 
 @jit_inline

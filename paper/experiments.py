@@ -244,7 +244,9 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
     ratios = {name: (run.spin.values / run.spin_pure.values)[kept] for name, run in runs.items()}
     load = converged.roller_load.values[kept]
     ring_speed = abs(float(converged.spin_pure[0])) * model.radius
-    rates = np.array([relaxation_rate(roller.body[0], roller.tables, one, ring_speed) if one > 0.0 else 0.0 for one in load])
+    rates = np.array(
+        [relaxation_rate(roller.body[0], roller.tables, one, ring_speed) if one > 0.0 else 0.0 for one in load]
+    )
     relaxation = np.divide(1.0, rates, out=np.full_like(rates, np.nan), where=rates > 0.0)
     deviations = {name: np.abs(ratios[name] - ratios["converged"]) for name in ("explicit", "backward")}
     beyond = np.flatnonzero(step * np.maximum(rates, 0.0) > 2.0)

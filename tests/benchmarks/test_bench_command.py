@@ -112,5 +112,5 @@ def test_without_matplotlib_it_says_what_to_install(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     done = bench("--quick", "-o", tmp_path / "out")
     assert done.exit_code == 2
-    assert "pip install 'macroslip[bench]'" in done.stderr and "Traceback" not in done.stderr
+    assert "pip install 'macroslip[bench,lsoda]'" in done.stderr and "Traceback" not in done.stderr
     assert not (tmp_path / "out").exists()
