@@ -36,6 +36,7 @@ docs: $(VENV)/.ready  ## the documentation site in build/docs; warnings are erro
 
 bench: $(VENV)/.ready  ## the integrator against its rivals, measured here and now
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
+	@$(BIN)/python -m pip install --quiet --editable '.[lsoda]' 2>/dev/null || echo "LSODA (numbalsoda) is left out: it is built from source, and that needs gfortran, g++ and CMake"
 	$(BIN)/python -m benchmarks $(ARGS)
 
 $(VENV)/.figures: pyproject.toml

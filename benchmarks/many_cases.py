@@ -20,14 +20,13 @@ import sys
 import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import nullcontext
 from pathlib import Path
 
 from macroslip import open_study, run_study
+from macroslip.cli.needs import SCHEDULER, require
 from macroslip.machine import usable_processors
 from macroslip.study.study_file import study_of
 from macroslip.study.summary import NUMBERS
-from macroslip.study.workers import check_dask
 
 CASES = ["12A", "12C", "14B", "16A", "18B", "20C", "22A", "24A"]
 ROUNDS = 3
@@ -221,8 +220,14 @@ def coordinator(folder: Path, quick: bool) -> dict[str, float]:
     work = study(count, 12.0, [0])
 
     class Pretended:
-        def __init__(self):
+        def __init__(self, count):
             self.tasks = []
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *error):
+            pass
 
         def free_places(self):
             return 200 - len(self.tasks)
@@ -241,7 +246,7 @@ def coordinator(folder: Path, quick: bool) -> dict[str, float]:
                 "layout": json.dumps({"sizes": {"row": 2}, "variables": "0" * 16}), "values": dict.fromkeys(NUMBERS, 0.1234567),
             }  # fmt: skip
 
-    module.threads_here = lambda count: nullcontext(Pretended())
+    module.ThisProcess = Pretended
     out = folder / "pretended"
     started, wall = time.process_time(), time.perf_counter()
     run_study(work, out)
@@ -264,7 +269,8 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, default=Path("many_cases.json"))
     parser.add_argument("--only", choices=("speed", "scheduler", "memory", "coordinator"))
     given = parser.parse_args()
-    check_dask()
+    if given.only in (None, "scheduler"):
+        require(SCHEDULER)
     found: dict[str, object] = {"cores": usable_processors(), "load_before": os.getloadavg()[0]}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -23,11 +23,12 @@ import numpy as np
 from macroslip import Bearing, BearingLoads, Case, HubLoads, Lubricant, simulate
 from macroslip.bearing.geometry import orbit_ratio
 from macroslip.case.case import IMPOSED_ORBIT, WHOLE_BEARING, Radau
+from macroslip.contact.interface import highest_load, truncation_load
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, main_bearing_load
 from macroslip.mechanisms import Laws
 from macroslip.ring.motion import ring_motion
-from macroslip.roller.model import highest_load, ring_geometry, roller_model, truncation_load
+from macroslip.roller.model import ring_geometry, roller_model
 
 TIGHT = 1e-6
 #: Allowed relative errors of a roller's energy in the window, and of its peak power in each orbit.

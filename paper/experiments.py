@@ -14,15 +14,16 @@ from functools import partial
 
 import numpy as np
 import xarray as xr
-from macroslip.integrate.held_contact import relaxation_rate
 
 import macroslip as ms
 from macroslip import BearingLoads, Laws
 from macroslip.bearing import geometry
-from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing.geometry import ROWS, initial_angles
+from macroslip.imposed.zones import relaxation_rate
 from macroslip.machine import usable_processors
+from macroslip.result.prepared import prepare
 from macroslip.ring.orbit import travel
-from macroslip.roller.model import roller_model
+from macroslip.roller.model import with_tables
 from paper.studies import DETAILED_CASE, put
 
 #: Names of the static loads, and whether the mean thrust acts too.
@@ -235,14 +236,17 @@ def compare_stability(static: BearingLoads, *, step: float = 1e-3) -> xr.Dataset
         for name, method in methods.items()
     }
     converged = runs["converged"]
-    model = roller_model(bearing, case.lubricant, AXIAL_SIGNS["downwind"], tilt=case.drivetrain.tilt)
+    ready = prepare(case)
+    model, roller = ready.model, with_tables(ready.models, ready.box)[0]["downwind"]
     turned = np.degrees(model.orbit_ratio * converged.time.values * float(static.shaft_speed[0]))
     kept = turned <= 180.0
     angle = np.degrees(float(converged.start_angle)) + 90.0 + turned[kept]
     ratios = {name: (run.spin.values / run.spin_pure.values)[kept] for name, run in runs.items()}
     load = converged.roller_load.values[kept]
     ring_speed = abs(float(converged.spin_pure[0])) * model.radius
-    rates = np.array([relaxation_rate(model, one, ring_speed) for one in load])
+    rates = np.array(
+        [relaxation_rate(roller.body[0], roller.tables, one, ring_speed) if one > 0.0 else 0.0 for one in load]
+    )
     relaxation = np.divide(1.0, rates, out=np.full_like(rates, np.nan), where=rates > 0.0)
     deviations = {name: np.abs(ratios[name] - ratios["converged"]) for name in ("explicit", "backward")}
     beyond = np.flatnonzero(step * np.maximum(rates, 0.0) > 2.0)

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from macroslip.report.bibliography import bibtex
 
 from macroslip.imposed.status import Status
 from macroslip.input.record import TAGS
 from macroslip.machine import machine
+from macroslip.report.provenance import bibtex
 from macroslip.torque import TorqueHistory
 from paper import figures
 from paper.uncertainty import DRIVER_LEVEL, drivers, robust, strongest

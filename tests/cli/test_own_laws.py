@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from macroslip import Bearing, Lubricant
-from macroslip.roller.model import interfaces
+from macroslip.contact.interface import interfaces
 
 pytestmark = pytest.mark.slow
 

@@ -39,9 +39,6 @@ def run(
 
         load_laws(path)
     checked = read_case(case)
-    from macroslip.integrate.ahead import compile_ahead
-
-    compile_ahead(physical=checked.laws.microslip)
     from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
     from macroslip.result.stored import to_netcdf

@@ -25,6 +25,7 @@ from concurrent.futures import (
 )  # fmt: skip
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
+from multiprocessing import resource_tracker
 from threading import Event, Thread
 from typing import Any
 
@@ -186,9 +187,11 @@ def _safe_start() -> Iterator[None]:
     """Processes started in the block find no module in the current folder, and leave Ctrl-C to this process."""
     safe, path = process_environment(), list(sys.path)
     before = {name: os.environ.get(name) for name in safe}
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     os.environ.update(safe)
     sys.path[:] = [entry for entry in path if entry]
+    # It would be started with the first process, and then let Ctrl-C through again.
+    resource_tracker.ensure_running()
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     try:
         yield
     finally:
