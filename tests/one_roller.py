@@ -9,10 +9,16 @@ import numpy as np
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.contact.table import table_box
-from macroslip.imposed.run import Outcome, Problem, radau_limits, steps_of
+from macroslip.imposed.euler import integrate_fixed_step
+from macroslip.imposed.radau import LIMITS, WORK, Path
+from macroslip.imposed.run import radau_limits
+from macroslip.imposed.solve import integrate
+from macroslip.imposed.status import UNDER_WAY
+from macroslip.imposed.zones import classify
 from macroslip.ring.orbit import Instant, Motion, shaft_angle
 from macroslip.roller.forces import FORCES, STATION, powers, slip_forces, station
 from macroslip.roller.model import Roller, RollerModel, roller_model, with_tables
+from macroslip.roller.step import STEP
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 RATED = 20.463 * 2.0 * math.pi / 60.0
@@ -82,12 +88,20 @@ def limits_of(roller: Roller, motion: Motion, tolerance: float, *, heaviest: flo
     )
 
 
-def walk(roller: Roller, motion: Motion, limits, stops, angle: float) -> tuple[np.ndarray, Outcome]:
-    """All steps of the roller, and how it went."""
-    outcome, found = Outcome(), []
-    for steps in steps_of(Problem(roller, motion, limits, np.asarray(stops, float)), angle, outcome):
-        found.append(steps[:, 0].copy())
-    return np.concatenate(found), outcome
+def walk(roller: Roller, motion: Motion, limits, stops, angle: float, *, slip: float = 0.0, rows: int = 1000):
+    """All steps of the roller from a slip [m/s] on, in buffers of so many rows, and its status and record of work."""
+    path = Path(roller.body[0], roller.tables, motion, float(angle), limits[0])
+    work, classes, found = np.zeros(1, WORK), np.zeros(motion.time.size - 1, np.int8), []
+    work["slip"], buffer, status = slip, np.zeros(rows, STEP), UNDER_WAY
+    if limits.dtype == LIMITS:
+        classify(roller.body[0], motion, float(angle), limits["firm"][0], classes)
+    while status == UNDER_WAY:
+        if limits.dtype == LIMITS:
+            status, count = integrate(path, np.asarray(stops, float), classes, work[0], buffer)
+        else:
+            status, count = integrate_fixed_step(path, work[0], buffer)
+        found.append(buffer[:count].copy())
+    return np.concatenate(found), int(status), work[0]
 
 
 def energies(steps: np.ndarray) -> np.ndarray:

@@ -223,9 +223,8 @@ def test_traction_rises_up_to_the_bound(laws, load):
     pulls = np.array([forces_of(made, a_station(load), one)["inner"] for one in np.linspace(0.0, bound, 60)])
     assert (np.maximum.accumulate(pulls) - pulls).max() < 5e-3 * pulls.max()
     both = surely_rising(made.body[0], made.tables, 1e3, 1e5, 0.4)
-    assert both == pytest.approx(
-        min(surely_rising(made.body[0], made.tables, one, one, 0.4) for one in (1e3, 1e5)), rel=0.5
-    )
+    alone = [surely_rising(made.body[0], made.tables, one, one, 0.4) for one in (1e3, 1e5)]
+    assert min(alone) <= both <= max(alone)
     if laws.name == "paper":
         assert forces_of(made, a_station(load), 100 * bound)["inner"] < forces_of(made, a_station(load), 10 * bound)["inner"]
 
