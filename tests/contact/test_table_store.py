@@ -6,7 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from macroslip import Bearing, Laws, Lubricant
 from macroslip.contact import table_store as store
+from macroslip.contact.laws import prepare
+from macroslip.contact.look_up import TRACTION
+from macroslip.contact.table import Tables, table_box, write_traction
 
 
 @pytest.fixture
@@ -93,10 +97,50 @@ def test_the_store_is_bounded(place, monkeypatch):
     assert 1 <= len(files) <= 3 and sum(path.stat().st_size for path in files) <= 30_000
 
 
-def test_keys_differ_with_any_value_and_with_the_sources(models, monkeypatch):
-    contact = models[1].inner
-    key = store.table_key(contact, 1.0)
-    assert key == store.table_key(contact, 1.0)
-    assert key != store.table_key(models[1].outer, 1.0) and key != store.table_key(contact, 1.0 + 1e-15)
-    monkeypatch.setattr(store, "own_laws", lambda: ["def thickness(): ..."])
-    assert key != store.table_key(contact, 1.0)
+def test_keys_differ_with_any_value():
+    one = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1)
+    key = store.table_key(one.inner.fluid, 1.0, np.arange(3.0))
+    assert key == store.table_key(one.inner.fluid, 1.0, np.arange(3.0))
+    others = [
+        (one.inner.fluid, 1.0 + 1e-15, np.arange(3.0)),
+        (one.inner.fluid, 1.0, np.arange(3)),
+        (one.inner.fluid, 1.0, np.arange(3.0).reshape(3, 1)),
+        (one.inner.fluid._replace(heating=0.0), 1.0, np.arange(3.0)),
+        (one.inner.interface.hertz, 1.0, np.arange(3.0)),
+    ]
+    assert len({key, *(store.table_key(*parts) for parts in others)}) == 6
+
+
+def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
+    """A sheet of a raceway's traction, cut in the middle: the table is the same, and the file is whole again."""
+    box = table_box(np.array([-0.41, -0.40]), 1e3, 2e-4)._replace(fineness=2.0)
+    contact = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1).inner
+
+    def made():
+        forget(monkeypatch)
+        record, tables = np.zeros(1, TRACTION), Tables()
+        write_traction(record[0], tables, contact, box)
+        return tables.flat()
+
+    first = made()
+    # Not the oil's table of stresses, which a process makes once.
+    sheets = [path for path in place.glob("*.table") if path.stat().st_size < 500_000]
+    assert len(sheets) >= 5
+    sizes = [path.stat().st_size for path in sheets]
+    for path, size in zip(sheets, sizes, strict=True):
+        path.write_bytes(path.read_bytes()[: size // 2])
+    np.testing.assert_array_equal(made(), first)
+    assert [path.stat().st_size for path in sheets] == sizes
+
+
+def test_cases_share_their_sheets(place, monkeypatch):
+    slower, faster = (
+        table_box(np.array(speeds), 1e3, 2e-4)._replace(fineness=2.0) for speeds in ([-0.41, -0.3], [-0.43, -0.35])
+    )
+    contact = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1).inner
+    forget(monkeypatch)
+    counts = []
+    for box in (slower, faster):
+        write_traction(np.zeros(1, TRACTION)[0], Tables(), contact, box)
+        counts.append(len(list(place.glob("*.table"))))
+    assert counts[1] - counts[0] < 4

@@ -2,7 +2,7 @@
 
 A raceway's traction depends on load Q, ring speed u2 and slip v. With U = |u2|, c = v sign u2, the speed
 w = √(U² + c²/4 + w0²) and the slip ratio y = c/w, which is between −2 and 2 whatever the roller does, a table has the
-coordinates ln Q + k Q^(1/3), √w and asinh((y − y_m)/y_0), and the quantities pull/Q, lag/Q^(5/3), skew/Q^(4/3) and power of
+coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0), and the quantities pull/Q, lag/Q^(5/3), skew/Q^(4/3) and power of
 asperities/(Q^(5/3) w). Traction is odd under (u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
 
 Other tables are planes over ln Q and the logarithm of a speed. Beyond the lightest load and the slowest speed of a table its
@@ -137,7 +137,7 @@ def traction(table, tables, load, log_load, ring_speed, slip):
     ratio = sliding * per_speed
     z = (ratio - table.middle) / table.scale
     size = math.sqrt(z * z + 1.0)
-    root_speed, root = math.sqrt(speed), math.exp(log_load * (1.0 / 3.0))
+    root_speed, root = math.sqrt(math.sqrt(speed)), math.exp(log_load * (1.0 / 3.0))
     i, t, load_slope = _cell(table.load, log_load + table.stretch * root)
     k, s, speed_slope = _cell(table.speed, root_speed)
     j, u, ratio_slope = _cell(table.ratio, math.copysign(math.log(abs(z) + size), z))
@@ -147,7 +147,7 @@ def traction(table, tables, load, log_load, ring_speed, slip):
     value, first, second, third = splines_in_cube(tables, start, (outer, inner), (t, s, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     # Derivatives of the coordinates: by Q, by w and by y; of w and y by v and by u2, less the sign that both take.
     load_slope *= (1.0 + table.stretch * root * (1.0 / 3.0)) / load
-    speed_slope *= 0.5 / root_speed
+    speed_slope *= 0.25 * root_speed / speed
     ratio_slope /= table.scale * size
     w_by_slip, w_by_speed = 0.25 * ratio, along * per_speed
     y_by_slip, y_by_speed = per_speed * (1.0 - 0.25 * ratio * ratio), -ratio * along * per_speed * per_speed
@@ -173,6 +173,6 @@ def rising_slip(table, tables, load, speed):
     """Slip [m/s] up to which the moment on the roller rises with slip, at Q [N] and ring speeds up to `speed` [m/s]."""
     ln_load = log_load(load)
     i, t, _ = _cell(table.load, ln_load + table.stretch * math.exp(ln_load * (1.0 / 3.0)))
-    k, s, _ = _cell(table.speed, math.sqrt(speed))
+    k, s, _ = _cell(table.speed, math.sqrt(math.sqrt(speed)))
     place = (i + (1 if t > 0.5 else 0)) * (table.speed.cells + 1) + k + (1 if s > 0.5 else 0)
     return tables[table.rising + place] * speed

@@ -1,7 +1,7 @@
 """Tables of a roller's contacts, made from laws that give values: their box, their nodes, and how far they are off.
 
 Cubic splines over load, speed and slip; `macroslip.contact.look_up` has the coordinates. All of a case's
-tables stand in one flat array. The nodes of a raceway's traction are made sheet by sheet, one for each √w, at speeds that are the
+tables stand in one flat array. The nodes of a raceway's traction are made sheet by sheet, one for each w^(1/4), at speeds that are the
 same for all cases alike, so that they share their files on disk.
 """
 
@@ -24,9 +24,9 @@ from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST
 if TYPE_CHECKING:
     from macroslip.contact.laws import ContactLaws
 
-#: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of √w for the
+#: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of w^(1/4) for the
 #: fastest speed of the box of 1 m/s.
-_LOAD_SPACING, _RATIO_SPACING, _SPEED_SPACING = 0.46, 0.085, 0.035
+_LOAD_SPACING, _RATIO_SPACING, _SPEED_SPACING = 0.46, 0.085, 0.018
 #: Share of the pressure exponent of the middle by which loads are stretched.
 _STRETCH = 0.6
 #: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller carries some newtons of its
@@ -279,9 +279,9 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
     least, most = (math.asinh((y - middle) / scale) for y in (-2.0, 2.0))
     # Speeds of sheets are those of all cases whose fastest speed is of the same order.
-    spacing = _SPEED_SPACING * box.fineness * math.sqrt(2.0 ** math.ceil(math.log2(box.fastest)))
-    first = max(math.floor(math.sqrt(box.slowest) / spacing) - _BEYOND, 0)
-    last = max(math.ceil(math.sqrt(box.fastest) / spacing) + _BEYOND, first + 4)
+    spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
+    first = max(math.floor(box.slowest**0.25 / spacing) - _BEYOND, 0)
+    last = max(math.ceil(box.fastest**0.25 / spacing) + _BEYOND, first + 4)
     return _Grid(
         axis(light, heavy, _LOAD_SPACING * box.fineness),
         Axis(first * spacing, 1.0 / spacing, last - first),
@@ -366,7 +366,7 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
         name = table_key(
             key, grid.load, grid.ratio, grid.stretch, grid.middle, grid.scale, round(float(root_speed), 12)
         )
-        (found,) = stored(name, lambda speed=float(root_speed) ** 2: [_sheet(contact, grid, speed)])
+        (found,) = stored(name, lambda speed=float(root_speed) ** 4: [_sheet(contact, grid, speed)])
         sheets.append(found[:-1].reshape(shape))
         seconds += float(found[-1])
     nodes = np.stack(sheets, axis=1)
@@ -418,7 +418,7 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
         (coordinate - one.first) * one.per_spacing + 1.0
         for one, coordinate in (
             (grid.load, np.log(load) + grid.stretch * root),
-            (grid.speed, np.sqrt(speed)),
+            (grid.speed, speed**0.25),
             (grid.ratio, np.arcsinh((ratio - grid.middle) / grid.scale)),
         )
     ]
