@@ -113,6 +113,14 @@ def _import(path: Path, name: str) -> None:
         where = ", ".join(part for part in (_place(path, problem), problem.where) if part)
         raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
     except (Exception, SystemExit) as error:
+        if isinstance(error, ImportError) and str(error.name).startswith("macroslip."):
+            raise InputError(
+                "the file uses laws with derivatives and compiled functions, as an earlier version had them",
+                where=_place(path, error),
+                allowed="functions of NumPy arrays that give values",
+                remedy="Write film(interface, load, speed) or traction(interface, load, film, slip) and call "
+                "macroslip.register_film or macroslip.register_traction, as macroslip init --example laws shows.",
+            ) from None
         reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
         what = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
         remedy = f"Mend it; python {path} shows where the error comes from."

@@ -15,7 +15,6 @@ from macroslip.contact.registry import (
     TRACTION_LAWS,
     check_own_laws,
     film_range_notes,
-    refuse_derivatives,
     register_film,
     register_traction,
 )
@@ -189,8 +188,6 @@ def test_names_that_are_taken_or_unknown_are_refused():
         prepare(Laws.paper().but(film="dowson"), BEARING, OIL, 1)
     with pytest.raises(InputError, match="^laws.traction: there is no traction law 'coulomb'. Allowed: mechanisms"):
         prepare(Laws.paper().but(traction="coulomb"), BEARING, OIL, 1)
-    with pytest.raises(InputError, match="the law 'old' comes with derivatives.*register_film"):
-        refuse_derivatives("old", object, reference="", prepare=None)
 
 
 def test_package_laws_are_not_tried(monkeypatch):

@@ -226,7 +226,10 @@ def test_traction_rises_up_to_the_bound(laws, load):
     alone = [surely_rising(made.body[0], made.tables, one, one, 0.4) for one in (1e3, 1e5)]
     assert min(alone) <= both <= max(alone)
     if laws.name == "paper":
-        assert forces_of(made, a_station(load), 100 * bound)["inner"] < forces_of(made, a_station(load), 10 * bound)["inner"]
+        assert (
+            forces_of(made, a_station(load), 100 * bound)["inner"]
+            < forces_of(made, a_station(load), 10 * bound)["inner"]
+        )
 
 
 def test_only_the_root_continuous_with_the_past_is_taken(roller):

@@ -8,7 +8,7 @@ import pytest
 
 from macroslip import BearingLoads, Case, InputError, Laws, load_laws, register_film, register_traction, simulate
 from macroslip.contact import registry
-from macroslip.contact.registry import check_own_laws, refuse_derivatives
+from macroslip.contact.registry import check_own_laws
 
 pytestmark = pytest.mark.slow
 
@@ -110,11 +110,6 @@ def test_a_law_that_does_not_return_is_given_up(monkeypatch):
 def test_a_simulation_looks_before_its_first_step():
     with pytest.raises(InputError, match="film law 'negative', inner, load"):
         simulate(Case(loads=LOADS, rollers=[0], laws=Laws.paper().but(film="negative")))
-
-
-def test_a_law_with_derivatives_is_refused_with_what_to_change():
-    with pytest.raises(InputError, match="'mine' comes with derivatives.*Write it as film\\(interface, load, speed\\)"):
-        refuse_derivatives("mine", tuple, reference="none", prepare=tuple, thickness=max)
 
 
 def test_a_copy_of_a_law_of_the_package_gives_its_results():

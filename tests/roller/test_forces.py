@@ -40,7 +40,9 @@ ORBITAL = RATED * INNER_RADIUS / (INNER_RADIUS + OUTER_RADIUS)
 SIGNS = {"downwind": 1, "upwind": -1}
 ODD = ("inner", "outer", "cage", "cage_load", "resistance", "lag", "skew")
 
-clock = pytest.mark.parametrize("angle", [0.0, math.pi / 2, math.pi, -math.pi / 2], ids=["right", "top", "left", "bottom"])
+clock = pytest.mark.parametrize(
+    "angle", [0.0, math.pi / 2, math.pi, -math.pi / 2], ids=["right", "top", "left", "bottom"]
+)
 rows = pytest.mark.parametrize("row", SIGNS)
 
 

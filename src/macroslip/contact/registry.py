@@ -280,22 +280,6 @@ def register_traction(name: str, function: Callable, *, reference: str, kinks: I
     TRACTION_LAWS.add(Law("traction", name, function, reference, kinks=tuple(sorted(map(float, kinks)))))
 
 
-def refuse_derivatives(name: str = "", *_: Any, **__: Any) -> None:
-    """Refuse a law that was written with its derivatives, for an older version.
-
-    Raises
-    ------
-    InputError
-        Always.
-    """
-    raise InputError(
-        f"the law '{name}' comes with derivatives and compiled functions",
-        allowed="a function of NumPy arrays that gives values",
-        remedy="Write it as film(interface, load, speed) or traction(interface, load, film, slip) and register it with "
-        "macroslip.contact.registry.register_film or register_traction, as docs/laws.md shows",
-    )
-
-
 register_film(
     "masjedi-khonsari",
     film.masjedi_khonsari,

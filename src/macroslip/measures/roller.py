@@ -111,7 +111,9 @@ class RollerMeasures:
             (steps["weight"][:, 0] == 0.0) & (steps["start"] < steps["end"]), -np.inf,
             steps["time"][np.arange(steps.size), last],
         )  # fmt: skip
-        places = np.searchsorted(np.maximum.accumulate(reached), times[self._next_trace :], side="left")
+        # A step may end on a sample of the loads that is a rounding before the time.
+        wanted = times[self._next_trace :] - 1e-14 * np.abs(times[self._next_trace :])
+        places = np.searchsorted(np.maximum.accumulate(reached), wanted, side="left")
         places = places[places < steps.size]
         self._next_trace += places.size
         if places.size:

@@ -167,6 +167,7 @@ def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Even
             raise _InterruptedError
         measures.add(steps, 0)
     measures.finish()
+    measures.end_slip = outcome.slip
     return Measured(measures, outcome)
 
 

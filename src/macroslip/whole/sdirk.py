@@ -237,7 +237,7 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
     limits["longest_rest"] = tuning.LONGEST_REST
     limits["cage_reach"] = min(tuning.CAGE_REACH, tuning.CAGE_REACH * math.sqrt(tolerance / 2e-4))
-    limits["slowest"] = max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 2
+    limits["slowest"] = max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 4
     return limits
 
 
