@@ -268,10 +268,11 @@ class _Grid(NamedTuple):
 
 def _grid(contact: ContactLaws, box: Box) -> _Grid:
     shape, hertz = contact.shape, contact.interface.hertz
-    stretch = middle = 0.0
-    if contact.fluid is not None:
-        fluid = contact.fluid
-        stretch = _STRETCH * fluid.exponent * fluid.index / fluid.reference_pressure * hertz.pressure
+    # A law of one's own may rise with the oil's viscosity.
+    fluid, middle, per_pressure = contact.fluid, 0.0, contact.interface.lubricant.pressure_viscosity
+    if fluid is not None:
+        per_pressure = fluid.exponent * fluid.index / fluid.reference_pressure
+    stretch = _STRETCH * per_pressure * hertz.pressure
     if shape.microslip:
         middle, scale = shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio), _MICROSLIP
     else:
