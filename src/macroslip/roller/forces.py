@@ -262,6 +262,9 @@ def _closed_form(law, tables, load, ln_load, slip, entrainment_speed):
     )
 
 
+_NO_TRACTION = Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
 @jit_inline
 def raceway_traction(law, tables, closed_form, load, ln_load, ring_speed, slip):
     """Traction of a raceway contact with Q > 0 [N] at u2 and v [m/s].
@@ -271,6 +274,9 @@ def raceway_traction(law, tables, closed_form, load, ln_load, ring_speed, slip):
     Traction
     """
     if not closed_form:
+        if ring_speed == 0.0 and slip == 0.0:
+            # At rest nothing pulls, while tables end at a ring that creeps.
+            return _NO_TRACTION
         return traction(law.traction, tables, load, ln_load, ring_speed, slip)
     mean = ring_speed - 0.5 * slip
     force, by_slip, by_entrainment, by_load, rough = _closed_form(law, tables, load, ln_load, slip, abs(mean))
@@ -278,7 +284,6 @@ def raceway_traction(law, tables, closed_form, load, ln_load, ring_speed, slip):
     return Traction(force, 0.0, 0.0, rough, by_slip - 0.5 * by_speed, 0.0, by_speed, 0.0, by_load, 0.0)
 
 
-_NO_TRACTION = Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _NO_OIL = Oil(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
