@@ -125,7 +125,7 @@ def test_a_state_outside_the_tables_is_told_and_larger_ones_give_the_same_result
 def test_too_fast_a_ring_leaves_the_tables():
     roller = with_tables(models(Laws.paper()), table_box(np.array([-0.2]), 1e5, 2e-4))[0]["downwind"]
     motion = motion_of([0.0, 1.0], RATED, (0.0, 0.0, 0.0))
-    steps, status, work = walk(roller, motion, limits_of(roller, motion, 2e-4), [1.0], 0.0)
+    _steps, status, work = walk(roller, motion, limits_of(roller, motion, 2e-4), [1.0], 0.0)
     assert status == Status.OUTSIDE_TABLES and work["time"] == 0.0
 
 
@@ -216,7 +216,13 @@ def test_standstill(laws):
     for name in ("energy", "rolling_energy", "asperity_energy", "end_slip"):
         assert name not in rest or float(abs(rest[name]).max()) == 0.0
     short, long = (
-        run(history(lambda t: np.clip(2.1 * (1.5 - t), 0.0, 2.1), seconds=end), 2e-4, [0, 7, 14], laws=laws, window=START)
+        run(
+            history(lambda t: np.clip(2.1 * (1.5 - t), 0.0, 2.1), seconds=end),
+            2e-4,
+            [0, 7, 14],
+            laws=laws,
+            window=START,
+        )
         for end in (10.0, 130.0)
     )
     assert (long.status == Status.COMPLETED).all() and (short.energy.sum("interface") > 0.0).all()
@@ -287,7 +293,11 @@ def test_stopping_the_iteration_early_leaves_spurious_force_and_energy():
     loads = main_bearing_load(HubLoads.bundled("14B").window(0.0, 20.0), Drivetrain())
     exact, fine, loose = (
         simulate(Case(loads=loads, rollers=[3], integrator=one)).isel(roller=0).sel(row="downwind")
-        for one in (Radau(tolerance=1e-8), BackwardEuler(step=5e-3, tolerance=1e-15), BackwardEuler(step=5e-3, tolerance=1e-5))
+        for one in (
+            Radau(tolerance=1e-8),
+            BackwardEuler(step=5e-3, tolerance=1e-15),
+            BackwardEuler(step=5e-3, tolerance=1e-5),
+        )
     )
     cage = [float(one.energy.sel(interface="cage")) for one in (exact, fine, loose)]
     assert cage[1] == pytest.approx(cage[0], rel=1e-2) and cage[2] > 1.05 * cage[1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -27,7 +28,9 @@ def walked():
     """A roller with all mechanisms through two and a half orbits with load zones: model, roller, motion and steps."""
     made = models(Laws.physical())
     roller = rollers(made)["downwind"]
-    motion = motion_of(np.linspace(0.0, 16.0, 321), RATED * (1.0 + 0.01 * np.sin(np.arange(321.0))), (0.0, -2.2e-4, 0.0))
+    motion = motion_of(
+        np.linspace(0.0, 16.0, 321), RATED * (1.0 + 0.01 * np.sin(np.arange(321.0))), (0.0, -2.2e-4, 0.0)
+    )
     steps, status, _ = walk(roller, motion, limits_of(roller, motion, 2e-4), [*EDGES, 9.25, 16.0], ANGLE)
     assert status == 0
     return made["downwind"], roller, motion, steps
@@ -61,7 +64,9 @@ def test_totals_are_sums_over_the_steps(walked):
         # A peak is at least the largest sample and, by the parabola, at most a tenth above it.
         largest = np.where((np.arange(3) < here["stages"][:, None])[..., None], here["power"], 0.0).max(axis=(0, 1))
         largest = np.maximum(largest, here["power_before"][0])
-        assert (totals.peak_power[orbit] >= largest).all() and (totals.peak_power[orbit] <= HIGHEST_RISE * largest).all()
+        assert (totals.peak_power[orbit] >= largest).all() and (
+            totals.peak_power[orbit] <= HIGHEST_RISE * largest
+        ).all()
     rows = inside[inside["weight"][:, 0] > 0.0]
     ratio = ((rows["outer_speed"] - rows["outer_slip"])[:, 2] / rows["pure_speed"]).min()
     assert totals.spin_ratio[0] == pytest.approx(ratio, rel=1e-12)
@@ -106,7 +111,7 @@ def test_vertex_of_a_parabola_is_exact(top, height, bend):
 def peak_of(times, power, *, sampled=False, orbit_start=0.0):
     """Peak of a power given at times, each a step of one stage."""
     rows = np.zeros((len(times) - 1, 1), STEP)
-    for row, (start, end) in zip(rows[:, 0], zip(times, times[1:], strict=False), strict=True):
+    for row, (start, end) in zip(rows[:, 0], itertools.pairwise(times), strict=True):
         row["start"], row["end"], row["stages"], row["sampled"] = start, end, 1, sampled
         row["time"][0], row["weight"][0] = end, end - start
         row["power"][0, 0], row["power_before"][0] = power(end), power(start)
@@ -117,7 +122,8 @@ def peak_of(times, power, *, sampled=False, orbit_start=0.0):
 
 def test_error_of_a_smooth_peak_is_of_third_order():
     errors = [
-        abs(peak_of(np.arange(0.13, 5.0, step), lambda t: math.exp(math.sin(t)))[0] - math.e) for step in (0.4, 0.2, 0.1)
+        abs(peak_of(np.arange(0.13, 5.0, step), lambda t: math.exp(math.sin(t)))[0] - math.e)
+        for step in (0.4, 0.2, 0.1)
     ]
     assert errors[0] < 5e-3 * math.e and errors[2] < errors[0] / 4**2.5
 
@@ -258,7 +264,12 @@ def test_what_makes_a_look_due(walked):
         return looks._choose(rows, 0, np.zeros(3), EDGES, memory, radius, found)
 
     assert count({}) == 1
-    for name, few, many in (("power 0", 10.2, 11.2), ("power 0", 9.1, 8.9), ("power 1", 9.1, 8.9), ("power 2", 10.2, 10.4)):
+    for name, few, many in (
+        ("power 0", 10.2, 11.2),
+        ("power 0", 9.1, 8.9),
+        ("power 1", 9.1, 8.9),
+        ("power 2", 10.2, 10.4),
+    ):
         assert count({name: few}) == 1 and count({name: many}) == 2, (name, few, many)
     assert count({"power 2": 0.0}) == 1
     assert count({"outer_slip": 1.02e-3}) == 1 and count({"outer_slip": 1.04e-3}) == 2
