@@ -5,8 +5,9 @@ roller compiles for them is what the integrators compile for it too; those funct
 the three hundred numbers of a roller, would take as long once more.
 """
 
-from macroslip.compiled import jit
 from macroslip.integrate.sealed import forces_of, station_of
+
+from macroslip.compiled import jit
 
 
 @jit

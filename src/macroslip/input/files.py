@@ -75,7 +75,9 @@ class Place:
             return problem
         # A reader that was given the value without its file can name the key only.
         if self.key and problem.where.startswith(f"{self.key}."):
-            return self.inside(problem.where[len(self.key) + 1 :]).problem(problem.what, problem.allowed, problem.remedy)
+            return self.inside(problem.where[len(self.key) + 1 :]).problem(
+                problem.what, problem.allowed, problem.remedy
+            )
         inner = "" if problem.where == self.key else problem.where
         what = f"{inner}: {problem.what}" if inner else problem.what
         return self.problem(what, problem.allowed, problem.remedy)

@@ -131,9 +131,10 @@ class Contact(NamedTuple):
 def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
     """Inner, outer and cage contact of a roller."""
 
-
     def contact(one: ContactLaws) -> Contact:
-        return Contact(patch_of(one), chords_for(one), one.fluid is not None, one.interface.roughness, one.effusivity)
+        # Stations are along z', whichever way the roller's axis is tilted.
+        patch = patch_of(one)._replace(spin_ratio=one.shape.spin_ratio)
+        return Contact(patch, chords_for(one), one.fluid is not None, one.interface.roughness, one.effusivity)
 
     return contact(laws.inner), contact(laws.outer), contact(laws.cage)
 
