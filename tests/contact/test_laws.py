@@ -137,7 +137,7 @@ def test_a_sound_law_is_not_refused(function):
 def test_a_law_of_ones_own_is_what_the_contact_uses():
     """The package's laws as functions of one's own give what they give, signs and small slip included."""
     register_film("mine", lambda *state: film.moes(*state), reference="Moes")
-    register_traction("mine", lambda interface, load, h, slip: 1e-4 * load * slip / h, reference="Couette", kinks=[0.1])
+    register_traction("mine", lambda interface, load, h, slip: 1e-4 * load * slip / h, reference="Couette")
     laws = Laws.paper().but(film="mine", traction="mine", inlet_heating=True)
     check_own_laws(laws, BEARING, OIL, 0.5)
     inner = prepare(laws, BEARING, OIL, 1).inner
@@ -146,7 +146,6 @@ def test_a_law_of_ones_own_is_what_the_contact_uses():
     assert np.array_equal(inner.film_thickness(load, speed), theirs.film_thickness(load, speed))
     slip = np.array([-0.2, -1e-14, 0.0, 1e-300, 3e-5])
     assert inner.uniform_traction(10.0, 1e-6, slip) == pytest.approx(1e3 * slip, rel=1e-12, abs=0.0)
-    assert TRACTION_LAWS.named("mine").kinks == (0.1,)
     assert inner.film_in_range(1e9, speed).all() and not theirs.film_in_range(1e9, speed).any()
     assert inner.curved is False and inner.fluid is None and inner.closed_form is None
     assert references(laws)[0] == "Moes" and references(laws)[-1] == "Couette"

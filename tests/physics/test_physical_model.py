@@ -16,11 +16,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, simulate
+from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, register_traction, simulate
 from macroslip.bearing import Bearing
 from macroslip.bearing.geometry import initial_angles
 from macroslip.contact.patch import patch_power, patch_traction
-from macroslip.contact.table import chords_for, patch_of, tractions
+from macroslip.contact.table import chords_for, larger, patch_of, tractions
 from macroslip.errors import InputError
 from macroslip.imposed.radau import WORK, Path
 from macroslip.imposed.run import radau_limits
@@ -292,7 +292,12 @@ class Setup:
 
     def __init__(self, case):
         ready = prepare(case)
-        rollers, _ = with_tables(ready.models, ready.box)
+        self.box, self._ready = ready.box, ready
+        self._make()
+
+    def _make(self):
+        ready = self._ready
+        rollers, _ = with_tables(ready.models, self.box)
         self.model, self.motion = ready.models["downwind"], ready.motion
         self.body, self.tables = rollers["downwind"].body[0], rollers["downwind"].tables
         self.limits = radau_limits(
@@ -301,7 +306,7 @@ class Setup:
         self.angle = float(initial_angles("downwind", 28)[0])
 
     def integrate(self, slip, trace_time):
-        """Slip [m/s] at times [s], from a slip at the first sample on."""
+        """Slip [m/s] at times [s], from a slip at the first sample on; tables are made larger for a state beyond them."""
         time = self.motion.time
         stops = np.unique(np.concatenate([trace_time, time[-1:]]))
         classes = np.empty(time.size - 1, dtype=np.int8)
@@ -312,6 +317,10 @@ class Setup:
         while status == UNDER_WAY:
             status, count = integrate_radau(path, stops, classes, work[0], steps[:, 0])
             parts.append(steps[:count, 0].copy())
+        if status == Status.OUTSIDE_TABLES:
+            self.box = larger(self.box)
+            self._make()
+            return self.integrate(slip, trace_time)
         assert status == Status.COMPLETED
         steps = np.concatenate(parts)
         last = steps["stages"] - 1
@@ -563,6 +572,7 @@ def test_contact_angle_and_curvature_share_the_friction(energies):
     ],
 )
 def test_wrong_choices_are_reported(change, message):
+    register_traction("mine", lambda interface, load, film, slip: 0.1 * load, reference="none")
     with pytest.raises(InputError) as reported:
         PAPER.but(**change)
     assert str(reported.value).startswith(message)

@@ -149,6 +149,9 @@ def traction(table, tables, load, log_load, ring_speed, slip):
     load_slope *= (1.0 + table.stretch * root * (1.0 / 3.0)) / load
     speed_slope *= 0.25 * root_speed / speed
     ratio_slope /= table.scale * size
+    if along == 0.0 and slip == 0.0:
+        # At rest nothing slips; the table has its slowest speed.
+        value = (0.0, 0.0, 0.0, 0.0)
     w_by_slip, w_by_speed = 0.25 * ratio, along * per_speed
     y_by_slip, y_by_speed = per_speed * (1.0 - 0.25 * ratio * ratio), -ratio * along * per_speed * per_speed
     pull_by_w, pull_by_y = load * second[0] * speed_slope, load * third[0] * ratio_slope

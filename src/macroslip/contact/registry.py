@@ -56,8 +56,6 @@ class Law(NamedTuple):
         Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for everywhere.
     range_notes : callable or None
         Of a film law: numbers outside its range whatever load and speed, a list of str for an interface.
-    kinks : tuple of float
-        Of a traction law: slips at which the force has a kink [m/s].
     """
 
     kind: str
@@ -66,7 +64,6 @@ class Law(NamedTuple):
     reference: str
     in_range: Callable | None = None
     range_notes: Callable | None = None
-    kinks: tuple[float, ...] = ()
 
     def __call__(self, interface: Interface, *states: Any) -> np.ndarray:
         """Values at broadcastable states.
@@ -252,7 +249,7 @@ def register_film(
     FILM_LAWS.add(Law("film", name, function, reference, in_range, range_notes))
 
 
-def register_traction(name: str, function: Callable, *, reference: str, kinks: Iterable[float] = ()) -> None:
+def register_traction(name: str, function: Callable, *, reference: str) -> None:
     """Make a traction law usable by name.
 
     Parameters
@@ -264,8 +261,6 @@ def register_traction(name: str, function: Callable, *, reference: str, kinks: I
         zero; finite, above zero and without jumps, and in proportion to slip where that is small.
     reference : str
         Work to cite where the law was used.
-    kinks : iterable of float
-        Slips at which the force has a kink [m/s].
 
     Raises
     ------
@@ -277,7 +272,7 @@ def register_traction(name: str, function: Callable, *, reference: str, kinks: I
     >>> register_traction("couette", lambda interface, load, film, slip: 1e-4 * slip / film, reference="none")
     >>> TRACTION_LAWS.remove("couette")
     """
-    TRACTION_LAWS.add(Law("traction", name, function, reference, kinks=tuple(sorted(map(float, kinks)))))
+    TRACTION_LAWS.add(Law("traction", name, function, reference))
 
 
 register_film(
