@@ -304,5 +304,5 @@ def test_traces_are_the_states_at_their_times(walked):
         assert measures.details is None and measures.end_slip == steps["outer_slip"][-1, 2]
     # Where an integration ended early there is none.
     measures = RollerMeasures(row, ANGLE)
-    measures.add(steps[steps["end"] < 5.0][:, None].copy(), 0)
+    measures.add(steps[steps["end"] < 4.0][:, None].copy(), 0)
     assert np.isnan(measures.traces()["slip"]).tolist() == [False, False, True, True]
