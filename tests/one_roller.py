@@ -18,7 +18,7 @@ from macroslip.imposed.zones import classify
 from macroslip.ring.orbit import Instant, Motion, shaft_angle
 from macroslip.roller.forces import FORCES, STATION, powers, slip_forces, station
 from macroslip.roller.model import Roller, RollerModel, roller_model, with_tables
-from macroslip.roller.step import STEP
+from macroslip.roller.step import STAGES, STEP
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 RATED = 20.463 * 2.0 * math.pi / 60.0
@@ -101,7 +101,13 @@ def walk(roller: Roller, motion: Motion, limits, stops, angle: float, *, slip: f
         else:
             status, count = integrate_fixed_step(path, work[0], buffer)
         found.append(buffer[:count].copy())
-    return np.concatenate(found), int(status), work[0]
+    steps = np.concatenate(found)
+    # Beyond its stages a row holds what was there before.
+    unused = np.arange(STAGES) >= steps["stages"][:, None]
+    for name in STEP.names:
+        if steps[name].ndim > 1 and name != "power_before":
+            steps[name][unused] = 0.0
+    return steps, int(status), work[0]
 
 
 def energies(steps: np.ndarray) -> np.ndarray:

@@ -125,7 +125,7 @@ def test_a_state_outside_the_tables_is_told_and_larger_ones_give_the_same_result
 def test_too_fast_a_ring_leaves_the_tables():
     roller = with_tables(models(Laws.paper()), table_box(np.array([-0.2]), 1e5, 2e-4))[0]["downwind"]
     motion = motion_of([0.0, 1.0], RATED, (0.0, 0.0, 0.0))
-    _steps, status, work = walk(roller, motion, limits_of(roller, motion, 2e-4), [1.0], 0.0)
+    _, status, work = walk(roller, motion, limits_of(roller, motion, 2e-4), [1.0], 0.0)
     assert status == Status.OUTSIDE_TABLES and work["time"] == 0.0
 
 

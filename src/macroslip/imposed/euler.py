@@ -121,14 +121,17 @@ def integrate_fixed_step(path, work, steps):
         if work.time >= rule.end:
             # A row without weight for the end, which explicit Euler evaluates for no step.
             row = steps[count]
-            row.start, row.end, row.stages, row.stretch, row.sampled = work.time, work.time, 1, count, 1
+            row.start, row.end, row.stages, row.stretch, row.sampled = work.time, work.time, 1, work.count[0], 1
+            for i in range(3):
+                row.power_before[i] = work.powers[i]
             row.time[0], row.weight[0] = work.time, 0.0
             write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
             return COMPLETED, count + 1
         after = min(start + (work.count[0] + 1) * rule.step, rule.end)
         span, interval, row = after - work.time, interval_of(motion, after, work.interval), steps[count]
         locate(path, after, interval, work.stage_at[0])
-        row.start, row.end, row.stages, row.stretch, row.sampled, row.weight[0] = work.time, after, 1, count, 0, span
+        row.start, row.end, row.stages, row.sampled, row.weight[0] = work.time, after, 1, 0, span
+        row.stretch = work.count[0]
         for i in range(3):
             row.power_before[i] = work.powers[i]
         if rule.implicit:
