@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 _LOAD_SPACING, _RATIO_SPACING, _SPEED_SPACING = 0.46, 0.085, 0.018
 #: Share of the pressure exponent of the middle by which loads are stretched.
 _STRETCH = 0.6
+#: The same for a law of one's own, with the pressure-viscosity coefficient.
+_OWN_STRETCH = 1.0
 #: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller carries some newtons of its
 #: films. Below, traction goes with load.
 _LEAST_LOAD, _LIGHTEST = 0.05, 1e-3
@@ -268,7 +270,9 @@ class _Grid(NamedTuple):
 
 def _grid(contact: ContactLaws, box: Box) -> _Grid:
     shape, hertz = contact.shape, contact.interface.hertz
-    stretch = middle = 0.0
+    middle = 0.0
+    # A law of one's own may rise with pressure as fast as viscosity by Barus' law.
+    stretch = _OWN_STRETCH * contact.interface.lubricant.pressure_viscosity * hertz.pressure
     if contact.fluid is not None:
         fluid = contact.fluid
         stretch = _STRETCH * fluid.exponent * fluid.index / fluid.reference_pressure * hertz.pressure
