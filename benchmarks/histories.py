@@ -11,10 +11,10 @@ import numpy as np
 from macroslip.bearing.geometry import ROWS, initial_angles
 from macroslip.case.case import Case
 from macroslip.compiled import jit
+from macroslip.contact.mechanisms import Laws
 from macroslip.imposed.run import radau_limits
 from macroslip.imposed.zones import EDGE, classify, edge_time, interference_at
 from macroslip.loads import HubLoads, bundled_cases
-from macroslip.mechanisms import Laws
 from macroslip.result.prepared import prepare
 from macroslip.ring.orbit import Motion
 from macroslip.roller.model import Roller, RollerModel, with_tables

@@ -24,9 +24,9 @@ from macroslip import Bearing, BearingLoads, Case, HubLoads, Lubricant, simulate
 from macroslip.bearing.geometry import orbit_ratio
 from macroslip.case.case import IMPOSED_ORBIT, WHOLE_BEARING, Radau
 from macroslip.contact.interface import highest_load, truncation_load
+from macroslip.contact.mechanisms import Laws
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, main_bearing_load
-from macroslip.mechanisms import Laws
 from macroslip.ring.motion import ring_motion
 from macroslip.roller.model import ring_geometry, roller_model
 

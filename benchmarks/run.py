@@ -19,10 +19,10 @@ from benchmarks.rivals import INSTALL
 from benchmarks.scaling import linearity, real_time, two_threads
 from benchmarks.verify import AGREEMENT, verify
 from macroslip.case.parts import Radau
+from macroslip.contact.mechanisms import Laws
 from macroslip.errors import InputError
 from macroslip.files import published_together
 from macroslip.machine import machine
-from macroslip.mechanisms import Laws
 
 SUMMARY = "bench.json"
 #: What is asked of the production integrator against the limit set by its force evaluations.

@@ -18,7 +18,7 @@ _HOMES = {
     "main_bearing_load": "macroslip.loads",
     "support_loads": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
-    "Laws": "macroslip.mechanisms",
+    "Laws": "macroslip.contact.mechanisms",
     "load_laws": "macroslip.plugins",
     "register_film": "macroslip.contact.registry",
     "register_traction": "macroslip.contact.registry",

@@ -15,7 +15,7 @@ KERNEL_PARTS = (
     "compiled", "constants", "contact", "imposed", "lubricant", "measures", "ring", "roller", "whole",
 )  # fmt: skip
 #: Parts on which the result of a case depends beside those.
-RESULT_PARTS = ("bearing", "case", "input", "loads", "mechanisms", "rating", "result")
+RESULT_PARTS = ("bearing", "case", "input", "loads", "rating", "result")
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
     "__init__", "cli", "errors", "files", "fingerprint", "hdf5_file", "kernel_cache", "machine", "overview", "plugins", "progress",

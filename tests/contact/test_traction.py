@@ -18,6 +18,7 @@ from macroslip.contact.closed_form import (
     prepare_barus_crook,
 )
 from macroslip.contact.hertz import HertzContact
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.traction import (
     EYRING,
     HIGHEST_PRESSURE,
@@ -42,7 +43,6 @@ from macroslip.contact.traction import (
 )
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
-from macroslip.mechanisms import Laws
 
 OIL = Lubricant.read("vg460-pao")
 FULL = Laws.physical()

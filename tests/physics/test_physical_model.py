@@ -19,6 +19,7 @@ from scipy.optimize import brentq
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, register_traction, simulate
 from macroslip.bearing import Bearing
 from macroslip.bearing.geometry import initial_angles
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.patch import patch_power, patch_traction
 from macroslip.contact.table import chords_for, larger, patch_of, tractions
 from macroslip.errors import InputError
@@ -28,7 +29,6 @@ from macroslip.imposed.solve import integrate as integrate_radau
 from macroslip.imposed.status import UNDER_WAY, Status
 from macroslip.imposed.zones import classify
 from macroslip.lubricant import Lubricant
-from macroslip.mechanisms import Laws
 from macroslip.result.prepared import prepare
 from macroslip.ring.orbit import instant
 from macroslip.roller.forces import FORCES, STATION, slip_forces, station

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import larger, table_box
 from macroslip.imposed.status import OUTSIDE_TABLES
-from macroslip.mechanisms import Laws
 from macroslip.ring.orbit import Motion, shaft_angle
 from macroslip.roller.step import STEP
 from macroslip.whole.books import FLOWS, Books

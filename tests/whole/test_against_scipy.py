@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 from macroslip.bearing.geometry import initial_angles
 from macroslip.compiled import jit
 from macroslip.contact.look_up import log_load, log_speed
-from macroslip.mechanisms import Laws
+from macroslip.contact.mechanisms import Laws
 from macroslip.roller.forces import cage_contact, film_load, raceway_oil, raceway_traction
 from macroslip.whole.cage import Cage, guide_force
 from macroslip.whole.pocket import pocket_force

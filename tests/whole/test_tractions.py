@@ -10,8 +10,8 @@ import pytest
 
 from macroslip import Cage
 from macroslip.compiled import jit
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import table_box
-from macroslip.mechanisms import Laws
 from macroslip.whole.model import whole_bearing, with_tables
 from macroslip.whole.stage import FIRST, REST, ROLLER
 from macroslip.whole.tractions import (

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from macroslip.bearing import Bearing
 from macroslip.case.load_source import LoadSource
 from macroslip.case.parts import INTEGRATORS, BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
+from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Form, Given, Quantity, Text
 from macroslip.input.files import Place, Source
@@ -20,7 +21,6 @@ from macroslip.input.units import TEMPERATURE
 from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
-from macroslip.mechanisms import PRESETS, Laws
 from macroslip.overview import html_overview
 from macroslip.whole.cage import Cage
 

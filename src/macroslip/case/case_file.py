@@ -10,6 +10,7 @@ from typing import Any
 from macroslip.bearing import Bearing
 from macroslip.case.case import Case
 from macroslip.case.load_source import LoadSource
+from macroslip.contact.mechanisms import Laws
 from macroslip.errors import InputError
 from macroslip.input.files import Place, Source, parse, read_text
 from macroslip.input.messages import nearest, parts_of, shown, together
@@ -17,7 +18,6 @@ from macroslip.input.record import Record
 from macroslip.input.section import fields_of, json_schema, read_fields
 from macroslip.loads import BearingLoads, HubLoads
 from macroslip.lubricant import Lubricant
-from macroslip.mechanisms import Laws
 
 
 def read_case(path: str | PathLike[str]) -> Case:

@@ -10,8 +10,8 @@ from macroslip.contact.hertz import HertzContact, effective_modulus, elliptical_
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
+    from macroslip.contact.mechanisms import Laws
     from macroslip.lubricant import Lubricant
-    from macroslip.mechanisms import Laws
 
 #: Share of a roller's load that may lie beyond its ends.
 HIGHEST_TRUNCATED_SHARE = 0.1

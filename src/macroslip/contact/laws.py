@@ -22,8 +22,8 @@ from macroslip.errors import InputError
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
+    from macroslip.contact.mechanisms import Laws
     from macroslip.lubricant import Lubricant
-    from macroslip.mechanisms import Laws
 
 #: Entrainment speed below which a film is that at this speed [m/s].
 LOWEST_ENTRAINMENT_SPEED = 1e-6

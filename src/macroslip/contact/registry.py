@@ -24,8 +24,8 @@ from macroslip.errors import InputError, MacroslipError
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
+    from macroslip.contact.mechanisms import Laws
     from macroslip.lubricant import Lubricant
-    from macroslip.mechanisms import Laws
 
 #: Slip [m/s] below which the force of a traction law of one's own is in proportion to slip.
 LEAST_SLIP = 1e-10

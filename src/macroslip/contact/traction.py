@@ -33,8 +33,8 @@ from macroslip.errors import InputError
 from macroslip.lubricant.temperature import ROELANDS_PRESSURE, roelands_index
 
 if TYPE_CHECKING:
+    from macroslip.contact.mechanisms import Laws
     from macroslip.lubricant import Lubricant
-    from macroslip.mechanisms import Laws
 
 NEWTONIAN, LIMITING_SHEAR, EYRING = 0, 1, 2
 #: Numbers of the rheologies by the names that case files use.

@@ -11,10 +11,10 @@ from macroslip.bearing import geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.bearing.load_ratings import fatigue_load_limit
 from macroslip.contact.interface import highest_load, interfaces
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.registry import FILM_LAWS
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads
-from macroslip.mechanisms import Laws
 from macroslip.rating import iso
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.ring.balance import roller_loads

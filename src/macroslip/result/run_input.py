@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from macroslip.bearing import Bearing
 from macroslip.bearing.geometry import AXIAL_SIGNS
+from macroslip.contact.mechanisms import Laws
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
-from macroslip.mechanisms import Laws
 from macroslip.roller.model import RollerModel, roller_model
 
 if TYPE_CHECKING:

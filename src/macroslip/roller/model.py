@@ -14,6 +14,7 @@ from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
 from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
 from macroslip.contact.look_up import PLANE, REST_SPEED, TRACTION
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import (
     Box,
     TableErrors,
@@ -24,7 +25,6 @@ from macroslip.contact.table import (
     write_plane,
     write_traction,
 )
-from macroslip.mechanisms import Laws
 from macroslip.ring.balance import RingGeometry
 from macroslip.roller.forces import is_faded
 

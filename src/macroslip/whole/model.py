@@ -18,9 +18,9 @@ from macroslip.whole.pocket import POCKET, Pocket, prepare_pocket
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
+    from macroslip.contact.mechanisms import Laws
     from macroslip.contact.table import Box
     from macroslip.lubricant import Lubricant
-    from macroslip.mechanisms import Laws
 
 _NUMBERS = (
     "roller_mass", "radius", "pitch_radius", "inner_radius", "outer_radius", "orbit_ratio", "lever", "cage_mass",
