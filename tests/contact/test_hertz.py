@@ -11,9 +11,9 @@ from scipy.integrate import trapezoid
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.contact.hertz import axis_ratio, effective_modulus, elliptical_contact, series_stiffness
+from macroslip.contact.interface import interfaces, truncation_load
 from macroslip.errors import InputError
 from macroslip.lubricant import Lubricant
-from macroslip.contact.interface import interfaces, truncation_load
 
 MODULUS = 230.77e9
 curvatures = st.floats(min_value=1e-2, max_value=1e4)
