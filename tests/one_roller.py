@@ -90,7 +90,7 @@ def limits_of(roller: Roller, motion: Motion, tolerance: float, *, heaviest: flo
 
 def walk(roller: Roller, motion: Motion, limits, stops, angle: float, *, slip: float = 0.0, rows: int = 1000):
     """All steps of the roller from a slip [m/s] on, in buffers of so many rows, and its status and record of work."""
-    path = Path(roller.body[0], roller.tables, motion, float(angle), limits[0])
+    path = Path(roller.body[0], roller.tables.ctypes.data, roller.tables, motion, float(angle), limits[0])
     work, classes, found = np.zeros(1, WORK), np.zeros(motion.time.size - 1, np.int8), []
     work["slip"], buffer, status = slip, np.zeros(rows, STEP), UNDER_WAY
     if limits.dtype == LIMITS:

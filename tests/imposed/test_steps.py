@@ -153,7 +153,7 @@ def a_step(motion, roller, start, end, slip=0.0):
     work["interval"], work["end_interval"] = (interval_of(motion, one, 0) for one in (start, end))
     work["at"]["ring_speed"] = -ratio * np.interp(start, motion.time, motion.shaft_speed)
     work["stage_at"]["ring_speed"] = -ratio * np.interp(times, motion.time, motion.shaft_speed)
-    return work, Path(body, roller.tables, motion, 0.0, limits_of(roller, motion, 2e-4)[0])
+    return work, Path(body, roller.tables.ctypes.data, roller.tables, motion, 0.0, limits_of(roller, motion, 2e-4)[0])
 
 
 @pytest.fixture(scope="module")

@@ -252,7 +252,7 @@ def test_what_makes_a_look_due(walked):
     _, roller, _, steps = walked
     held = steps[np.argmax(steps["elastic_load"][:, 2])]
 
-    def count(change, turn=0.0):
+    def count(change, turn=0.0, spacing=1.0):
         rows = np.zeros((2, 1), STEP)
         rows[:, 0] = held
         radius = float(roller.body[0]["outer_radius"])
@@ -263,7 +263,7 @@ def test_what_makes_a_look_due(walked):
         for name, value in change.items():
             rows[name.split()[0]][1, 0][(..., int(name[-1])) if " " in name else ...] = value
         memory, found = new_details(EDGES).memory[0], np.zeros(2, looks._LOOK)
-        return looks._choose(rows, 0, np.zeros(3), EDGES, memory, radius, found)
+        return looks._choose(rows, 0, np.zeros(3), EDGES, memory, radius, spacing, found)
 
     assert count({}) == 1
     for name, few, many in (
@@ -277,6 +277,8 @@ def test_what_makes_a_look_due(walked):
     assert count({"outer_slip": 1.02e-3}) == 1 and count({"outer_slip": 1.04e-3}) == 2
     assert count({"inner_load": 0.98e4}) == 1 and count({"inner_load": 0.95e4}) == 2
     assert count({}, turn=0.34) == 1 and count({}, turn=0.36) == 2
+    # Closer looks where they are asked for.
+    assert count({}, turn=0.34, spacing=0.5) == 2 and count({"power 0": 10.7}, spacing=0.5) == 2
 
 
 # --- Traces ----------------------------------------------------------------------------------------------------------
