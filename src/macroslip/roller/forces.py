@@ -335,7 +335,8 @@ def cage_traction(body, tables, load, ln_load, surface_speed, ln_surface):
         -value[0] * surface_speed,
         value[0] + along_speed[0],
         -along_load[0] * surface_speed / load,
-        value[1] * value[0] * surface_speed * surface_speed,
+        # Where the share is zero its spline is not, by rounding.
+        max(value[1], 0.0) * value[0] * surface_speed * surface_speed,
     )
 
 
