@@ -65,8 +65,10 @@ def test_every_tolerance_gives_the_answer_it_promises(turbulent, exact, laws, to
     assert float(abs(energy / best - 1).max()) < max((0.3 if laws.name == "paper" else 2.0) * tolerance, 1e-6)
     coasting = reference.roller_load == 0.0
     assert int(coasting.sum()) > 20
-    # A coast remembers; the errors of its steps add up.
-    assert float(abs(found.spin / reference.spin - 1).where(coasting).max()) < max(tolerance, 1e-6)
+    # A coast remembers; the errors of its steps add up. Between films a roller all but stands still.
+    least = 0.0 if laws.name == "paper" else abs(reference.spin_pure)
+    off = abs(found.spin - reference.spin) / np.maximum(abs(reference.spin), least)
+    assert float(off.where(coasting).max()) < max(tolerance, 1e-6)
     if tolerance <= 2e-4:
         peak, highest = found.peak_power.max("interface"), reference.peak_power.max("interface")
         assert float(abs(peak / highest - 1).max()) < 1e-2
@@ -198,7 +200,7 @@ def test_energy_at_the_default_tolerance_where_the_shaft_stops_or_turns_back(nam
 def test_shaft_reversal_with_microslip(period, thrust):
     """A gripped roller's slip passes zero with the shaft's speed; nothing may be made of the ratio of the two there."""
     loads = history(lambda t: 2.0 * np.sin(2.0 * np.pi * t / period), (0.0, -300e3, thrust))
-    default, tight = (run(loads, one, [7], laws=Laws.physical(), window=START) for one in (2e-4, 1e-6))
+    default, tight = (run(loads, one, [7], laws=Laws.physical(), window=START) for one in (2e-4, 5e-5))
     assert (default.status == Status.COMPLETED).all() and (tight.status == Status.COMPLETED).all()
     energy, exact = default.energy.sum("interface"), tight.energy.sum("interface")
     assert float(abs(energy / exact - 1).max()) < 2e-3
