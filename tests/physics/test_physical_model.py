@@ -299,7 +299,8 @@ class Setup:
         ready = self._ready
         rollers, _ = with_tables(ready.models, self.box)
         self.model, self.motion = ready.models["downwind"], ready.motion
-        self.body, self.tables = rollers["downwind"].body[0], rollers["downwind"].tables
+        self.body, self._flat = rollers["downwind"].body[0], rollers["downwind"].tables
+        self.tables = self._flat.ctypes.data
         self.limits = radau_limits(
             rollers["downwind"], self.motion, tolerance=1e-6, max_steps=10**6, heaviest=ready.heaviest, window=0.0
         )
@@ -311,7 +312,7 @@ class Setup:
         stops = np.unique(np.concatenate([trace_time, time[-1:]]))
         classes = np.empty(time.size - 1, dtype=np.int8)
         classify(self.body, self.motion, self.angle, self.limits[0]["firm"], classes)
-        path = Path(self.body, self.tables, self.motion, self.angle, self.limits[0])
+        path = Path(self.body, self.tables, self._flat, self.motion, self.angle, self.limits[0])
         work, steps, parts, status = np.zeros(1, WORK), new_steps(), [], UNDER_WAY
         work[0]["slip"] = slip
         while status == UNDER_WAY:

@@ -55,8 +55,9 @@ def test_without_weight_and_load_spin_hardly_follows_the_shaft():
 
 def test_coast_down_rate_by_hand():
     """Drag alone presses the roller on the cage; the first deceleration follows from that one contact."""
+    from macroslip.contact.film import masjedi_khonsari_thickness as film
+    from macroslip.contact.interface import interfaces
     from macroslip.lubricant import Lubricant
-    from macroslip.roller.model import interfaces
 
     bearing, lubricant = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao").replace(drag_coefficient=50.0)
     speed = 2.0
@@ -79,7 +80,6 @@ def test_coast_down_rate_by_hand():
     cage = interfaces(bearing, lubricant)[2]
     u1 = orbital * geometry.outer_contact_radius(bearing)
     a, b = (axis * drag ** (1 / 3) for axis in (cage.hertz.semi_axis_across, cage.hertz.semi_axis_along))
-    from macroslip.film import masjedi_khonsari_thickness as film
 
     radius, modulus = cage.rolling_radius, cage.modulus
     h = radius * film(
