@@ -72,7 +72,7 @@ def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
         For the first file that cannot be read to its end.
     """
     seconds = sum(_SECONDS + path.stat().st_size / _RATE for path in paths)
-    command = [sys.executable, "-P", "-c", _READER, str(seconds), *(str(path.absolute()) for path in paths)]
+    command = [sys.executable, "-c", _READER, str(seconds), *(str(path.absolute()) for path in paths)]
     try:
         done = subprocess.run(
             command,

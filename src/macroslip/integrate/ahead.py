@@ -45,7 +45,7 @@ def compile_ahead(*, physical: bool) -> None:
         return
     with contextlib.suppress(OSError):
         _running = subprocess.Popen(
-            [sys.executable, "-P", "-m", __name__, *(["physical"] if physical else [])],
+            [sys.executable, "-m", __name__, *(["physical"] if physical else [])],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

@@ -135,10 +135,10 @@ def rate(
     import xarray as xr
 
     history = _history(bearing, lubricant, loads, roller_load, contamination)
-    parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
-             _spectra(history, wohler_exponents))  # fmt: skip
-    variables = {name: value for part in parts for name, value in part.items()}
     edges = _class_edges(history)
+    parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
+             _spectra(history, edges, wohler_exponents))  # fmt: skip
+    variables = {name: value for part in parts for name, value in part.items()}
     coordinates = {
         "row": list(ROWS),
         "raceway": list(RACEWAYS),
@@ -354,8 +354,7 @@ def _class_edges(history: _History) -> NDArray[np.float64]:
     return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
 
 
-def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple]:
-    edges = _class_edges(history)
+def _spectra(history: _History, edges: NDArray[np.float64], exponents: tuple[float, ...]) -> dict[str, tuple]:
     by_name = dict(zip(LOADS, (history.radial, history.axial, history.equivalent), strict=True))
     times = [load_duration(load, history.duration, edges) for load in by_name.values()]
     turns = [load_duration(load, history.revolutions, edges) for load in by_name.values()]

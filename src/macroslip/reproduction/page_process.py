@@ -37,7 +37,7 @@ def page_written(path: Path, *inputs: Any) -> Iterator[None]:
         pickle.dump((path, inputs), given)
         given.seek(0)
         process = subprocess.Popen(
-            [sys.executable, "-P", "-m", __name__],
+            [sys.executable, "-m", __name__],
             stdin=given,
             stdout=problems,
             stderr=problems,

@@ -359,7 +359,7 @@ def skf_torque(
     """
     rolling_constants, sliding_constants = _constants(series, SKF_SERIES)
     if oil not in FILM_FRICTION:
-        raise InputError(f"there is no oil {oil!r}", where="friction torque", allowed=", ".join(FILM_FRICTION))
+        raise InputError(f"there is no oil {oil!r}", where=_WHERE, allowed=", ".join(FILM_FRICTION))
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     if bath is None:
         starvation, drag = STARVATION["grease"], np.zeros_like(case.speed)
