@@ -8,10 +8,13 @@ PYTEST := $(BIN)/python -m pytest -n $(or $(WORKERS),auto) --no-loadscope-reorde
 # Without stored bytecode every process that a test starts would translate all modules anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: reproduce test test-fast test-lowest test-deep lint docs bench clean
+.PHONY: reproduce validate test test-fast test-lowest test-deep lint docs bench clean
 
-reproduce: $(VENV)/.ready  ## the paper's study: report.html, figures and summary.json in results/
-	$(BIN)/macroslip reproduce -o results
+reproduce: $(VENV)/.figures  ## the paper's study: report.html, figures and summary.json in results/
+	$(BIN)/python -m paper -o results
+
+validate: $(VENV)/.figures  ## the program beside what was measured: the figures of docs/measurements.md, and its table
+	$(BIN)/python -m validation $(ARGS)
 
 test: lint  ## everything that has to hold, some sixteen minutes on two processors where nothing is compiled yet
 	$(PYTEST) $(ARGS)
@@ -24,7 +27,7 @@ test-deep: $(VENV)/.ready  ## a search with fresh random examples and long runs;
 
 test-lowest:  ## input, a computed case and results with the lowest versions that pyproject.toml allows
 	$(MAKE) VENV=.venv-lowest CONSTRAINTS='-c .lowest.txt' .venv-lowest/.ready
-	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/catalogue tests/case tests/loads tests/lubricant tests/bearing tests/integrate/test_sealed.py src/macroslip/result/simulate.py
+	.venv-lowest/bin/python -m pytest -n $(or $(WORKERS),auto) tests/input tests/case tests/loads tests/lubricant tests/bearing src/macroslip/result/simulate.py
 
 lint: $(VENV)/.ready  ## format, lint and types
 	$(BIN)/ruff format --check .
@@ -36,12 +39,17 @@ docs: $(VENV)/.ready  ## the documentation site in build/docs; warnings are erro
 
 bench: $(VENV)/.ready  ## the integrator against its rivals, measured here and now
 	$(BIN)/python -m pip install --quiet --editable '.[bench]'
+	@$(BIN)/python -m pip install --quiet --editable '.[lsoda]' 2>/dev/null || echo "LSODA (numbalsoda) is left out: it is built from source, and that needs gfortran, g++ and CMake"
 	$(BIN)/python -m benchmarks $(ARGS)
 
-$(VENV)/.ready: pyproject.toml
+$(VENV)/.figures: pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "macroslip needs Python 3.11 or newer; name one with: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --editable '.[figures]' $(CONSTRAINTS)
+	touch $@
+
+$(VENV)/.ready: $(VENV)/.figures
 	$(BIN)/python -m pip install --quiet --editable '.[test]' $(CONSTRAINTS)
 	touch $@
 

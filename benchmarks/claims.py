@@ -15,10 +15,10 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant, Traces, simulate
-from macroslip.roller.contact_force import raceway_force, slip_field
-from macroslip.roller.friction_power import friction_power
-from macroslip.roller.model import interfaces, roller_model
-from macroslip.traction.slip_field import slip_at
+from macroslip.bearing.geometry import AXIAL_SIGNS
+from macroslip.contact.table import table_box
+from macroslip.roller.forces import FORCES, STATION, powers, slip_forces
+from macroslip.roller.model import roller_model, with_tables
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
 SPEED = 20.463 * np.pi / 30
@@ -26,30 +26,32 @@ SPEED = 20.463 * np.pi / 30
 STEADY = BearingLoads.constant([-20.3e3, -343.5e3, 164.4e3], shaft_speed=SPEED, duration=14.0)
 
 
-def _gripped() -> tuple:
-    """A downwind roller, its raceway contacts' geometry, and the speed of the rings past it [m/s]."""
-    model = roller_model(BEARING, OIL, axial_sign=1, tilt=0.0, laws=Laws.physical())
-    return model, interfaces(BEARING, OIL)[:2], -SPEED * model.orbit_ratio * model.outer_radius
+#: Raceway speed of a downwind roller without tilt at that speed of the shaft [m/s].
+_MODEL = roller_model(BEARING, OIL, AXIAL_SIGNS["downwind"], tilt=0.0, laws=Laws.physical().but(rolling="none"))
+RING = -SPEED * _MODEL.orbit_ratio * _MODEL.outer_radius
 
 
 def exponents() -> None:
-    """Power of both raceways of a gripped roller over its load."""
-    model, _, ring = _gripped()
+    """Power of both raceways of a gripped roller over its load, without the oil beside the ellipse."""
+    box = table_box(np.array([RING]), 100e3, 2e-5)
+    roller = with_tables({"downwind": _MODEL}, box)[0]["downwind"]
+    at, forces, found = np.zeros(1, STATION), np.zeros(1, FORCES), np.zeros(3)
+    at["ring_speed"] = RING
+
+    def raceways(load: float, slip: float) -> float:
+        at["inner_load"] = at["outer_load"] = load
+        slip_forces(roller.body[0], roller.tables, at[0], slip, forces[0])
+        return float(forces["inner"][0] + forces["outer"][0])
 
     def power(load: float) -> float:
-        def force(contact, slip):
-            return raceway_force(contact, load, slip, ring, abs(ring - slip / 2.0), -0.5)
+        slip = brentq(lambda v: raceways(load, v), -0.1, 0.1, xtol=1e-13)
+        raceways(load, slip)
+        powers(roller.body[0], at[0], forces[0], slip, found)
+        return found[0] + found[1]
 
-        contacts = model.inner, model.outer
-        slip = brentq(lambda v: sum(force(one, v).spin for one in contacts), -0.1, 0.1, xtol=1e-13)
-        found = [force(one, slip) for one in contacts]
-        return sum(
-            friction_power(one, slip, ring, each.spin, each.detail) for one, each in zip(contacts, found, strict=True)
-        )
-
-    powers = {load: power(load) for load in (10e3, 50e3, 100e3)}
-    for low, high in itertools.pairwise(powers):
-        exponent = np.log(powers[high] / powers[low]) / np.log(high / low)
+    powers_at = {load: power(load) for load in (10e3, 50e3, 100e3)}
+    for low, high in itertools.pairwise(powers_at):
+        exponent = np.log(powers_at[high] / powers_at[low]) / np.log(high / low)
         print(f"raceway power from {low / 1e3:.0f} to {high / 1e3:.0f} kN: load to the power {exponent:.1f}")
 
 
@@ -60,10 +62,10 @@ def compliance() -> None:
     above (Carter, Proc. R. Soc. A 112 (1926) 151); without strain all of it at any slip. The film's own viscosity, which
     softens it as well, is left out, so that this is the most that strain can do.
     """
-    model, sides, ring = _gripped()
     for load in (10e3, 20e3, 50e3, 100e3):
-        for contact, side in zip((model.inner, model.outer), sides, strict=True):
-            off = 100.0 * (1.0 - _strained_power(contact.shape, side, load, ring))
+        for contact in (_MODEL.laws.inner, _MODEL.laws.outer):
+            side = contact.interface
+            off = 100.0 * (1.0 - _strained_power(contact.shape, side, load, RING))
             print(f"elastic strain, {load / 1e3:.0f} kN, {side.name}: {off:.2f} % off the power")
 
 
@@ -72,8 +74,7 @@ def _strained_power(shape, side, load: float, ring: float) -> float:
     across, along = (getattr(side.hertz, f"semi_axis_{way}") * load ** (1.0 / 3.0) for way in ("across", "along"))
     place = min(across, shape.half_length) * np.linspace(-1.0, 1.0, 40_001)
     root = np.sqrt(np.maximum(1.0 - (place / across) ** 2, 0.0))
-    field = slip_field(shape, 0.0, ring)
-    base = np.array([slip_at(field, shape.contour_radius, one) for one in place])
+    base = ring * (shape.curvature_ratio * place**2 / (2.0 * shape.contour_radius) - shape.spin_ratio * place)
     saturating = OIL.limiting_shear * abs(ring) * along * root / side.rolling_radius
 
     def strip(slip):
@@ -119,7 +120,7 @@ def asperities() -> None:
 
 def drag() -> None:
     """Drag of the oil on a roller, per orbit."""
-    result = simulate(Case(loads=STEADY, rollers=[0]))
+    result = simulate(Case(loads=STEADY, laws=Laws.paper(), rollers=[0]))
     orbit = float((result.orbit_end - result.orbit_start)[0])
     print(f"drag: {result.attrs['drag_power'] * orbit / (2 * BEARING.rollers_per_row):.2f} J an orbit a roller")
 

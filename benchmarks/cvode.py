@@ -7,7 +7,7 @@ from sksundae.cvode import CVODE
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from benchmarks.right_hand_side import EVALUATIONS, jacobian, pack, rates
+from benchmarks.right_hand_side import evaluations, jacobian, pack, rates
 
 _MOST_STEPS, _MOST_RESTARTS = 10_000_000, 10_000
 
@@ -68,11 +68,11 @@ def solve(
                 solver.init_step(found.t, found.y)
                 found = solver.step(time, tstop=end)
             if not found.success:
-                return Solution(np.full(3, np.nan), slip, data[EVALUATIONS])
+                return Solution(np.full(3, np.nan), slip, evaluations(data))
             if time != end:
                 slip[marked] = found.y[0]
                 marked += 1
         state = found.y
         if stops == "restart" and end != history.end:
             solver.init_step(end, state)
-    return Solution(state[1:], slip, data[EVALUATIONS])
+    return Solution(state[1:], slip, evaluations(data))

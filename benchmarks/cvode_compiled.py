@@ -15,7 +15,7 @@ import numpy as np
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from benchmarks.right_hand_side import EVALUATIONS, jacobian, pack, rates
+from benchmarks.right_hand_side import evaluations, jacobian, pack, rates
 
 _BDF, _NORMAL, _MOST_STEPS = 2, 1, 10_000_000
 _POINTER, _DOUBLE, _INT, _LONG = ctypes.c_void_p, ctypes.c_double, ctypes.c_int, ctypes.c_long
@@ -143,4 +143,4 @@ def solve(
     library.N_VDestroy(allowed)
     library.N_VDestroy(y)
     library.SUNContext_Free(ctypes.byref(context))
-    return Solution(np.full(3, np.nan) if failed else state[1:].copy(), slip, data[EVALUATIONS])
+    return Solution(np.full(3, np.nan) if failed else state[1:].copy(), slip, evaluations(data))

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from benchmarks import own
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from macroslip.integrate.fixed_step import integrate_fixed_step
-from macroslip.integrate.path import FixedStep, Path
-from macroslip.integrate.record import new_record
-from macroslip.integrate.status import COMPLETED
+from macroslip.imposed.run import Problem, fixed_step
+from macroslip.imposed.status import COMPLETED
 
 
 def solve(history: History, reference: Reference, step: float, tolerance: float) -> Solution:
@@ -33,12 +32,11 @@ def solve(history: History, reference: Reference, step: float, tolerance: float)
     # Asked for a little early, a step's state is found whatever rounding does to its time.
     times = history.start + step * (np.stack([lower, lower + 1.0], axis=1).ravel() - 0.01)
     times, back = np.unique(times, return_inverse=True)
-    record = new_record(np.array([history.start, history.end]), times, history.limits.speed_scale)
-    rule = FixedStep(step, True, tolerance, np.inf, history.limits.interrupt)
-    path = Path(history.roller, history.motion, history.start_angle, rule)
-    status = integrate_fixed_step(path, 0.0, history.end, record)
-    around = record.trace[back, 0].reshape(-1, 2)
+    rule = fixed_step(history.roller, history.motion, step=step, end=history.end, tolerance=tolerance)
+    rule["largest_slip"] = np.inf
+    outcome, measures = own.run(history, Problem(history.roller, history.motion, rule), times)
+    around = measures.traces()["slip"][back].reshape(-1, 2)
     share = (history.marks - history.start) / step - lower
     slip = around[:, 0] + share * (around[:, 1] - around[:, 0])
-    energy = record.energy if status == COMPLETED else np.full(3, np.nan)
-    return Solution(energy, slip, float(record.count[2]))
+    energy = measures.totals.energy if outcome.status == COMPLETED else np.full(3, np.nan)
+    return Solution(energy, slip, float(outcome.evaluations))

@@ -11,10 +11,9 @@ from benchmarks.histories import History
 from benchmarks.quadrature import patch_by_quadrature
 from benchmarks.scan import timed
 from macroslip.compiled import jit
-from macroslip.integrate.load_zone import classify, empty_classes
+from macroslip.contact.closed_form import patch_integral
 from macroslip.ring.orbit import instant, interval_of
-from macroslip.roller.forces import Station, slip_forces, station
-from macroslip.traction.patch_integral import patch_integral
+from macroslip.roller.forces import FORCES, STATION, slip_forces, station
 
 #: States taken from each history, at equal intervals of time; how often they are gone through and timed.
 _STATES, _ROUNDS, _REPEATS = 2000, 20, 5
@@ -23,7 +22,7 @@ _GRIPPED, _COASTING = 1e-6, 1e-3
 
 
 class States(NamedTuple):
-    """Stations, shape (n, 6), and slips [m/s], shape (n,), met by one roller."""
+    """Stations, an array of `STATION`, and slips [m/s], met by one roller."""
 
     stations: np.ndarray
     slips: np.ndarray
@@ -34,43 +33,21 @@ class States(NamedTuple):
 
 
 @jit
-def _write_stations(model, motion, start_angle, times, out):
+def _stations_again(body, tables, motion, start_angle, times, found, rounds):
     interval = 0
-    for k in range(times.size):
-        interval = interval_of(motion, times[k], interval)
-        at = station(model, start_angle, instant(motion, interval, times[k]))
-        for j in range(6):
-            out[k, j] = at[j]
-
-
-@jit
-def _stations_again(model, motion, start_angle, times, rounds):
-    total, interval = 0.0, 0
     for r in range(rounds):
         for k in range(times.size):
             interval = interval_of(motion, times[k], interval)
-            at = station(model, start_angle + 1e-9 * r, instant(motion, interval, times[k]))
-            total += at.ring_speed + at.inner_load + at.outer_load + at.tangential
-    return total
+            station(body, tables, start_angle + 1e-9 * r, instant(motion, interval, times[k]), found[k])
 
 
 @jit
-def _forces_again(model, stations, slips, rounds):
-    total = 0.0
+def _forces_again(body, tables, stations, slips, found, rounds):
     for r in range(rounds):
         # Another slip each round, so that no round can be spared.
         factor = 1.0 + 1e-9 * r
         for k in range(slips.size):
-            at = Station(stations[k, 0], stations[k, 1], stations[k, 2], stations[k, 3], stations[k, 4], stations[k, 5])
-            forces = slip_forces(model, at, slips[k] * factor)
-            total += forces.inner + forces.outer + forces.cage + forces.slope + forces.cage_load
-    return total
-
-
-@jit
-def _classify_again(model, motion, start_angle, firm, classes, rounds):
-    for _ in range(rounds):
-        classify(model, motion, start_angle, firm, classes)
+            slip_forces(body, tables, stations[k], slips[k] * factor, found[k])
 
 
 @jit
@@ -93,13 +70,18 @@ def _quadrature_again(exponents, heatings, rounds):
     return total
 
 
+def _arguments(history: History) -> tuple:
+    """The roller as compiled functions take it."""
+    return history.roller.body[0], history.roller.tables
+
+
 def visited(history: History, tolerance: float) -> States:
     """States of the history at equal intervals of time."""
     times = np.linspace(history.start, history.end, _STATES + 1)[1:]
-    _, record = own.integrate(history, tolerance, times)
-    stations = np.empty((times.size, 6))
-    _write_stations(history.model, history.motion, history.start_angle, times, stations)
-    return States(stations, record.trace[:, 0].copy())
+    _, measures = own.integrate(history, tolerance, times)
+    stations = np.zeros(times.size, STATION)
+    _stations_again(*_arguments(history), history.motion, history.start_angle, times, stations, 1)
+    return States(stations, measures.traces()["slip"])
 
 
 def _nanoseconds(function, *arguments, count: int) -> float:
@@ -122,45 +104,34 @@ def evaluation_times(histories: list[History], tolerance: float) -> dict[str, fl
     Returns
     -------
     dict
-        `force_evaluation_ns`, the same `_gripped_ns` and `_coasting_ns`, `station_ns`, `classification_ns` (of one
-        sample interval): alone. `integration_ns`: CPU time of the integration per force evaluation. `overhead_factor`:
-        integration over evaluations alone. `stations_share`, `classification_share`: parts of the integration's time
-        that three stations a step, and the classes of intervals, explain. Means are weighed with the evaluations of
-        each history.
+        `force_evaluation_ns`, the same `_gripped_ns` and `_coasting_ns`, and `station_ns`: alone. `integration_ns`: CPU time of
+        the integration with its measures per force evaluation. `overhead_factor`: integration over evaluations alone.
+        Means are weighed with the evaluations of each history.
     """
-    alone, gripped, coasting, stations, classes, weights, steps, total = [], [], [], [], [], [], [], []
+    alone, gripped, coasting, stations, weights, total = [], [], [], [], [], []
     for history in histories:
         states = visited(history, tolerance)
-        speed = np.abs(states.stations[:, 0])
-        pressed = states.stations[:, 2] > 0.0
+        speed = np.abs(states.stations["ring_speed"])
+        pressed = states.stations["elastic_load"] > 0.0
         held = states.only(pressed & (np.abs(states.slips) < _GRIPPED * speed))
         free = states.only(~pressed & (np.abs(states.slips) > _COASTING * speed))
+        roller, room = _arguments(history), np.zeros(_STATES, FORCES)
         for found, chosen in ((alone, states), (gripped, held), (coasting, free)):
-            count = chosen.slips.size
-            found.append(_nanoseconds(_forces_again, history.model, *chosen, count=count))
+            found.append(_nanoseconds(_forces_again, *roller, *chosen, room, count=chosen.slips.size))
         times = np.linspace(history.start, history.end, _STATES)
-        place = (history.model, history.motion, history.start_angle, times)
+        place = (*roller, history.motion, history.start_angle, times, states.stations.copy())
         stations.append(_nanoseconds(_stations_again, *place, count=times.size))
-        room = empty_classes(history.motion.time.size)
-        intervals = (history.model, history.motion, history.start_angle, history.limits.firm, room)
-        classes.append(_nanoseconds(_classify_again, *intervals, count=room.size))
         runs = [timed(lambda: own.integrate(history, tolerance, np.empty(0))) for _ in range(_REPEATS)]  # noqa: B023
         total.append(min(seconds for _, seconds in runs))
-        count = runs[0][0][1].count
-        weights.append(float(count[2]))
-        steps.append(float(count[0] + count[1]))
+        weights.append(float(runs[0][0][0].evaluations))
     spent = 1e9 * sum(total)
-    samples = [history.motion.time.size - 1 for history in histories]
     return {
         "force_evaluation_ns": float(np.average(alone, weights=weights)),
         "force_evaluation_gripped_ns": _mean(gripped),
         "force_evaluation_coasting_ns": _mean(coasting),
         "station_ns": float(np.mean(stations)),
-        "classification_ns": float(np.mean(classes)),
         "integration_ns": spent / sum(weights),
         "overhead_factor": spent / float(np.dot(alone, weights)),
-        "stations_share": 3.0 * float(np.dot(stations, steps)) / spent,
-        "classification_share": float(np.dot(classes, samples)) / spent,
     }
 
 
@@ -172,6 +143,12 @@ def _mean(values: list[float]) -> float:
 def quadrature_times(histories: list[History], tolerance: float) -> dict[str, float]:
     """Closed form against 32 nodes, value and derivatives, at the contacts of all visited states that carry load.
 
+    Parameters
+    ----------
+    histories : list of History
+        Of the paper's model.
+    tolerance : float
+
     Returns
     -------
     dict
@@ -179,21 +156,18 @@ def quadrature_times(histories: list[History], tolerance: float) -> dict[str, fl
     """
     exponents, heatings = [], []
     for history in histories:
-        states = visited(history, tolerance)
-        for k in range(states.slips.size):
-            at, slip = Station(*states.stations[k]), states.slips[k]
-            cage_load = abs(slip_forces(history.model, at, slip).cage_load)
-            model = history.model
-            met = (
-                (model.inner, at.inner_load, slip),
-                (model.outer, at.outer_load, slip),
-                (model.cage, cage_load, at.ring_speed - slip),
-            )
-            for contact, load, sliding in met:
-                if load > 0.0 and sliding != 0.0:
-                    exponents.append(contact.traction.pressure_exponent * load ** (1.0 / 3.0))
-                    heatings.append(contact.traction.heating * abs(sliding))
-    points = np.array(exponents), np.array(heatings)
+        states, forces = visited(history, tolerance), np.zeros(_STATES, FORCES)
+        _forces_again(*_arguments(history), *states, forces, 1)
+        stations, slips = states
+        for name, load, sliding in (
+            ("inner", stations["inner_load"], slips),
+            ("outer", stations["outer_load"], slips),
+            ("cage", np.abs(forces["cage_load"]), stations["ring_speed"] - slips),
+        ):
+            contact, met = history.roller.body[0][name], (load > 0.0) & (sliding != 0.0)
+            exponents.append(contact["pressure_exponent"] * np.cbrt(load[met]))
+            heatings.append(contact["heating"] * np.abs(sliding[met]))
+    points = np.concatenate(exponents), np.concatenate(heatings)
     closed = _nanoseconds(_closed_form_again, *points, count=points[0].size)
     summed = _nanoseconds(_quadrature_again, *points, count=points[0].size)
     worst = max(abs(patch_by_quadrature(p, q)[0] / patch_integral(p, q)[0] - 1.0) for p, q in zip(*points, strict=True))

@@ -19,9 +19,9 @@ from pathlib import Path
 import numpy as np
 from gap_solution import solve_gap
 
-from macroslip.rolling import martin
+from macroslip.contact import gap
 
-TABLE = Path(__file__).parents[1] / "src" / "macroslip" / "rolling" / "gap_table.csv"
+TABLE = Path(__file__).parents[1] / "src" / "macroslip" / "contact" / "gap_table.csv"
 #: ln(1 + κ), and the square root of the width of the pressure over that of the film, s = λ √(1 + κ).
 LOG_CURVATURES = np.linspace(0.0, math.log(1e5), 16)
 ROOT_ASPECTS = np.linspace(0.0, 2.0, 17)
@@ -34,9 +34,9 @@ def slices(kappa: float) -> np.ndarray:
     narrow, wide = (math.atan(root) / root, math.asinh(root) / root) if kappa > 0.0 else (1.0, 1.0)
     return np.array(
         [
-            martin.LOAD / 12.0 * narrow,
-            martin.ROLLING_AT_GAP * math.sqrt(2.0) / 6.0 * wide,
-            2.0 * martin.SHEAR * wide,
+            gap.LOAD / 12.0 * narrow,
+            gap.ROLLING_AT_GAP * math.sqrt(2.0) / 6.0 * wide,
+            2.0 * gap.SHEAR * wide,
         ]
     )
 

@@ -8,19 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing.geometry import ROWS, initial_angles
 from macroslip.case.case import Case
-from macroslip.integrate.entries import sealed
-from macroslip.integrate.load_zone import EDGE, classify, edge_time, empty_classes, interference_at
-from macroslip.integrate.path import Limits
-from macroslip.integrate.sealed import SealedModel
-from macroslip.loads import HubLoads, bundled_cases, main_bearing_load
-from macroslip.mechanisms import Laws
-from macroslip.result.evaluation import evaluated_models
-from macroslip.result.simulate import radau_limits
-from macroslip.ring.motion import ring_motion
+from macroslip.compiled import jit
+from macroslip.contact.mechanisms import Laws
+from macroslip.imposed.run import radau_limits
+from macroslip.imposed.zones import EDGE, classify, edge_time, interference_at
+from macroslip.loads import HubLoads, bundled_cases
+from macroslip.result.prepared import prepare
 from macroslip.ring.orbit import Motion
-from macroslip.roller.model import RollerModel, highest_load, ring_geometry, roller_model
+from macroslip.roller.model import Roller, RollerModel, with_tables
 
 #: Cases, first second and length of the stretches [s], for the full and for the quick run; every case gives both rows.
 FULL = (("12A", "14B", "24A"), 100.0, 30.0)
@@ -37,12 +34,12 @@ class History(NamedTuple):
     name : str
         Case, row and length.
     model : RollerModel
-    roller : SealedModel
-        The same, as the integrators take it.
+    roller : Roller
+        The same, as compiled functions take it.
     motion : Motion
     start_angle : float
         Position φ at the first sample [rad].
-    limits : Limits
+    limits : ndarray of `macroslip.imposed.radau.LIMITS`, shape (1,)
         Of the production integrator, at its default tolerance.
     edges : ndarray
         Times at which elastic load begins or ends [s], rising.
@@ -52,10 +49,10 @@ class History(NamedTuple):
 
     name: str
     model: RollerModel
-    roller: SealedModel
+    roller: Roller
     motion: Motion
     start_angle: float
-    limits: Limits
+    limits: np.ndarray
     edges: np.ndarray
     marks: np.ndarray
 
@@ -79,25 +76,15 @@ def fixed_histories(*, quick: bool) -> list[History]:
     return found
 
 
-def long_histories(*, quick: bool, laws: Laws = Laws.paper(), tables: bool = False) -> list[History]:
+def long_histories(*, quick: bool, laws: Laws = Laws.paper()) -> list[History]:
     """All 21 cases over their 600 s, one roller of each row; in the quick run the one case of the comparison."""
     names = bundled_cases()
     chosen = [(number, name) for number, name in enumerate(names) if not quick or name in QUICK[0]]
-    return [
-        history
-        for number, name in chosen
-        for history in histories_of(name, None, None, [7 * number % 28], laws, tables=tables)
-    ]
+    return [history for number, name in chosen for history in histories_of(name, None, None, [7 * number % 28], laws)]
 
 
 def histories_of(
-    name: str,
-    start: float | None,
-    end: float | None,
-    rollers: Sequence[int],
-    laws: Laws = Laws.paper(),
-    *,
-    tables: bool = False,
+    name: str, start: float | None, end: float | None, rollers: Sequence[int], laws: Laws = Laws.paper()
 ) -> list[History]:
     """Some rollers of each row under part of a bundled case.
 
@@ -111,13 +98,11 @@ def histories_of(
         Numbers in the row.
     laws : Laws
         Mechanisms in the contacts.
-    tables : bool
-        Whether contacts are looked up in tables, as `simulate` would; else their laws are asked.
 
     Returns
     -------
     list of History
-        Row by row, in the order of `macroslip.bearing.frames.ROWS`.
+        Row by row, in the order of `macroslip.bearing.geometry.ROWS`.
 
     Raises
     ------
@@ -125,52 +110,57 @@ def histories_of(
         If there is no such case, or the times lie outside it.
     """
     case = Case(loads=HubLoads.bundled(name).window(start, end), laws=laws)
-    bearing, lubricant = case.bearing, case.lubricant
-    loads = main_bearing_load(case.loads, case.drivetrain)
-    tilt = case.drivetrain.tilt
-    models = {row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, laws=laws) for row in ROWS}
-    motion, largest = ring_motion(
-        loads, bearing, ring_geometry(bearing, models["downwind"]), highest_load(bearing, lubricant, laws)
-    )
-    limits = radau_limits(case, motion, models["downwind"], largest)
-    if tables:
-        models, _ = evaluated_models(case, models, motion, largest)
+    ready = prepare(case)
+    motion, (made, _) = ready.motion, with_tables(ready.models, ready.box)
     found = []
     length = motion.time[-1] - motion.time[0]
     for row in ROWS:
-        roller = sealed(models[row])
+        roller = made[row]
+        limits = radau_limits(
+            roller,
+            motion,
+            tolerance=case.integrator.tolerance,
+            max_steps=case.integrator.max_steps,
+            heaviest=ready.heaviest,
+            window=float(motion.time[0]),
+        )
         for number in rollers:
-            angle = float(initial_angles(row, bearing.rollers_per_row)[number])
+            angle = float(initial_angles(row, case.bearing.rollers_per_row)[number])
             edges = load_edges(roller, motion, angle)
             marks = _coast_middles(roller, motion, angle, edges)
             title = f"{name} {row}, roller {number}, {length:g} s"
-            found.append(History(title, models[row], roller, motion, angle, limits, edges, marks))
+            found.append(History(title, ready.models[row], roller, motion, angle, limits, edges, marks))
     return found
 
 
-def load_edges(roller: SealedModel, motion: Motion, start_angle: float) -> np.ndarray:
+@jit
+def _interference(body, motion, start_angle, interval, time):
+    return interference_at(body, motion, start_angle, interval, time)
+
+
+def load_edges(roller: Roller, motion: Motion, start_angle: float) -> np.ndarray:
     """Times at which the rings begin or cease to press on a roller [s], rising.
 
     They follow from the loads alone, so that any integrator can be told of them beforehand.
     """
-    classes = empty_classes(motion.time.size)
-    classify(roller, motion, start_angle, np.inf, classes)
+    body, classes = roller.body[0], np.empty(motion.time.size - 1, np.int8)
+    classify(body, motion, start_angle, np.inf, classes)
     found = []
     for k in np.flatnonzero(classes == EDGE):
         low, high = motion.time[k], motion.time[k + 1]
-        ends = [interference_at(roller, motion, start_angle, k, time) for time in (low, high)]
+        ends = [_interference(body, motion, start_angle, k, time) for time in (low, high)]
         if ends[0] * ends[1] < 0.0:
-            found.append(edge_time(roller, motion, start_angle, k, low, high))
+            found.append(edge_time(body, motion, start_angle, k, low, high))
     return np.array(found)
 
 
-def _coast_middles(roller: SealedModel, motion: Motion, start_angle: float, edges: np.ndarray) -> np.ndarray:
+def _coast_middles(roller: Roller, motion: Motion, start_angle: float, edges: np.ndarray) -> np.ndarray:
     bounds = np.concatenate([[motion.time[0]], edges, [motion.time[-1]]])
     found = []
     for low, high in itertools.pairwise(bounds):
         middle = 0.5 * (low + high)
         interval = int(np.searchsorted(motion.time, middle, side="right")) - 1
-        free = interference_at(roller, motion, start_angle, interval, middle) < 0.0
+        free = _interference(roller.body[0], motion, start_angle, interval, middle) < 0.0
         if free and high - low > _SHORTEST_COAST:
             parts = int(np.ceil((high - low) / _LONGEST_STRETCH))
             found += [low + (high - low) * (part + 0.5) / parts for part in range(parts)]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import itertools
 import json
 import resource
 import subprocess
@@ -21,16 +22,12 @@ from typing import Any
 
 import numpy as np
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.files import write_durably
-from macroslip.study.journal import Journal
-from macroslip.study.outcome import Outcome
-from macroslip.study.session import _manifest
-from macroslip.study.store import CASES, JOURNAL, SUMMARY, case_path, checksum, layout, to_bytes, write_manifest
-from macroslip.study.study import Study
-from macroslip.study.study_file import study_of
-from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.tables import write_runs, write_summary
+from macroslip.study.run import Session
+from macroslip.study.store import Outcome, case_path, checksum, layout, to_bytes, write_summary
+from macroslip.study.study_file import Study, study_of
+from macroslip.study.summary import NUMBERS
 
 _BATCH = 5000
 _LOADS = ["12A", "14A", "16A", "18A", "20A", "22A", "24A"]
@@ -58,31 +55,25 @@ def example() -> Any:
 def write_study(directory: Path, work: Study) -> None:
     """Write the folder of a study that has ended, with numbers drawn at random."""
     random = np.random.default_rng(1)
-    (directory / CASES).mkdir(parents=True)
-    write_manifest(directory, _manifest(work))
-    write_runs(directory, work)
+    directory.mkdir(parents=True)
     result = example()
     content = to_bytes(result)
     detail, shape = checksum(content), layout(result)
-    journal, batch = Journal(directory / JOURNAL), []
-    for run in work.runs():
-        key = hashlib.sha256(run.name.encode()).hexdigest()
-        draws = random.random((len(ROW_VARIABLES), len(ROWS)))
-        values = {name: row.tolist() for name, row in zip(ROW_VARIABLES, draws, strict=True)}
-        values |= dict.fromkeys(CASE_VARIABLES, 600.0)
-        batch.append(
-            {
-                "run": run.name, "program": "benchmark", "key": key, "outcome": Outcome.COMPLETED, "reason": "",
-                "detail": detail, "size": len(content), "layout": shape, "values": values,
-            }
-        )  # fmt: skip
-        if len(batch) == _BATCH:
-            journal.append(batch)
-            batch = []
-    journal.append(batch)
-    journal.close()
+    session = Session(work, directory, None)
+    with session.opened():
+        runs = work.runs()
+        while batch := list(itertools.islice(runs, _BATCH)):
+            session.database.record(
+                {
+                    "run": run.name, "key": hashlib.sha256(run.name.encode()).hexdigest(), "outcome": Outcome.COMPLETED,
+                    "reason": "", "detail": detail, "layout": shape,
+                    "values": dict(zip(NUMBERS, random.random(len(NUMBERS)).tolist(), strict=True)) | {"window_length": 600.0},
+                }
+                for run in batch
+            )  # fmt: skip
+            key = hashlib.sha256(batch[-1].name.encode()).hexdigest()
     write_durably(case_path(directory, key), content)  # the reader opens the last one of each layout
-    write_summary(directory, work)
+    write_summary(directory, {name: units for name, (units, _) in work.labels.items()})
 
 
 def open_it(directory: Path) -> None:
@@ -103,13 +94,7 @@ def aggregate_it(directory: Path) -> None:
     write_tables(found, directory.parent / "tables", "parquet")
 
 
-def open_unfinished(directory: Path) -> None:
-    """Open a study whose session has not ended, so that there is no summary yet: from the journal."""
-    (directory / SUMMARY).unlink()
-    open_it(directory)
-
-
-STEPS = {"open": open_it, "aggregate": aggregate_it, "open without a summary": open_unfinished}
+STEPS = {"open": open_it, "aggregate": aggregate_it}
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -1,6 +1,6 @@
 """Film, rolling resistance and sliding shear of a lubricated line contact, from Reynolds' equation and elasticity.
 
-The reference for the rolling laws of `macroslip.rolling`: a Newtonian film between elastic half-spaces, pure rolling,
+The reference for the rolling laws of `macroslip.contact.rolling`: a Newtonian film between elastic half-spaces, pure rolling,
 isothermal, incompressible, flooded. In x = b X, p = p0 P, h = b² H/(2R) with Hertz' half-width b and pressure p0,
 
     d/dX [H³ e^(−ln η̄(P))/Λ · dP/dX − H] = 0 where P > 0,   P ≥ 0,   Λ = 3π²/(2M²),
@@ -10,7 +10,7 @@ With Barus' law ln η̄ = L √(M/2π) P. Moes' groups are M = W (2U)^(−½) an
 and its deformation exact; flows are those of finite volumes, Couette's upwind of second order. Newton's method solves
 for all pressures and H0 at once; the set of nodes without pressure changes between its steps.
 
-Run `python benchmarks/line_contact.py` for the errors of the laws of `macroslip.rolling.elastic_line` (five minutes).
+Run `python benchmarks/line_contact.py` for the errors of the laws of `macroslip.contact.rolling` (five minutes).
 """
 
 from __future__ import annotations
@@ -294,8 +294,8 @@ def dowson_higginson(load: float, alpha: float) -> Callable:
 def main() -> None:
     """Errors of the laws over the loads of a raceway contact of the base bearing, and over a grid of M and L."""
     from macroslip import Bearing, Lubricant
-    from macroslip.roller.model import interfaces
-    from macroslip.rolling.elastic_line import InletFilm, WholeFilm, line_rolling
+    from macroslip.contact.interface import interfaces
+    from macroslip.contact.rolling import line_rolling
 
     contact = interfaces(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))[0]
     oil, speed = contact.lubricant, 0.396
@@ -314,7 +314,7 @@ def main() -> None:
         }
         real = climb(load, [material], 600, **laws)[0]
         inlet = inlet_share(solution, load) if load > 1.0 else math.nan
-        whole, published = (line_rolling(law, load, material) for law in (WholeFilm(), InletFilm()))
+        whole, published = (line_rolling(law, load, material) for law in ("whole-film", "inlet"))
         print(
             f"{force:9.0f} {load:7.3f} {solution.rolling:7.4f} {inlet:6.3f} {real.rolling:10.4f} "
             f"{whole / solution.rolling:20.3f} {published / inlet:12.3f} {published / solution.rolling:12.3f}",
@@ -325,7 +325,7 @@ def main() -> None:
     for load in (0.1, 0.3, 0.6, 1.5, 3.0, 6.0, 11.0, 20.0, 32.0, 60.0):
         found = [solve_line(load, 0.0, 500), *climb(load, materials, 500)]
         ratios = [
-            line_rolling(WholeFilm(), load, max(material, 1e-12)) / solution.rolling
+            line_rolling("whole-film", load, max(material, 1e-12)) / solution.rolling
             for material, solution in zip([0.0, *materials], found, strict=True)
         ]
         print(f"{load:5.1f}", " ".join(f"{ratio:6.3f}" for ratio in ratios), flush=True)

@@ -15,7 +15,7 @@ from numbalsoda import lsoda, lsoda_sig
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from benchmarks.right_hand_side import EVALUATIONS, c_rates, pack
+from benchmarks.right_hand_side import c_rates, evaluations, pack
 
 _MOST_STEPS = 10_000_000
 
@@ -62,4 +62,4 @@ def solve(history: History, reference: Reference, stops: bool, rtol: float, atol
     bounds = np.concatenate([[history.start], history.edges if stops else [], [history.end]])
     slip = np.full(history.marks.size, np.nan)
     end = _pieces(_address(data.size), bounds, history.marks, data, rtol, atol, slip)
-    return Solution(end[1:] * energy_unit, slip, data[EVALUATIONS])
+    return Solution(end[1:] * energy_unit, slip, evaluations(data))

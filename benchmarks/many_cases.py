@@ -23,9 +23,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from macroslip import open_study, run_study
+from macroslip.cli.needs import SCHEDULER, require
 from macroslip.machine import usable_processors
-from macroslip.study.cluster import check_installed
 from macroslip.study.study_file import study_of
+from macroslip.study.summary import NUMBERS
 
 CASES = ["12A", "12C", "14B", "16A", "18B", "20C", "22A", "24A"]
 ROUNDS = 3
@@ -63,7 +64,7 @@ def timed_study(folder: Path, work, skip: int, **options) -> dict[str, float]:
         "other_ms": 1e3 * float(found.other_seconds.median()),
         "simulate_s": float(found.simulate_seconds.median()),
         "bytes_per_case": size / found.sizes["case"],
-        "journal_bytes_per_case": (out / "journal.jsonl").stat().st_size / found.sizes["case"],
+        "database_bytes_per_case": (out / "study.sqlite").stat().st_size / found.sizes["case"],
     }
 
 
@@ -107,7 +108,7 @@ def speed(folder: Path, quick: bool) -> dict[str, float]:
         "overhead_two_workers": min(one["overhead"] for one in found["two workers"]),
         **{
             key: found["one thread"][0][key]
-            for key in ("other_ms", "simulate_s", "bytes_per_case", "journal_bytes_per_case")
+            for key in ("other_ms", "simulate_s", "bytes_per_case", "database_bytes_per_case")
         },
         "wall_beyond_steady_two_workers_s": min(
             one["wall_s"] - len(work) / one["rate"] for one in found["two workers"]
@@ -186,7 +187,7 @@ def scheduler(quick: bool) -> dict[str, float]:
     """What passes through one scheduler on this machine, the client included, with two workers that do nothing."""
     from distributed import Client, LocalCluster
 
-    from macroslip.study import cluster
+    from macroslip.study import workers
 
     count, task = (500 if quick else 3000), {"run": "0" * 32, "load": "x" * 120, "settings": [["a.b", 1.0, "mm"]] * 3}
     found = {}
@@ -197,12 +198,12 @@ def scheduler(quick: bool) -> dict[str, float]:
         Client(local) as client,
     ):
         for bundle in (1, 10):
-            cluster.work_several = nothing
-            pool = cluster.Dask(client, lambda text: None)
+            workers.work_several = nothing
+            pool = workers.Dask(client, lambda text: None)
             pool._bundle = lambda bundle=bundle: bundle
             started, sent, done = time.perf_counter(), 0, 0
             while done < count * bundle:
-                free = min(max(4 * 64 - len(pool._flying), 0) * bundle, count * bundle - sent)
+                free = min(max(4 * 64 - len(pool._under_way), 0) * bundle, count * bundle - sent)
                 pool.submit([task] * free)
                 sent += free
                 done += len(pool.wait())
@@ -211,18 +212,22 @@ def scheduler(quick: bool) -> dict[str, float]:
 
 
 def coordinator(folder: Path, quick: bool) -> dict[str, float]:
-    """What the study itself costs for each run: the journal, the counts, the log, the summary; without workers."""
+    """What the study itself costs for each run: the database, the counts, the log, the summary; without workers."""
     from macroslip.study import run as module
-    from macroslip.study.key import program
-    from macroslip.study.tables import Latest
+    from macroslip.study.work import program
 
     count = 2000 if quick else 20000
     work = study(count, 12.0, [0])
-    values = {name: [0.123456789012345, 0.2] for name in module_names()}
 
     class Pretended:
-        def __init__(self):
+        def __init__(self, count):
             self.tasks = []
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *error):
+            pass
 
         def free_places(self):
             return 200 - len(self.tasks)
@@ -232,49 +237,29 @@ def coordinator(folder: Path, quick: bool) -> dict[str, float]:
 
         def wait(self):
             tasks, self.tasks = self.tasks, []
-            key = [hashlib.sha256(task["run"].encode()).hexdigest() for task in tasks]
-            return [
-                (
-                    task,
-                    {
-                        "run": task["run"],
-                        "key": one,
-                        "program": program(),
-                        "outcome": "completed",
-                        "reason": "",
-                        "detail": one,
-                        "size": 280000,
-                        "layout": {"sizes": {"row": 2}, "variables": "0" * 16},
-                        "values": values | {"simulate_seconds": 1.0, "other_seconds": 0.01},
-                    },
-                )
-                for task, one in zip(tasks, key, strict=False)
-            ]
+            return [(task, self.result(task["run"])) for task in tasks]
+
+        def result(self, run):
+            key = hashlib.sha256(run.encode()).hexdigest()
+            return {
+                "run": run, "key": key, "program": program(), "outcome": "completed", "reason": "", "detail": key,
+                "layout": json.dumps({"sizes": {"row": 2}, "variables": "0" * 16}), "values": dict.fromkeys(NUMBERS, 0.1234567),
+            }  # fmt: skip
 
     module.ThisProcess = Pretended
     out = folder / "pretended"
-    started = time.process_time()
+    started, wall = time.process_time(), time.perf_counter()
     run_study(work, out)
-    seconds = time.process_time() - started
+    seconds, wall = time.process_time() - started, time.perf_counter() - wall
     runs = len(work)
-    started = time.process_time()
-    Latest(out)
-    index = time.process_time() - started
     rss = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     sizes = {path.name: path.stat().st_size / runs for path in out.iterdir() if path.is_file()}
     return {
-        "ms_per_run": 1e3 * seconds / runs,
-        "index_us_per_run": 1e6 * index / runs,
+        "processor_ms_per_run": 1e3 * seconds / runs,
+        "wall_ms_per_run": 1e3 * wall / runs,
         "peak_bytes": rss,
         "bytes_per_run": sizes,
     }
-
-
-def module_names() -> list[str]:
-    """Names of the summary."""
-    from macroslip.study.summary import ROW_VARIABLES
-
-    return list(ROW_VARIABLES)
 
 
 def main() -> None:
@@ -284,7 +269,8 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, default=Path("many_cases.json"))
     parser.add_argument("--only", choices=("speed", "scheduler", "memory", "coordinator"))
     given = parser.parse_args()
-    check_installed()
+    if given.only in (None, "scheduler"):
+        require(SCHEDULER)
     found: dict[str, object] = {"cores": usable_processors(), "load_before": os.getloadavg()[0]}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -8,7 +8,7 @@ from typing import Any
 from benchmarks import own
 from benchmarks.histories import histories_of
 from benchmarks.scaling import cpu_seconds
-from macroslip.mechanisms import Laws
+from macroslip.contact.mechanisms import Laws
 
 _CASE = "14B"
 

@@ -6,36 +6,48 @@ import numpy as np
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from macroslip.integrate.load_zone import empty_classes
-from macroslip.integrate.path import Path
-from macroslip.integrate.radau import integrate_radau
-from macroslip.integrate.record import RollerRecord, new_record
-from macroslip.integrate.status import COMPLETED
+from macroslip.imposed.run import Outcome, Problem, steps_of
+from macroslip.imposed.status import COMPLETED
+from macroslip.measures.roller import RollerMeasures, Row, Wanted
 
 #: Tolerance of the reference.
 REFERENCE_TOLERANCE = 1e-9
 
 
-def integrate(history: History, tolerance: float, trace_time: np.ndarray) -> tuple[int, RollerRecord]:
-    """Status and record of the whole history; a step ends at each trace time [s]."""
-    record = new_record(np.array([history.start, history.end]), trace_time, history.limits.speed_scale)
-    stops = np.unique(np.concatenate([trace_time, [history.end]]))
-    limits = history.limits._replace(tolerance=tolerance)
-    path = Path(history.roller, history.motion, history.start_angle, limits)
-    classes = empty_classes(history.motion.time.size)
-    status = integrate_radau(path, 0.0, stops, classes, record)
-    return status, record
+def integrate(
+    history: History, tolerance: float, trace_time: np.ndarray, *, details: bool = False
+) -> tuple[Outcome, RollerMeasures]:
+    """Integrate and measure the whole history, as `simulate` does; a step ends at each trace time [s]."""
+    limits = history.limits.copy()
+    limits["tolerance"] = tolerance
+    problem = Problem(history.roller, history.motion, limits, np.unique(np.concatenate([trace_time, [history.end]])))
+    return run(history, problem, trace_time, details=details)
+
+
+def run(
+    history: History, problem: Problem, trace_time: np.ndarray, *, details: bool = False
+) -> tuple[Outcome, RollerMeasures]:
+    """Outcome and measures of a history by the integrator and the bounds of `problem`."""
+    edges = np.array([history.start, history.end])
+    wanted = Wanted(edges, float(history.limits["speed_scale"][0]), trace_time, details)
+    measures = RollerMeasures(Row(history.model, history.roller, history.motion, wanted), history.start_angle)
+    outcome = Outcome()
+    for steps in steps_of(problem, history.start_angle, outcome):
+        measures.add(steps, 0)
+    measures.finish()
+    return outcome, measures
 
 
 def solve(history: History, tolerance: float) -> Solution:
     """The history at a tolerance; energies are NaN if a roller failed."""
-    status, record = integrate(history, tolerance, history.marks)
-    energy = record.energy if status == COMPLETED else np.full(3, np.nan)
-    return Solution(energy, record.trace[:, 0], float(record.count[2]))
+    outcome, measures = integrate(history, tolerance, history.marks)
+    energy = measures.totals.energy if outcome.status == COMPLETED else np.full(3, np.nan)
+    return Solution(energy, measures.traces()["slip"], float(outcome.evaluations))
 
 
 def reference(history: History, tolerance: float = REFERENCE_TOLERANCE) -> Reference:
     """The history at a tight tolerance; its energy is NaN if the roller failed."""
-    status, record = integrate(history, tolerance, history.marks)
-    energy = float(record.energy.sum()) if status == COMPLETED else float("nan")
-    return Reference(energy, record.trace[:, 0], record.trace[:, 1])
+    outcome, measures = integrate(history, tolerance, history.marks)
+    energy = float(measures.totals.energy.sum()) if outcome.status == COMPLETED else float("nan")
+    traces = measures.traces()
+    return Reference(energy, traces["slip"], traces["spin_pure"] * history.model.radius)

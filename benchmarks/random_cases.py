@@ -10,6 +10,7 @@ bearing moves, those of its rows.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import csv
 import sys
 import time
@@ -22,12 +23,13 @@ import numpy as np
 
 from macroslip import Bearing, BearingLoads, Case, HubLoads, Lubricant, simulate
 from macroslip.bearing.geometry import orbit_ratio
-from macroslip.case.case import IMPOSED_ORBIT, WHOLE_BEARING, Radau
+from macroslip.case.case import IMPOSED_ORBIT, WHOLE_BEARING, Radau, Window
+from macroslip.contact.interface import highest_load, truncation_load
+from macroslip.contact.mechanisms import Laws
 from macroslip.errors import InputError
 from macroslip.loads import Drivetrain, main_bearing_load
-from macroslip.mechanisms import Laws
 from macroslip.ring.motion import ring_motion
-from macroslip.roller.model import highest_load, ring_geometry, roller_model, truncation_load
+from macroslip.roller.model import ring_geometry, roller_model
 
 TIGHT = 1e-6
 #: Allowed relative errors of a roller's energy in the window, and of its peak power in each orbit.
@@ -35,6 +37,15 @@ ENERGY, PEAK = 1e-3, 0.02
 #: Energies [J] and powers [W] below which only the absolute error counts: a millionth of what a roller dissipates.
 SMALL_ENERGY, SMALL_POWER = 1e-6, 1e-4
 HISTORIES = ("constant", "waves", "bundled", "thrust reversal", "load through zero", "stop and go", "shaft reversal")
+#: Kinds of speed and of force that wide cases combine, with samples of 1 ms to 1 s, and oil of -10 to 140 degC.
+SPEEDS = (
+    "constant", "backwards", "turbulent", "ramp", "start", "stop", "stop and go", "reversal", "jumps", "square",
+    "oscillating", "creeping", "standstill",
+)  # fmt: skip
+FORCES = "constant", "waves", "rotating", "thrust reversal", "through zero", "jumps", "thrust"
+WIDE = "wide"
+#: Most samples of a wide history, and steps after which an integration is given up.
+_MOST_SAMPLES, _MOST_STEPS = 3000, 50_000
 _STEP = 0.05
 
 
@@ -87,6 +98,43 @@ def _history(random: np.random.Generator, kind: str, heavy: float, speed: float,
     return BearingLoads(t, turn, force, kind)
 
 
+def _levels(random: np.random.Generator, x: np.ndarray, low: float) -> np.ndarray:
+    """A value that jumps at random times, from `low` to 1; `x` is the part of the history that has passed."""
+    jumps = np.sort(random.uniform(0.0, 1.0, int(random.integers(2, 20))))
+    return random.uniform(low, 1.0, jumps.size + 1)[np.searchsorted(jumps, x)]
+
+
+def _wide_history(random: np.random.Generator, heavy: float, speed: float, period: float) -> BearingLoads:
+    """Any kind of speed with any kind of force, from a thousandth of what the bearing bears on."""
+    way, kind = str(random.choice(SPEEDS)), str(random.choice(FORCES))
+    step = float(np.exp(random.uniform(np.log(1e-3), 0.0)))
+    t = np.arange(min(int(random.uniform(0.3, 1.5) * period / step), _MOST_SAMPLES) + 3) * step
+    x, slow = t / t[-1], 2 * np.pi * t / random.uniform(0.5, 20.0) + random.uniform(0, 2 * np.pi)
+    one = np.ones_like(t)
+    turn = {
+        "constant": one, "backwards": -one, "turbulent": one + _waves(random, t, 0.05), "ramp": x,
+        "start": np.clip(4.0 * x - 1.0, 0.0, 1.0), "stop": np.clip(3.0 - 4.0 * x, 0.0, 1.0),
+        "stop and go": np.clip(2.0 * np.sin(slow) + random.uniform(-0.5, 1.0), 0.0, 1.0), "reversal": np.sin(slow),
+        "jumps": _levels(random, x, 0.1), "square": np.where(np.sin(slow) > 0.0, 1.0, 0.5),
+        "oscillating": 1.0 + 0.5 * np.sin(slow), "creeping": 0.01 * one, "standstill": 0.0 * one,
+    }[way]  # fmt: skip
+    size = heavy * 10.0 ** random.uniform(-3.0, -0.3)
+    force = np.column_stack([0.0 * t, -size * one, size * random.uniform(-0.4, 0.4) * one])
+    if kind == "waves":
+        force += np.column_stack([_waves(random, t, 0.2 * size) for _ in range(3)])
+    elif kind == "rotating":
+        force[:, :2] = size * np.column_stack([np.cos(slow), np.sin(slow)])
+    elif kind == "thrust reversal":
+        force[:, 2] = 0.4 * size * np.sin(slow)
+    elif kind == "through zero":
+        force *= np.sin(slow)[:, None]
+    elif kind == "jumps":
+        force *= _levels(random, x, 0.0)[:, None]
+    elif kind == "thrust":
+        force[:, :2] = 0.0
+    return BearingLoads(t, speed * turn, force, f"{WIDE}: {way}, {kind}")
+
+
 def _borne(loads: BearingLoads, case: Case) -> BearingLoads:
     """The loads, made smaller by the part needed for no contact to reach the rollers' ends: such a case is refused."""
     allowed = highest_load(case.bearing, case.oil, case.laws)
@@ -105,7 +153,18 @@ def _laws(random: np.random.Generator, physical: float) -> Laws:
     return Laws.paper().but(**changes)
 
 
-def random_case(number: int, seed: int = 1, physical: float = 0.1, whole: float = 0.0) -> tuple[str, Case]:
+def _temperature(random: np.random.Generator, lubricant: Lubricant, *, wide: bool) -> float:
+    """A temperature [K] that the oil can have."""
+    while True:
+        found = float(random.uniform(263.15, 413.15) if wide else random.uniform(293.15, 343.15))
+        with contextlib.suppress(InputError):
+            lubricant.at(found)
+            return found
+
+
+def random_case(
+    number: int, seed: int = 1, physical: float = 0.1, whole: float = 0.0, wide: float = 0.0
+) -> tuple[str, Case]:
     """The kind of loads and the case with a number: the same ones whenever it is asked for."""
     random = np.random.default_rng([seed, number])
     bearing = Bearing.read(random.choice(Bearing.catalogue()))
@@ -117,7 +176,11 @@ def random_case(number: int, seed: int = 1, physical: float = 0.1, whole: float 
     speed = float(random.choice([-1.0, 1.0], p=[0.1, 0.9]) * random.uniform(4.0, 22.0) * np.pi / 30)
     heavy = truncation_load(bearing, lubricant) * bearing.rollers_per_row * 0.4
     period = 2 * np.pi / (orbit_ratio(bearing) * abs(speed))
-    if kind == "bundled":
+    is_wide = wide > 0.0 and random.random() < wide
+    if is_wide:
+        loads = _wide_history(random, heavy, speed, period)
+        kind = loads.source
+    elif kind == "bundled":
         start = float(random.uniform(0.0, 500.0))
         cases = [f"{wind}{letter}" for wind in range(12, 26, 2) for letter in "ABC"]
         loads = HubLoads.bundled(str(random.choice(cases))).window(start, start + float(random.uniform(8.0, 16.0)))
@@ -129,12 +192,13 @@ def random_case(number: int, seed: int = 1, physical: float = 0.1, whole: float 
         loads=loads,
         bearing=bearing,
         lubricant=lubricant,
-        temperature=None if random.random() < 0.5 else float(random.uniform(293.15, 343.15)),
+        temperature=None if random.random() < 0.5 else _temperature(random, lubricant, wide=is_wide),
         laws=laws,
         dynamics=dynamics,
         gravity=bool(random.random() < 0.9),
         drag=bool(random.random() < 0.9),
         rollers="all" if dynamics == WHOLE_BEARING else rollers,
+        window=Window(start=0.0) if is_wide else Window(),
     )
     return kind, replace(case, loads=_borne(loads, case))
 
@@ -153,10 +217,15 @@ def _judged(result: Any, dynamics: str) -> tuple[np.ndarray, np.ndarray]:
 
     There gripped rollers push each other through the cage, and which of them touches it is chaotic.
     """
-    energy, peak = result.energy.sum("interface"), result.peak_power.max("interface")
+    energy = result.energy.sum("interface")
+    # An orbit need not be complete for its peak to be right.
+    peak = np.concatenate(
+        [result.peak_power.transpose("row", "roller", ..., "interface"), result.window_peak_power.values[:, :, None]],
+        axis=2,
+    ).max(axis=-1)
     if dynamics == WHOLE_BEARING:
-        energy, peak = energy.sum("roller"), peak.max("roller")
-    return energy.values, peak.values
+        energy, peak = energy.sum("roller"), peak.max(axis=1)
+    return energy.values, peak
 
 
 def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -> Outcome:
@@ -166,7 +235,7 @@ def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -
 
     def timed(tolerance: float) -> tuple[Any, float]:
         start = time.process_time()
-        result = simulate(replace(case, integrator=Radau(tolerance=tolerance)), threads=1)
+        result = simulate(replace(case, integrator=Radau(tolerance=tolerance, max_steps=_MOST_STEPS)), threads=1)
         return result, time.process_time() - start
 
     nothing = float("nan")
@@ -195,8 +264,9 @@ def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -
 def table(outcomes: list[Outcome]) -> Iterator[str]:
     """Lines of a table by kind of loads, with the outliers below."""
     yield f"{'loads':<18}{'cases':>6}{'agree':>7}{'failed':>7}{'refused':>8}{'off':>5}{'energy error':>14}{'peak error':>12}"
-    for kind in (*HISTORIES, "all"):
-        some = [one for one in outcomes if kind in (one.history, "all")]
+    kinds = *HISTORIES, *([WIDE] if any(one.history.startswith(WIDE) for one in outcomes) else []), "all"
+    for kind in kinds:
+        some = [one for one in outcomes if kind in (one.history.split(":")[0], "all")]
         count = {
             word: sum(one.verdict.startswith(word) for one in some) for word in ("agrees", "failed", "refused", "off")
         }
@@ -223,6 +293,9 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--tight", type=float, default=TIGHT, help="tolerance of the reference")
     parser.add_argument("--physical", type=float, default=0.1, help="share of cases with the set physical")
     parser.add_argument("--whole", type=float, default=0.0, help="share of cases in which the whole bearing moves")
+    parser.add_argument(
+        "--wide", type=float, default=0.0, help="share of cases with any kind of speed, force and sample"
+    )
     parser.add_argument("-o", "--output", type=Path, default=Path("random_cases.csv"))
     given = parser.parse_args(arguments)
     outcomes = []
@@ -230,7 +303,7 @@ def main(arguments: list[str] | None = None) -> None:
         writer = csv.writer(file)
         writer.writerow(Outcome._fields)
         for number in range(given.first, given.first + given.cases):
-            one = compare(number, given.seed, given.tight, physical=given.physical, whole=given.whole)
+            one = compare(number, given.seed, given.tight, physical=given.physical, whole=given.whole, wide=given.wide)
             outcomes.append(one)
             writer.writerow(one)
             file.flush()

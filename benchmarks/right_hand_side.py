@@ -1,7 +1,8 @@
 """The slip equation with its three energies as a general ODE y' = f(t, y), compiled, for solvers of any kind.
 
 State: y = (v [m/s], E_inner, E_outer, E_cage in a unit of energy). Everything the equation needs lies in one array of
-numbers, because a solver written in C passes a pointer on and nothing else.
+numbers, because a solver written in C passes a pointer on and nothing else. The rates are those of any roller; the Jacobian
+is exact where slip is the same all over a contact, as in the paper's model, in which the comparison is made.
 """
 
 from __future__ import annotations
@@ -10,74 +11,55 @@ import numba
 import numpy as np
 
 from benchmarks.histories import History
-from macroslip.compiled import jit
-from macroslip.film.masjedi_khonsari import MasjediKhonsari
-from macroslip.integrate.measures import powers
+from macroslip.compiled import jit, jit_inline
 from macroslip.ring.orbit import Motion, instant, interval_of
-from macroslip.roller.contact_force import PlainContact
-from macroslip.roller.films import NoFilms
-from macroslip.roller.forces import net_force, slip_forces, station
-from macroslip.roller.model import RollerModel
-from macroslip.traction.barus_crook import BarusCrook
+from macroslip.roller.forces import FORCES, STATION, net_force, powers, slip_forces, station
+from macroslip.roller.model import BODY
 
-#: Places in the array: number of samples, interval found last, evaluations so far, unit of energy, start angle, model.
-SAMPLES, INTERVAL, EVALUATIONS, ENERGY_UNIT, START_ANGLE, _MODEL = range(6)
-_SCALARS = len(RollerModel._fields) - 4
-_FILM, _TRACTION = len(MasjediKhonsari._fields), len(BarusCrook._fields)
-_INNER = _MODEL + _SCALARS
-_OUTER = _INNER + _FILM + _TRACTION
-_CAGE = _OUTER + _FILM + _TRACTION
-_MOTION = _CAGE + _FILM + _TRACTION
+#: What stands at the start of the array: number of samples, interval found last, evaluations so far, unit of energy [J], position
+#: at the first sample [rad], the roller, and room for what its functions write. Motion and tables follow.
+WORK = np.dtype(
+    [
+        ("samples", "i8"), ("interval", "i8"), ("evaluations", "i8"), ("energy_unit", "f8"), ("start_angle", "f8"),
+        ("body", BODY), ("at", STATION), ("forces", FORCES), ("power", "f8", (3,)),
+    ]
+)  # fmt: skip
+_SIZE = WORK.itemsize // 8
 
 
 def pack(history: History, energy_unit: float = 1.0) -> np.ndarray:
-    """All numbers of a history in one array, for `rates` and `jacobian`; the laws are the package's default ones."""
-    model, motion = history.model, history.motion
-    numbers = [motion.time.size, 0.0, 0.0, energy_unit, history.start_angle, *model[:_SCALARS]]
-    for contact in (model.inner, model.outer, model.cage):
-        numbers += [*contact.film, *contact.traction]
+    """All numbers of a history in one array, for `rates` and `jacobian`."""
+    motion = history.motion
+    work = np.zeros(1, WORK)
+    work["samples"], work["energy_unit"], work["start_angle"] = motion.time.size, energy_unit, history.start_angle
+    work["body"] = history.roller.body
     series = (motion.time, motion.shaft_speed, motion.shaft_angle, motion.displacement.ravel())
-    return np.concatenate([np.array(numbers), *series])
+    return np.concatenate([work.view(np.float64), *series, history.roller.tables])
 
 
-@jit
-def _contact(d, k):
-    return PlainContact(MasjediKhonsari(d[k], d[k + 1], d[k + 2], d[k + 3]), BarusCrook(d[k + 4], d[k + 5], d[k + 6]))
+def evaluations(d: np.ndarray) -> float:
+    """Force evaluations so far."""
+    return float(d[:_SIZE].view(WORK)["evaluations"][0])
 
 
-@jit
-def unpack(d):
-    """Model and motion from the array that `pack` makes; the motion's arrays are views of it."""
-    k = _MODEL
-    model = RollerModel(
-        d[k],
-        d[k + 1],
-        d[k + 2],
-        d[k + 3],
-        d[k + 4],
-        d[k + 5],
-        d[k + 6],
-        d[k + 7],
-        d[k + 8],
-        d[k + 9],
-        d[k + 10],
-        d[k + 11],
-        NoFilms(),
-        _contact(d, _INNER),
-        _contact(d, _OUTER),
-        _contact(d, _CAGE),
-    )
-    n = int(d[SAMPLES])
-    k = _MOTION
-    displacement = d[k + 3 * n : k + 6 * n].reshape(n, 3)
-    return model, Motion(d[k : k + n], d[k + n : k + 2 * n], d[k + 2 * n : k + 3 * n], displacement)
+@jit_inline
+def _motion(d, samples):
+    k, n = _SIZE, samples
+    return Motion(d[k : k + n], d[k + n : k + 2 * n], d[k + 2 * n : k + 3 * n], d[k + 3 * n : k + 6 * n].reshape(n, 3))
 
 
-@jit
-def _station_at(time, d, model, motion):
-    interval = interval_of(motion, time, int(d[INTERVAL]))
-    d[INTERVAL] = interval
-    return station(model, d[START_ANGLE], instant(motion, interval, time))
+@jit_inline
+def _evaluate(time, slip, d, work):
+    """Write station and forces; returns du2/dt [m/s²]."""
+    motion, body = _motion(d, work.samples), work.body
+    k = interval_of(motion, time, work.interval)
+    work.interval = k
+    work.evaluations += 1
+    tables = d[_SIZE + 6 * work.samples :]
+    station(body, tables, work.start_angle, instant(motion, k, time), work.at)
+    slip_forces(body, tables, work.at, slip, work.forces)
+    acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+    return -body.orbit_ratio * body.outer_radius * acceleration
 
 
 @jit
@@ -99,18 +81,11 @@ def rates(time, state, rate, d):
     -----
     dv/dt = du2/dt − (r²/I_z')(F_i + F_o + F_c); the shaft speed is linear between samples, so du2/dt is exact.
     """
-    model, motion = unpack(d)
-    at = _station_at(time, d, model, motion)
-    d[EVALUATIONS] += 1.0
-    k = int(d[INTERVAL])
-    acceleration = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
-    forces = slip_forces(model, at, state[0])
-    inner, outer, cage = powers(model, at, forces, state[0])
-    rate[0] = -model.orbit_ratio * model.outer_radius * acceleration
-    rate[0] -= model.mobility * net_force(forces)
-    rate[1] = inner / d[ENERGY_UNIT]
-    rate[2] = outer / d[ENERGY_UNIT]
-    rate[3] = cage / d[ENERGY_UNIT]
+    work = d[:_SIZE].view(WORK)[0]
+    rate[0] = _evaluate(time, state[0], d, work) - work.body.mobility * net_force(work.forces)
+    powers(work.body, work.at, work.forces, state[0], work.power)
+    for i in range(3):
+        rate[i + 1] = work.power[i] / work.energy_unit
 
 
 @jit
@@ -119,18 +94,17 @@ def jacobian(time, state, matrix, d):
 
     Parameters are those of `rates`. The evaluation counts as one.
     """
-    model, motion = unpack(d)
-    at = _station_at(time, d, model, motion)
-    d[EVALUATIONS] += 1.0
+    work = d[:_SIZE].view(WORK)[0]
     slip = state[0]
-    forces = slip_forces(model, at, slip)
-    surface_speed = at.ring_speed - slip
+    _evaluate(time, slip, d, work)
+    forces = work.forces
+    surface_speed = work.at.ring_speed - slip
     cage_slope = forces.slope - forces.inner_slope - forces.outer_slope
     by_slip = cage_slope * surface_speed - forces.cage
-    matrix[0, 0] = -model.mobility * forces.slope
-    matrix[1, 0] = np.sign(forces.inner * slip) * (forces.inner_slope * slip + forces.inner) / d[ENERGY_UNIT]
-    matrix[2, 0] = np.sign(forces.outer * slip) * (forces.outer_slope * slip + forces.outer) / d[ENERGY_UNIT]
-    matrix[3, 0] = np.sign(forces.cage * surface_speed) * by_slip / d[ENERGY_UNIT]
+    matrix[0, 0] = -work.body.mobility * forces.slope
+    matrix[1, 0] = np.sign(forces.inner * slip) * (forces.inner_slope * slip + forces.inner) / work.energy_unit
+    matrix[2, 0] = np.sign(forces.outer * slip) * (forces.outer_slope * slip + forces.outer) / work.energy_unit
+    matrix[3, 0] = np.sign(forces.cage * surface_speed) * by_slip / work.energy_unit
 
 
 def c_rates(signature, length: int) -> numba.core.ccallback.CFunc:

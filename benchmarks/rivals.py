@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from benchmarks.outcome import Setting, Solution
 
-INSTALL = "pip install 'macroslip[bench]'"
+INSTALL = "pip install 'macroslip[bench,lsoda]'"
 
 
 OWN, EULER, CVODE, CVODE_COMPILED = "own", "backward_euler", "cvode", "cvode_compiled"
@@ -121,8 +121,8 @@ def own_settings() -> Iterator[Setting]:
 RIVALS = (
     Rival("scipy_radau", "SciPy solve_ivp, Radau", 200.0, lambda: scipy_solver("Radau"), _scipy_settings, 0.3, True),
     Rival("scipy_bdf", "SciPy solve_ivp, BDF", 200.0, lambda: scipy_solver("BDF"), _scipy_settings, 0.3, True),
-    Rival(CVODE_COMPILED, "SUNDIALS CVODE, compiled callbacks", 20.0, _cvode_compiled, _cvode_settings, 1.0),
-    Rival(CVODE, "SUNDIALS CVODE, through scikit-sundae", 20.0, lambda: _room("cvode"), _cvode_python_settings, 0.15),
-    Rival("lsoda", "LSODA (numbalsoda)", 12.0, lambda: _room("lsoda"), _lsoda_settings, 1.0),
+    Rival(CVODE_COMPILED, "SUNDIALS CVODE, compiled callbacks", 14.0, _cvode_compiled, _cvode_settings, 1.0),
+    Rival(CVODE, "SUNDIALS CVODE, through scikit-sundae", 14.0, lambda: _room("cvode"), _cvode_python_settings, 0.15),
+    Rival("lsoda", "LSODA (numbalsoda)", 10.0, lambda: _room("lsoda"), _lsoda_settings, 1.0),
     Rival(EULER, "the paper's backward Euler, fixed step", 20.0, lambda: _room("euler"), _euler_settings, 0.3),
 )

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.histories import History
 from benchmarks.outcome import Reference, Solution
-from benchmarks.right_hand_side import EVALUATIONS, jacobian, pack, rates
+from benchmarks.right_hand_side import evaluations, jacobian, pack, rates
 
 
 class _TooDearError(Exception):
@@ -49,7 +49,7 @@ def solve(
     data = pack(history)
 
     def rate(time, state):
-        if data[EVALUATIONS] > most_evaluations:
+        if evaluations(data) > most_evaluations:
             raise _TooDearError
         found = np.empty(4)
         rates(time, state, found, data)
@@ -76,9 +76,9 @@ def solve(
         try:
             found = solve_ivp(rate, (low, high), state, t_eval=[*history.marks[inside], high], **options)
         except _TooDearError:
-            return Solution(np.full(3, np.nan), slip, data[EVALUATIONS])
+            return Solution(np.full(3, np.nan), slip, evaluations(data))
         if not found.success:
-            return Solution(np.full(3, np.nan), slip, data[EVALUATIONS])
+            return Solution(np.full(3, np.nan), slip, evaluations(data))
         slip[inside] = found.y[0, :-1]
         state = found.y[:, -1]
-    return Solution(state[1:], slip, data[EVALUATIONS])
+    return Solution(state[1:], slip, evaluations(data))

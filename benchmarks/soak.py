@@ -3,8 +3,8 @@
     python -m benchmarks.soak --minutes 60
 
 A scheduler, two workers and `macroslip study` run as a user starts them, on the loopback interface. Once a period one
-of the workers gets SIGKILL, in turn; its nanny starts another. In the end the study is interrupted. Then every record
-of the journal must have its result with the right checksum, every run exactly one record, no run may have failed, and
+of the workers gets SIGKILL, in turn; its nanny starts another. In the end the study is interrupted. Then every recorded
+run must have its result with the right checksum, no run may have failed, and
 a sample of the cases computed again here must agree to the last bit.
 """
 
@@ -15,12 +15,13 @@ import json
 import os
 import random
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,8 +29,7 @@ import numpy as np
 
 from macroslip import open_study, run_study
 from macroslip.loads import bundled_cases
-from macroslip.study.journal import records
-from macroslip.study.store import JOURNAL, case_path, checksum
+from macroslip.study.store import DATABASE, case_path, checksum
 from macroslip.study.study_file import study_of
 
 #: Time between looks at the memory [s].
@@ -126,7 +126,7 @@ def soak(folder: Path, seconds: float, every: float, check: int) -> Found:
     with started(
         folder, "scheduler", "-m", f"{dask}scheduler", "--port", "0", "--scheduler-file", str(scheduler_file), *common
     ) as scheduler:
-        address = json.loads(_waited_for(scheduler_file, "}"))["address"]
+        address = json.loads(waited_for(scheduler_file, "}"))["address"]
         workers = ("-m", f"{dask}worker", address, "--nworkers", str(WORKERS), "--nthreads", "1", *common)
         command = ("-c", "from macroslip.cli import main; main()", "study", str(folder / "study.yaml"))
         with (
@@ -144,7 +144,8 @@ def soak(folder: Path, seconds: float, every: float, check: int) -> Found:
     return Found(samples, kills, recorded, problems + wrong)
 
 
-def _waited_for(path: Path, end: str) -> str:
+def waited_for(path: Path, end: str) -> str:
+    """Content of a file that another process writes, once it has its end."""
     until = time.monotonic() + _ANSWER
     while not path.exists() or not path.read_text(encoding="utf-8").rstrip().endswith(end):
         if time.monotonic() > until:
@@ -161,7 +162,7 @@ def _watched(
     import psutil
 
     samples: list[Sample] = []
-    kills, lines, position = 0, 0, 0
+    kills = 0
     begun, killed = None, 0.0
     limit = time.monotonic() + seconds + _ANSWER
     while begun is None or time.monotonic() < begun + seconds:
@@ -169,14 +170,13 @@ def _watched(
             return samples, kills, ["a process that should run to the end has ended; its log has the reason"]
         if begun is None and time.monotonic() > limit:
             return samples, kills, ["no result came"]
-        more, position = _new_lines(out / JOURNAL, position)
-        lines += more
+        lines = len(_recorded(out))
         if begun is None and lines:
             begun = killed = time.monotonic()
-        workers = _workers(nannies)
+        workers = workers_of(nannies)
         if begun is not None:
-            largest = max((_resident(one) for one in workers), default=0)
-            memory = [_resident(psutil.Process(process.pid)) for process in (scheduler, study)]
+            largest = max((resident(one) for one in workers), default=0)
+            memory = [resident(psutil.Process(process.pid)) for process in (scheduler, study)]
             samples.append(Sample(time.monotonic() - begun, memory[0], memory[1], largest, lines, kills))
             if time.monotonic() - killed >= every and len(workers) == WORKERS:
                 workers[kills % WORKERS].kill()
@@ -185,17 +185,22 @@ def _watched(
     return samples, kills, []
 
 
-def _new_lines(path: Path, position: int) -> tuple[int, int]:
-    """Lines that were written to a file since a position, and the position of its end."""
-    if not path.exists():
-        return 0, position
-    with path.open("rb") as file:
-        file.seek(position)
-        more = file.read()
-    return more.count(b"\n"), position + len(more)
+def _recorded(out: Path) -> list[tuple[str, str | None, str | None, str | None]]:
+    """Run, key, outcome and checksum of every run that is recorded."""
+    if not (out / DATABASE).exists():
+        return []
+    query = (
+        "SELECT run, runs.key, coalesce(runs.outcome, results.outcome), detail FROM runs "
+        "LEFT JOIN results ON results.key = runs.key WHERE runs.key NOT NULL OR runs.outcome NOT NULL"
+    )
+    try:
+        with closing(sqlite3.connect(f"{(out / DATABASE).as_uri()}?mode=ro", uri=True)) as database:
+            return database.execute(query).fetchall()
+    except sqlite3.OperationalError:  # the tables are being made
+        return []
 
 
-def _workers(nannies: subprocess.Popen) -> list[Any]:
+def workers_of(nannies: subprocess.Popen) -> list[Any]:
     """The processes of the workers below their nannies."""
     import psutil
 
@@ -209,7 +214,8 @@ def _workers(nannies: subprocess.Popen) -> list[Any]:
     return sorted(found, key=lambda child: child.pid)
 
 
-def _resident(process: Any) -> int:
+def resident(process: Any) -> int:
+    """Memory of a process [bytes]; 0 once it has ended."""
     import psutil
 
     try:
@@ -221,26 +227,20 @@ def _resident(process: Any) -> int:
 def looked_through(folder: Path, out: Path, seen: int, check: int) -> tuple[int, list[str]]:
     """Number of recorded runs, and what is wrong with them; `seen` records were counted while the study ran."""
     problems = []
-    found = list(records(out / JOURNAL))
-    sound = [record for record in found if record is not None]
-    if len(sound) != len(found):
-        problems.append(f"{len(found) - len(sound)} lines of the journal are damaged")
-    if len(sound) < seen:
-        problems.append(f"{seen} records were seen, {len(sound)} are left")
-    runs = {record["run"] for record in sound}
-    if len(runs) != len(sound):
-        problems.append(f"{len(sound) - len(runs)} runs were computed more than once")
-    failed = [record for record in sound if record["outcome"] != "completed"]
+    found = _recorded(out)
+    if len(found) < seen:
+        problems.append(f"{seen} records were seen, {len(found)} are left")
+    lost = [run for run, _, outcome, _ in found if outcome is None]
+    if lost:
+        problems.append(f"{len(lost)} runs have lost their result")
+    failed = [run for run, _, outcome, _ in found if outcome not in (None, "completed")]
     if failed:
-        problems.append(f"{len(failed)} runs failed: {failed[0]['reason']}")
-    damaged = [
-        record
-        for record in sound
-        if "detail" in record and checksum(case_path(out, record["key"]).read_bytes()) != record["detail"]
-    ]
+        problems.append(f"{len(failed)} runs failed")
+    damaged = [run for run, key, _, detail in found if detail and checksum(case_path(out, key).read_bytes()) != detail]
     if damaged:
         problems.append(f"{len(damaged)} results do not have their checksum")
-    return len(sound), problems + (_computed_again(folder, out, runs, check) if check else [])
+    runs = {run for run, *_ in found}
+    return len(found), problems + (_computed_again(folder, out, runs, check) if check else [])
 
 
 def _computed_again(folder: Path, out: Path, done: set[str], check: int) -> list[str]:

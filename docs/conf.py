@@ -31,7 +31,8 @@ html_static_path = []
 
 def _links_to_sources(app: object, page: str, text: list[str]) -> None:
     """Turn links to files beside docs/, which a site does not have, into their paths in the source."""
-    text[0] = re.sub(r"\[(`?)([^\]`]+)`?\]\(\.\./([^)]+)\)", _with_path, text[0])
+    outside = r"\.\./\.\./" if page.startswith("notes/") else r"\.\./"
+    text[0] = re.sub(r"\[(`?)([^\]`]+)`?\]\(" + outside + r"([^)]+)\)", _with_path, text[0])
 
 
 def _with_path(link: re.Match) -> str:

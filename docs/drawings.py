@@ -14,8 +14,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon, Rectangle, Wedge
 from mount_drawings import four_point, three_point
+from skew_drawing import skewed_rollers
 
-from macroslip import Bearing, BearingLoads, Case, Traces, simulate
+from macroslip import Bearing, BearingLoads, Case, Laws, Traces, simulate
 from macroslip.bearing import geometry
 from macroslip.report.bearing_drawing import draw_bearing
 
@@ -145,7 +146,7 @@ def side_view() -> Figure:
 def bearing_loads_of_rollers(force_down: float) -> np.ndarray:
     """Load of every downwind roller at its starting place under a static downward force [N]."""
     loads = BearingLoads.constant([0.0, -force_down, 0.0], 2.14, 0.1)
-    result = simulate(Case(loads=loads, traces=Traces(step=0.1)))
+    result = simulate(Case(loads=loads, laws=Laws.paper(), traces=Traces(step=0.1)))
     return result.roller_load.sel(row="downwind").isel(time=0).values
 
 
@@ -327,6 +328,7 @@ PICTURES = {
     "frames-side.svg": side_view,
     "frames-axial.svg": axial_view,
     "frames-roller.svg": one_roller,
+    "frames-skew.svg": skewed_rollers,
     "bearing.svg": bearing_section,
     "mount-three-point.svg": three_point,
     "mount-four-point.svg": four_point,

@@ -1,7 +1,7 @@
-"""Print the tables of physical-study.md, and the rows of the README's table, from what `macroslip reproduce` computed.
+"""Print the tables of physical-study.md and its notes, and the rows of findings.md, from the results of `make reproduce`.
 
-macroslip reproduce -o results
-python docs/physical_study.py results
+make reproduce
+PYTHONPATH=. python docs/physical_study.py results
 """
 
 from __future__ import annotations
@@ -11,19 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from macroslip.reproduction.dissipation import dissipation
-from macroslip.reproduction.paper_numbers import paper_numbers
-from macroslip.reproduction.paper_study import paper_study
-from macroslip.reproduction.studies import FOLDER
-from macroslip.reproduction.uncertain_values import VALUES
-from macroslip.reproduction.uncertainty import uncertainty
-from macroslip.reproduction.uncertainty_summary import (
-    drivers,
-    robust,
-    sample_size,
-    strongest,
-    uncertainty_summary,
-)
+from paper.reproduce import STUDIES
+from paper.studies import dissipation, paper_numbers, paper_study
+from paper.uncertainty import drivers, robust, strongest, uncertainty, uncertainty_summary
+from paper.values import VALUES
 
 ROWS = ("downwind", "upwind")
 
@@ -107,7 +98,7 @@ def per_orbit_of(study):
 def uncertainty_tables(folder: Path) -> None:
     """Ranges, drivers and indices, and what is robust."""
     summary = uncertainty_summary(uncertainty(folder))
-    print(sample_size(summary))
+    print(", ".join(f"{name}: {count}" for name, count in summary.attrs.items()))
     print("| value | range | why |\n|---|---|---|")
     for one in VALUES:
         print(f"| {one.name} | {one.range_text} | {one.reason} |")
@@ -132,8 +123,8 @@ def uncertainty_tables(folder: Path) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=Path, help="folder that macroslip reproduce has written")
-    folder = parser.parse_args().results / FOLDER
+    parser.add_argument("results", type=Path, help="folder that make reproduce has written")
+    folder = parser.parse_args().results / STUDIES
     paper = folder / "study_paper"
     study_tables(folder / "study_physical", paper if paper.is_dir() else None)
     uncertainty_tables(folder / "uncertainty_physical")

@@ -1,4 +1,4 @@
-"""Numbers of docs/whole-bearing.md: python docs/whole_bearing.py PART …, each part a table as the page has it.
+"""Numbers of docs/notes/whole-bearing.md: python docs/whole_bearing.py PART …, each part a table as the page has it.
 
 Parts, each with `-paper` or `-physical`: `cases` (imposed orbit and whole bearing under the 21 load cases), `choices` (gap, oil,
 weight, arrangement, guidance, scatter under 14B), `places` (forces by place on the orbit under a radial load), `operation`
@@ -219,7 +219,7 @@ def operation(laws: Laws) -> None:
 
 
 def long() -> None:
-    """What is left open in the books, and what orbits cost, of a bearing with three rollers a row over many orbits."""
+    """Rest of the books and cost of the orbits of a bearing with three rollers a row over many orbits."""
     from macroslip.bearing import Bearing
 
     bearing = Bearing.read("skf-240-600-bc").replace(rollers_per_row=3)
@@ -260,7 +260,7 @@ def speed(laws: Laws) -> None:
 
 
 def accuracy(laws: Laws) -> None:
-    """Energies of 14B at the default tolerance over those at a finer one, by the laws themselves."""
+    """Energies of 14B at the default tolerance over those at a finer one."""
     heading(
         "spars", "downwind raceways", "downwind cage", "upwind raceways", "upwind cage", "rolling resistance",
         "energy left open / lost",
@@ -270,7 +270,7 @@ def accuracy(laws: Laws) -> None:
         loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + span)
         case = Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
         found = []
-        for integrator in (Radau(), Radau(tolerance=fine, tables=False)):
+        for integrator in (Radau(), Radau(tolerance=fine)):
             result = simulate(replace(case, integrator=integrator))
             found.append(np.append(energies(result).ravel(), float(result.rolling_energy.sum())))
             if len(found) == 1:

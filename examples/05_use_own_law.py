@@ -2,7 +2,7 @@
 
     python examples/05_use_own_law.py
 
-The first run compiles the kernels for the new law (some ten seconds); later runs find them on the disk.
+The law is evaluated once, for a table of each contact; later runs find the tables on the disk.
 """
 
 import numpy as np

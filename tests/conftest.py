@@ -16,12 +16,11 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from hypothesis import HealthCheck, settings
 from xdist.scheduler import LoadScopeScheduling
 
-from macroslip import compiled, plugins
+from macroslip import plugins
 from macroslip.bearing import Bearing
-from macroslip.film import film_law
+from macroslip.contact.registry import FILM_LAWS, TRACTION_LAWS
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import roller_model
-from macroslip.traction import traction_law
 
 settings.register_profile("fixed", deadline=None, derandomize=True, database=None)
 settings.register_profile("deep", deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -29,14 +28,14 @@ settings.load_profile("fixed")
 
 
 #: Tests of these files stay with one worker: they compile the same kernels of the whole bearing, of a minute each.
-TOGETHER = re.compile(r"tests/(whole_bearing/|torque/test_rings\.py|report/test_whole_section\.py)")
+TOGETHER = re.compile(r"tests/(whole/|torque/test_rings\.py|report/test_whole_section\.py)")
 #: What takes longest, or compiles what others need.
 FIRST = (
-    "tests/whole_bearing/",
+    "tests/whole/",
     "tests/docs/test_pages.py",
     "tests/torque/test_rings.py",
     "tests/study/test_cluster.py",
-    "tests/reproduction/",
+    "tests/paper/",
     "tests/docs/",
 )
 
@@ -66,22 +65,13 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="module", autouse=True)
 def package_laws():
-    """A module's own laws end with its tests.
-
-    Other tests list the laws of the package, and kernels depend on every law that a process knows: one that stays
-    would make the process compile the kernels of all later tests once more.
-    """
-    lists = (film_law._laws._entries, traction_law._laws._entries, plugins._loaded)
-    before, sources = [dict(one) for one in lists], list(compiled._own_laws)
+    """A module's own laws end with its tests: other tests list the laws of the package."""
+    lists = (FILM_LAWS._laws, TRACTION_LAWS._laws, plugins._loaded)
+    before = [dict(one) for one in lists]
     yield
     for one, old in zip(lists, before, strict=True):
         one.clear()
         one.update(old)
-    if compiled._own_laws != sources:
-        compiled._own_laws[:] = sources
-        with compiled._storing() as folder:
-            for dispatcher in compiled._stored if folder else ():
-                dispatcher.enable_caching()
 
 
 @pytest.fixture(scope="session")

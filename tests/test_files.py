@@ -30,6 +30,25 @@ def test_a_pipe_is_no_file_to_replace(tmp_path):
         files.check_regular(tmp_path / name, "Name another.")
 
 
+def test_the_files_of_a_study_are_never_replaced(tmp_path):
+    (tmp_path / "lock").touch()
+    files.check_new_file(tmp_path / "lock", force=True)
+    (tmp_path / "study.sqlite").touch()
+    for name in ("lock", "study.sqlite", "manifest.json", "summary.parquet"):
+        with pytest.raises(InputError, match=f"{name} is a file of the study in this folder. Choose another name"):
+            files.check_new_file(tmp_path / name, force=True)
+    files.check_new_file(tmp_path / "case.nc", force=False)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows bounds the whole path")
+def test_a_name_may_be_as_long_as_the_system_allows(tmp_path):
+    longest = os.pathconf(tmp_path, "PC_NAME_MAX")
+    with files.new_file(tmp_path / ("n" * longest), force=False) as temporary:
+        temporary.touch()
+    files.write_durably(tmp_path / ("é" * (longest // 2)), b"")
+    assert {len(os.fsencode(path.name)) for path in tmp_path.iterdir()} == {longest, longest // 2 * 2}
+
+
 def test_a_zero_byte_in_a_name_is_refused_in_words(tmp_path):
     with pytest.raises(InputError, match="zero byte"):
         files.check_new_file(tmp_path / "a\0b", force=False)

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from macroslip import BearingLoads, Case, fingerprint
+from macroslip import BearingLoads, Case, Laws, fingerprint
 from macroslip.fingerprint import KERNEL_PARTS, OTHER_PARTS, RESULT_PARTS, sources_of
-from macroslip.study.key import case_key
+from macroslip.study.work import case_key
 
 ROOT = Path(fingerprint.__file__).parent
 LOADS = BearingLoads.constant([0.0, -300e3, 10e3], 2.0, 10.0)
@@ -34,15 +34,15 @@ def copy(tmp_path, monkeypatch):
 
 def key():
     fingerprint.fingerprint.cache_clear()
-    return case_key(Case(loads=LOADS), {})
+    return case_key(Case(loads=LOADS, laws=Laws.paper()), {})
 
 
 @pytest.mark.parametrize(
     ("name", "counts"),
     [
-        ("traction/rheology.py", True), ("roller/forces.py", True), ("loads/openfast.py", True),
-        ("result/simulate.py", True), ("study/summary.py", True), ("study/cycles.py", True),
-        ("reproduction/verdicts.py", False), ("report/results_page.py", False), ("torque/handbooks.py", False),
+        ("contact/traction.py", True), ("roller/forces.py", True), ("loads/openfast.py", True),
+        ("result/simulate.py", True), ("study/summary.py", True), ("measures/totals.py", True),
+        ("report/results_page.py", False), ("torque/handbooks.py", False),
         ("study/run.py", False), ("study/lifetime.py", False), ("cli/run.py", False),
     ],
 )  # fmt: skip
@@ -55,9 +55,9 @@ def test_a_comment_changes_the_key_where_results_depend_on_it(copy, name, counts
 
 def test_a_new_and_a_renamed_source_change_it(copy):
     before = key()
-    (copy / "traction" / "another.py").write_text("")
+    (copy / "contact" / "another.py").write_text("")
     added = key()
-    (copy / "traction" / "another.py").rename(copy / "traction" / "renamed.py")
+    (copy / "contact" / "another.py").rename(copy / "contact" / "renamed.py")
     assert len({before, added, key()}) == 3
 
 

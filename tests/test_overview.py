@@ -2,7 +2,7 @@
 
 import pytest
 
-from macroslip import Bearing, BearingLoads, Case, HubLoads, Lubricant
+from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Lubricant
 
 LOADS = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 1.0)
 OBJECTS = {
@@ -10,7 +10,7 @@ OBJECTS = {
     "bearing loads": LOADS,
     "bearing": Bearing.read("skf-240-600-bc"),
     "lubricant": Lubricant.read("vg460-pao"),
-    "case": Case(loads=LOADS),
+    "case": Case(loads=LOADS, laws=Laws.paper()),
 }
 
 
@@ -23,7 +23,7 @@ def test_one_line_and_one_table(name):
 
 
 def test_a_case_names_what_it_is_made_of():
-    case = Case(loads=LOADS, rollers=[0, 3])
+    case = Case(loads=LOADS, laws=Laws.paper(), rollers=[0, 3])
     for word in ("constant load", "skf-240-600-bc", "vg460-pao", "model paper", "Radau", "2 rollers of each row"):
         assert word in repr(case) and word in case._repr_html_()
 
@@ -38,4 +38,4 @@ def test_every_value_of_a_record_is_in_its_table():
 def test_text_is_escaped():
     evil = Bearing.read("skf-240-600-bc").replace(name="<script>alert(1)</script>")
     assert "<script>" not in evil._repr_html_() and "&lt;script&gt;" in evil._repr_html_()
-    assert "<script>" not in Case(loads=LOADS, bearing=evil)._repr_html_()
+    assert "<script>" not in Case(loads=LOADS, laws=Laws.paper(), bearing=evil)._repr_html_()

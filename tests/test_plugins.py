@@ -1,15 +1,13 @@
 """Laws of one's own from a file: what a user is shown when it is wrong, and that nothing is left behind then."""
 
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from macroslip import InputError, load_laws
-from macroslip.film import film_law as film_law
-from macroslip.traction import traction_law as traction_law
+from macroslip import InputError, load_laws, plugins
+from macroslip.contact.registry import FILM_LAWS, TRACTION_LAWS, own_laws
 
 pytestmark = pytest.mark.slow
 
@@ -26,15 +24,20 @@ def reported(tmp_path, monkeypatch):
     def reported(text, name="my_laws.py"):
         if text is not None:
             Path(name).write_text(text, encoding="utf-8")
-        before = film_law.names(), traction_law.names(), set(sys.modules)
+        before = FILM_LAWS.names(), TRACTION_LAWS.names(), set(sys.modules)
         with pytest.raises(InputError) as caught:
             load_laws(name)
-        assert film_law.names() == before[0] and traction_law.names() == before[1]
+        assert FILM_LAWS.names() == before[0] and TRACTION_LAWS.names() == before[1]
         assert not [module for module in set(sys.modules) - before[2] if "my_laws" in module]
         assert "\n" not in str(caught.value)
         return str(caught.value)
 
     return reported
+
+
+def line_of(text, words):
+    """Number of the last line with these words."""
+    return text[: text.rindex(words)].count("\n") + 1
 
 
 ALLOWED = "Allowed: a Python file that registers film or traction laws, as macroslip init --example laws writes."
@@ -50,8 +53,8 @@ ALLOWED = "Allowed: a Python file that registers film or traction laws, as macro
         ),
         (
             "import math\n",
-            f"my_laws.py: the file registers no law. {ALLOWED} Call macroslip.film.film_law.register or "
-            "macroslip.traction.traction_law.register in it.",
+            f"my_laws.py: the file registers no law. {ALLOWED} Call macroslip.register_film or "
+            "macroslip.register_traction in it.",
         ),
         (
             "x = 1\n\ndef law(:\n",
@@ -75,13 +78,13 @@ ALLOWED = "Allowed: a Python file that registers film or traction laws, as macro
         ),
         (
             FILM.replace('"dowson-higginson"', '"moes"'),
-            f"my_laws.py, line {FILM[: FILM.index('film_law.register(')].count(chr(10)) + 1}: the film law 'moes' cannot be "
+            f"my_laws.py, line {line_of(FILM, 'register_film(')}: the film law 'moes' cannot be "
             "registered: the name is taken. Allowed: a name other than masjedi-khonsari, masjedi-khonsari-moes, moes. "
             "Choose another name; a law that was changed in its file needs a new Python process.",
         ),
         (
             TRACTION.replace('"isothermal-barus"', '"mechanisms"'),
-            f"my_laws.py, line {TRACTION[: TRACTION.index('traction_law.register(')].count(chr(10)) + 1}: the traction law "
+            f"my_laws.py, line {line_of(TRACTION, 'register_traction(')}: the traction law "
             "'mechanisms' cannot be registered: the name is taken. Allowed: a name other than mechanisms. Choose another "
             "name; a law that was changed in its file needs a new Python process.",
         ),
@@ -90,6 +93,12 @@ ALLOWED = "Allowed: a Python file that registers film or traction laws, as macro
 )
 def test_what_a_user_is_reported(reported, text, message):
     assert reported(text) == message
+
+
+def test_a_law_of_an_earlier_version_is_refused_with_what_to_change(reported):
+    told = reported("from macroslip.film import film_law\n")
+    assert "my_laws.py, line 1: the file uses laws with derivatives" in told
+    assert "macroslip.register_film" in told
 
 
 def test_a_file_that_was_wrong_can_be_mended_and_read_again(reported, tmp_path):
@@ -104,23 +113,9 @@ def test_a_file_that_was_wrong_can_be_mended_and_read_again(reported, tmp_path):
         (tmp_path / "my_laws.py").write_text(FILM + "\n# changed\n", encoding="utf-8")
         with pytest.raises(InputError, match="'dowson-higginson' cannot be registered: the name is taken"):
             load_laws("my_laws.py")
-        assert "dowson-higginson" in film_law.names()
+        assert "dowson-higginson" in FILM_LAWS.names()
     finally:
-        film_law.remove("dowson-higginson")
-
-
-ASK = """
-import sys
-from macroslip import Bearing, Laws, Lubricant, load_laws
-from macroslip.roller import contact_force
-from macroslip.roller.model import roller_model
-load_laws(sys.argv[1])
-laws = Laws(film="dowson-higginson")
-model = roller_model(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1, tilt=0.0, laws=laws)
-force = contact_force.raceway_force(model.inner, 2e4, 1e-4, -0.4, 0.4, -0.5)
-kernel = contact_force._plain_raceway.stats
-print(sum(kernel.cache_hits.values()), sum(kernel.cache_misses.values()), repr(force.spin))
-"""
+        FILM_LAWS.remove("dowson-higginson")
 
 
 def test_a_law_changed_within_a_second_is_read_anew_and_leaves_no_other_file(tmp_path, monkeypatch):
@@ -131,20 +126,20 @@ def test_a_law_changed_within_a_second_is_read_anew_and_leaves_no_other_file(tmp
         path.write_text(TRACTION.replace("isothermal-barus", name), encoding="utf-8")
         os.utime(path, (1.7e9, 1.7e9))
         assert load_laws(path).traction == (name,)
-        traction_law.remove(name)
+        TRACTION_LAWS.remove(name)
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_kernels_of_a_law_are_found_again_by_another_process_and_from_another_folder(tmp_path):
-    (tmp_path / "other").mkdir()
+def test_a_law_has_one_source_wherever_its_file_lies_and_another_when_it_changes(tmp_path):
+    """Tables of a law, and results of a study, are found again by it."""
     found = []
-    for folder in (tmp_path, tmp_path, tmp_path / "other"):
-        (folder / "my_laws.py").write_text(FILM, encoding="utf-8")
-        command = [sys.executable, "-W", "error", "-c", ASK, str(folder / "my_laws.py")]
-        environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "kernels")}
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=300)
-        assert done.returncode == 0, done.stderr
-        hits, misses, force = done.stdout.split()
-        found.append((int(hits), int(misses), force))
-    force = found[0][2]
-    assert found == [(0, 1, force), (1, 0, force), (1, 0, force)]
+    for folder, text in (("one", FILM), ("two", FILM), ("three", FILM.replace("2.65", "2.66"))):
+        path = tmp_path / folder / "my_laws.py"
+        path.parent.mkdir()
+        path.write_text(text, encoding="utf-8")
+        plugins._loaded.clear()
+        assert load_laws(path).film == ("dowson-higginson",)
+        assert own_laws() == [FILM_LAWS.named("dowson-higginson").source] != [""]
+        found += own_laws()
+        FILM_LAWS.remove("dowson-higginson")
+    assert found[0] == found[1] != found[2] and own_laws() == []

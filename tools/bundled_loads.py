@@ -1,6 +1,6 @@
-"""Make the bundled load cases from 50 Hz simulation records: ``python tools/bundled_loads.py SOURCE_DIR``.
+"""Make the bundled load cases from 50 Hz simulation records: ``python tools/bundled_loads.py SOURCE_DIR...``.
 
-Each record becomes ``src/macroslip/loads/cases/<name>.parquet``: 600 s at 20 Hz, float32, with its provenance in the schema metadata.
+Each record becomes ``src/macroslip/loads/cases/<name>.parquet``: 20 Hz, float32, with its provenance in the schema metadata.
 
 The filter. 50 Hz becomes 20 Hz by inserting a zero after every sample (100 Hz), a symmetric Kaiser-window FIR, and
 keeping every fifth value. Symmetry means no delay: sample i of the result is at i/20 s, and every second one
@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 import macroslip.loads
 from macroslip.errors import InputError
-from macroslip.loads import bundled_cases
+from macroslip.loads.bundled import ASSUMED, BundledCase, bundled_case, bundled_cases
 
 SOURCE_RATE, RATE = 50, 20
 PASS_BAND, STOP_BAND = 8.5, 10.0
@@ -77,7 +77,7 @@ def write_case(case: str, columns: Mapping[str, NDArray], provenance: Mapping[st
         "nature": "simulated hub loads, not measurements",
         "frame": "rotor on shaft at the hub centre; non-rotating shaft axes: x downwind along the shaft, z up, "
         "y = z cross x",
-        "time": "0 s is simulation time 60 s",
+        "time": provenance.get("time", "0 s is simulation time 60 s"),
         "decimation": f"{SOURCE_RATE} Hz to {RATE} Hz, symmetric Kaiser FIR, gain 1 within 1e-4 up to {PASS_BAND} Hz "
         f"and below 1e-4 from {STOP_BAND:g} Hz, point-reflected ends",
         "units": json.dumps({"time_s": "s"} | COLUMNS),
@@ -95,26 +95,46 @@ def write_case(case: str, columns: Mapping[str, NDArray], provenance: Mapping[st
     )
 
 
+def record_of(case: BundledCase) -> str:
+    """Name of the source record of a case.
+
+    Examples
+    --------
+    >>> [record_of(bundled_case(name)) for name in ("14B", "8B-2", "start-8", "yaw20-14")]
+    ['14mps_B', '8mps_B_s2', 'start8', 'yaw20_14']
+    """
+    if case.event:
+        return case.name.replace("yaw20-", "yaw20_").replace("-", "")
+    return f"{case.wind_speed:g}mps_{case.turbulence}{'_s2' if case.seed == 2 else ''}"
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Convert every bundled case found in a folder of 50 Hz records, and report the size."""
     import pyarrow.parquet as pq
 
     parser = argparse.ArgumentParser(description="Make the bundled load cases from 50 Hz simulation records.")
-    parser.add_argument("source", type=Path, help="folder of windpact1.5_<speed>mps_<class>.parquet files")
-    source = parser.parse_args(arguments).source
+    parser.add_argument("sources", type=Path, nargs="+", help="folders of windpact1.5_....parquet files")
+    folders = parser.parse_args(arguments).sources
     target = Path(macroslip.loads.__path__[0]) / "cases"
-    for case in bundled_cases():
-        path = source / f"windpact1.5_{case[:2]}mps_{case[2]}.parquet"
-        if not path.is_file():
-            raise InputError("no such file", where=str(path), remedy="Give the folder that holds all 21 records.")
-        table = pq.read_table(path)
+    names = bundled_cases("year" if len(folders) > 1 else "paper")
+    for case in map(bundled_case, names):
+        found = [path for folder in folders if (path := folder / f"windpact1.5_{record_of(case)}.parquet").is_file()]
+        if not found:
+            where = str(folders[0] / f"windpact1.5_{record_of(case)}.parquet")
+            raise InputError("no such file", where=where, remedy="Give the folders that hold all records.")
+        table = pq.read_table(found[0])
         stored = {key.decode(): text.decode() for key, text in table.schema.metadata.items()}
         if stored["sample_rate_Hz"] != str(SOURCE_RATE):
-            raise InputError(f"sampled at {stored['sample_rate_Hz']} Hz", where=str(path), allowed=f"{SOURCE_RATE} Hz")
+            raise InputError(
+                f"sampled at {stored['sample_rate_Hz']} Hz", where=str(found[0]), allowed=f"{SOURCE_RATE} Hz"
+            )
         provenance = {"source": stored["code"], "wind": stored["case"], "turbsim_seeds": stored["seeds"]}
-        write_case(case, {name: table[name].to_numpy() for name in COLUMNS}, provenance, target)
+        if case.event:
+            provenance["time"] = "0 s is after the discarded start of the simulation"
+            provenance["control"] = f"{ASSUMED}: rates, speeds and delays are usual magnitudes, see README.md"
+        write_case(case.name, {name: table[name].to_numpy() for name in COLUMNS}, provenance, target)
     total = sum(path.stat().st_size for path in target.glob("*.parquet"))
-    print(f"{len(bundled_cases())} cases, {total / 1e6:.2f} MB in {target}")
+    print(f"{len(names)} cases, {total / 1e6:.2f} MB in {target}")
 
 
 if __name__ == "__main__":

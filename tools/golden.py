@@ -31,15 +31,17 @@ TIGHT = {"imposed": 1e-7, "short": 1e-7, "film": 1e-7, "dry": 1e-6}
 LOOSE = {"imposed": 1e-5, "short": 1e-5, "film": 2e-6, "dry": 2e-6}
 #: Nominal bounds, relative to a variable's scale, which `errors` has.
 ENERGIES = ("energy", "rolling_energy", "asperity_energy", "mechanism_energy", "orbit_energy", "energy of rows")
-PEAKS = ("peak_power", "flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio")
+PEAKS = ("peak_power", "flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio",
+         "surface_power_density by angle", "surface_power_density by station")  # fmt: skip
 NOMINAL = {
     "imposed": {**dict.fromkeys(ENERGIES, 1e-4), **dict.fromkeys(PEAKS, 1e-2), "min_spin_ratio": 1e-4},
-    "film": {**dict.fromkeys(ENERGIES, 5e-4), **dict.fromkeys(PEAKS, 1e-2), "min_spin_ratio": 1e-3},
+    "film": {**dict.fromkeys(ENERGIES, 5e-4), **dict.fromkeys(PEAKS, 1e-2), "min_spin_ratio": 2e-3},
     "dry": {**dict.fromkeys(ENERGIES, 2e-2), **dict.fromkeys(PEAKS, 2e-2), "min_spin_ratio": 1e-2},
 }
 NOMINAL["short"] = NOMINAL["imposed"]
-#: Maps, stations and shares that have no promise of their own: 0.1 % of their largest value, or as converged as today.
-OTHERS = 1e-3
+#: Maps, stations and shares that have no promise of their own: of their largest value, or as converged as today. Dry impacts
+#: are chaotic: at neighbouring tolerances the cage's slip differs by 0.4 %.
+OTHERS = {"imposed": 1e-3, "short": 1e-3, "film": 1e-3, "dry": 2e-2}
 #: Counts of the integrator, and books that are round-off.
 LEFT_OUT = ("steps", "rejections", "force_evaluations", "unbalanced_force", "quadrature_error", "end_time", "end_slip",
             "momentum_residual", "energy_residual", "spin", "slip", "outside_film_range", "roller_load", "cage_force")  # fmt: skip
@@ -138,7 +140,7 @@ def errors(kind: str, found: np.ndarray, right: np.ndarray, name: str) -> float:
 
 def nominal(kind: str, name: str) -> float:
     """The bound a variable is promised; 0 for the status."""
-    return 0.0 if name == "status" else NOMINAL[kind].get(name, OTHERS)
+    return 0.0 if name == "status" else NOMINAL[kind].get(name, OTHERS[kind])
 
 
 def write(only: str) -> None:

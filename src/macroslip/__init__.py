@@ -7,21 +7,24 @@ import os
 from importlib import import_module
 from typing import Any
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _HOMES = {
     "Bearing": "macroslip.bearing",
     "Lubricant": "macroslip.lubricant",
     "HubLoads": "macroslip.loads",
     "BearingLoads": "macroslip.loads",
+    "RollerLoads": "macroslip.loads",
     "Drivetrain": "macroslip.loads",
     "main_bearing_load": "macroslip.loads",
     "support_loads": "macroslip.loads",
     "bundled_cases": "macroslip.loads",
-    "Laws": "macroslip.mechanisms",
+    "Laws": "macroslip.contact.mechanisms",
     "load_laws": "macroslip.plugins",
+    "register_film": "macroslip.contact.registry",
+    "register_traction": "macroslip.contact.registry",
     "Case": "macroslip.case.case",
-    "Cage": "macroslip.whole_bearing.cage",
+    "Cage": "macroslip.whole.cage",
     "Radau": "macroslip.case.parts",
     "ExplicitEuler": "macroslip.case.parts",
     "BackwardEuler": "macroslip.case.parts",
@@ -32,6 +35,7 @@ _HOMES = {
     "simulate": "macroslip.result.simulate",
     "progress_bar": "macroslip.progress",
     "open_result": "macroslip.report.accessor",
+    "compare": "macroslip.report.comparison",
     "rate_case": "macroslip.result.rating",
     "read_study": "macroslip.study.study_file",
     "run_study": "macroslip.study.run",
@@ -54,7 +58,7 @@ def __getattr__(name: str) -> Any:
     if name in _HOMES:
         value = getattr(import_module(_HOMES[name]), name)
     elif name in _FOLDERS:
-        value = import_module("macroslip.contact.hertz" if name == "hertz" else f"macroslip.{name}")
+        value = import_module(f"macroslip.contact.{name}")
     else:
         raise AttributeError(f"module 'macroslip' has no attribute {name!r}")
     globals()[name] = value

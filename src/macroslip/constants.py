@@ -3,6 +3,9 @@
 #: Acceleration of free fall [m/s²].
 GRAVITY = 9.81
 
+#: 0 °C [K], and hours of a mean year.
+ZERO_CELSIUS, HOURS_A_YEAR = 273.15, 8766.0
+
 #: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip and asperities; no
 #: traction law of one's own may have it.
 MECHANISMS = "mechanisms"

@@ -1,4 +1,4 @@
-"""Errors that a user can get, written for the user: what is wrong, where, what is allowed, what to do."""
+"""Errors that a user can get, written for the user: the fault, its place, allowed values, a remedy."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ class InputError(MacroslipError, ValueError):
     Parameters
     ----------
     what : str
-        What is wrong, with the offending value.
+        The fault, with the offending value.
     where : str
         File, key, line or time stamp of the fault.
     allowed : str
-        What would be accepted.
+        Values that are accepted.
     remedy : str
-        What to do about it.
+        A way to mend it.
 
     Examples
     --------
@@ -47,11 +47,16 @@ class InputError(MacroslipError, ValueError):
     run.csv, t = 3.2 s: the shaft speed is NaN. Allowed: finite numbers. Fill or cut the gap.
     """
 
-    #: Letters of each part; what a file or a name holds may be of any length.
+    #: Letters of each part; content of a file or a name may be of any length.
     longest: ClassVar[int] = 1500
+    #: The same of the place.
+    longest_place: ClassVar[int] = 400
+    #: Whether `where` is the place in the user's input, and not a reader's name for it without the file.
+    is_placed: bool = False
 
     def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = ""):
-        what, where, allowed, remedy = (legible(part, self.longest) for part in (what, where, allowed, remedy))
+        what, allowed, remedy = (legible(part, self.longest) for part in (what, allowed, remedy))
+        where = legible(where, self.longest_place)
         self.what, self.where, self.allowed, self.remedy = what, where, allowed, remedy
         parts = [f"{where}: {what}" if where else what]
         if allowed:

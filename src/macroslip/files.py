@@ -1,10 +1,10 @@
-"""Output files, written aside and then renamed: each is whole or not there, and none replaces what a user still needs."""
+"""Output files, written aside and then renamed: each is whole or missing, none replaces a file that a user needs."""
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
-import shutil
 import stat
 import uuid
 from collections.abc import Iterable, Iterator
@@ -15,26 +15,18 @@ from macroslip.errors import InputError
 
 #: End of the names of files that are being written; a file with it was never finished.
 UNFINISHED = ".part"
-#: What is wrong with a path that is neither a file nor a folder.
+#: Fault of a path that is neither a file nor a folder.
 SPECIAL = "it is a pipe, a socket or a device, not a file"
+#: Advice where the system refuses a name for its length.
+SHORTER = "Choose a shorter name."
+#: Files by which the folder of a study is one: manifest, database, results, log and lock.
+STUDY_FILES = MANIFEST, DATABASE, SUMMARY, LOG, LOCK = (
+    "manifest.json", "study.sqlite", "summary.parquet", "log.txt", "lock",
+)  # fmt: skip
 
 
 def write_durably(path: Path, content: bytes) -> None:
-    """Write a file in one step: when this returns it is on the disk; until then the old content stays.
-
-    The content goes to a temporary file in the same folder, is flushed to the disk (fsync), takes its name, and the
-    folder, which holds the name, is flushed as well. The folder is made if need be.
-
-    Parameters
-    ----------
-    path : Path
-    content : bytes
-
-    Raises
-    ------
-    OSError
-        If the system refuses, the disk being full, for example; nothing is left behind then.
-    """
+    """Write a file in one step: when this returns it is on the disk; until then, or if the system refuses, the old one is."""
     make_folder(path.parent)
     temporary = unfinished(path)
     try:
@@ -42,21 +34,18 @@ def write_durably(path: Path, content: bytes) -> None:
             file.write(content)
             flush(file.fileno())
         temporary.replace(path)
-    except BaseException:
+    finally:
         with contextlib.suppress(OSError):
             temporary.unlink(missing_ok=True)
-        raise
     flush_folder(path.parent)
 
 
 def make_folder(folder: Path) -> None:
     """Make a folder with its parents, so that a power cut does not undo it."""
-    if folder.is_dir():
-        return
-    make_folder(folder.parent)
-    with contextlib.suppress(FileExistsError):
-        folder.mkdir()
-    flush_folder(folder.parent)
+    if not folder.is_dir():
+        make_folder(folder.parent)
+        folder.mkdir(exist_ok=True)
+        flush_folder(folder.parent)
 
 
 def flush(descriptor: int) -> None:
@@ -66,22 +55,18 @@ def flush(descriptor: int) -> None:
 
 def flush_folder(folder: Path) -> None:
     """The same for the names in a folder; systems without such a thing, as Windows, keep them by themselves."""
-    if os.name != "posix":
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+    if os.name == "posix":
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 def is_special(path: Path) -> bool:
-    """Whether a path leads to a pipe, a socket or a device, of which a reader would wait for ever or find no end.
+    """Whether a path leads to a pipe, a socket or a device, whose reader would wait for ever or find no end.
 
-    Raises
-    ------
-    OSError, ValueError
-        If there is nothing, or nothing can have this name.
+    Raises OSError or ValueError if there is nothing, or nothing can have this name.
     """
     kind = path.stat().st_mode
     return not (stat.S_ISREG(kind) or stat.S_ISDIR(kind))
@@ -90,18 +75,7 @@ def is_special(path: Path) -> bool:
 def check_regular(path: Path, remedy: str) -> None:
     """Refuse a pipe, a socket or a device in the place of a file, before it is opened.
 
-    What is not there, and a folder, pass: their reader reports them.
-
-    Parameters
-    ----------
-    path : Path
-        A path that was named, or that is used where a file should be.
-    remedy : str
-        What to do about it.
-
-    Raises
-    ------
-    InputError
+    A missing file and a folder pass: their reader reports them.
     """
     special = False
     with contextlib.suppress(OSError, ValueError):
@@ -111,12 +85,7 @@ def check_regular(path: Path, remedy: str) -> None:
 
 
 def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
-    """Refuse to replace a file that the output is made from, by whatever name; those that do not exist are passed over.
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse to replace a file that the output is made from, by whatever name; those that do not exist are passed over."""
     if path.exists() and any(one.exists() and path.samefile(one) for one in inputs):
         what = "this is a file that the output is made from"
         raise InputError(what, where=str(path), remedy="Choose another name; it would be lost.")
@@ -125,24 +94,15 @@ def check_not_input(path: Path, inputs: Iterable[Path]) -> None:
 def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> None:
     """Refuse a file that cannot be made, before anything is computed for it.
 
-    Parameters
-    ----------
-    path : Path
-        The file to make.
-    force : bool
-        Whether it may replace a file.
-    inputs : iterable of Path
-        Files that the output is made from, which it never replaces; those that do not exist are passed over.
-
-    Raises
-    ------
-    InputError
-        If it is an input, no regular file, exists and `force` is not set, or its folder is missing or cannot be written
-        to.
+    That is an input that it is made from, part of a study, no regular file, a file that exists unless `force` is set, and a
+    name in a folder that is missing or cannot be written to.
     """
     folder, where = path.parent, str(path)
     check_no_zero_byte(where)
     check_not_input(path, inputs)
+    if path.name in STUDY_FILES and any((folder / name).exists() for name in (MANIFEST, DATABASE)):
+        what = f"{path.name} is a file of the study in this folder"
+        raise InputError(what, where=where, remedy="Choose another name; the study would be lost.")
     if path.is_dir():
         raise InputError("this is a folder", where=where, allowed="a file", remedy="Add the name of a file to it.")
     check_regular(path, "Choose another name.")
@@ -157,6 +117,8 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
         temporary.unlink()
     except OSError as error:
         remedy = "Choose another folder, or ask for the right to write there."
+        if error.errno == errno.ENAMETOOLONG:
+            remedy = SHORTER
         raise InputError(f"nothing can be written there ({error.strerror})", where=where, remedy=remedy) from None
 
 
@@ -164,30 +126,21 @@ def check_new_file(path: Path, *, force: bool, inputs: Iterable[Path] = ()) -> N
 def new_file(path: Path, *, force: bool) -> Iterator[Path]:
     """Give a temporary path to write to; it takes its proper name when the block is left without an error.
 
-    Parameters
-    ----------
-    path : Path
-        The file to make.
-    force : bool
-        Whether it may replace a file; otherwise one that has appeared meanwhile is kept.
-
-    Yields
-    ------
-    Path
-        In the same folder, so that the change of name is one step. It is removed if the block fails.
-
-    Raises
-    ------
-    InputError
-        If the file has appeared meanwhile, or the system refuses to write, the disk being full, for example.
+    The path is in the same folder, so that the change of name is one step; it is removed if the block fails. InputError if
+    the system refuses to write, or if a file has appeared meanwhile, which is kept without `force`.
     """
     temporary = unfinished(path)
     try:
         yield temporary
         if force:
-            os.replace(temporary, path)
-        else:
-            _take_name(temporary, path)
+            temporary.replace(path)
+            return
+        try:
+            os.link(temporary, path)  # in one step, where the file system has hard links
+        except OSError:
+            if path.exists():
+                raise FileExistsError from None
+            temporary.replace(path)
     except FileExistsError:
         raise InputError(
             "the file has appeared since this command began, and is kept",
@@ -204,30 +157,14 @@ def new_file(path: Path, *, force: bool) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def _take_name(temporary: Path, path: Path) -> None:
-    """Give a file its name unless the name is taken, in one step where the file system has hard links."""
-    try:
-        os.link(temporary, path)
-    except FileExistsError:
-        raise
-    except OSError:
-        if path.exists():
-            raise FileExistsError from None
-        os.replace(temporary, path)
-
-
 def unfinished(path: Path) -> Path:
     """A name in the same folder for a file that is being written; no other command has it."""
-    return path.with_name(f".{path.name}.{uuid.uuid4().hex}{UNFINISHED}")
+    # Of a long name a part: it may take all the bytes that a name can have.
+    return path.with_name(f".{path.name[:40]}.{uuid.uuid4().hex}{UNFINISHED}")
 
 
 def check_no_zero_byte(name: str) -> None:
-    """Refuse a character that no path may contain, before anything is computed for it.
-
-    Raises
-    ------
-    InputError
-    """
+    """Refuse a character that no path may contain, before anything is computed for it."""
     if "\0" in name:
         raise InputError(f"{name!r} holds a zero byte", allowed="text without it", remedy="Write the name anew.")
 
@@ -236,17 +173,7 @@ def check_no_zero_byte(name: str) -> None:
 def reading(path: Path, remedy: str) -> Iterator[None]:
     """Turn any error of the libraries that read a file or folder into one that names it as damaged.
 
-    Parameters
-    ----------
-    path : Path
-        What is read.
-    remedy : str
-        What to do about a damaged one.
-
-    Raises
-    ------
-    InputError
-        In place of anything but an error of the system or of memory, which are reported elsewhere.
+    Errors of the system and of memory are reported elsewhere.
     """
     try:
         yield
@@ -257,44 +184,3 @@ def reading(path: Path, remedy: str) -> Iterator[None]:
             raise
         what = f"it is damaged ({type(error).__name__}: {' '.join(str(error).split())})"
         raise InputError(what, where=str(path), remedy=remedy) from error
-
-
-@contextmanager
-def published_together(directory: Path, last: str) -> Iterator[Path]:
-    """A folder beside `directory` to write into; what it holds moves into `directory` when the block ends well.
-
-    Files that `directory` already holds under other names stay. The file named `last` marks the set as complete: an old
-    one is taken away before the first file moves, the new one moves after all others. If the block raises, `directory`
-    is as it was.
-
-    Parameters
-    ----------
-    directory : Path
-        Made if it does not exist, with its parents.
-    last : str
-        Name of the file that marks the set as complete.
-
-    Raises
-    ------
-    InputError
-        If `directory` is a file.
-    """
-    if directory.exists() and not directory.is_dir():
-        raise InputError("it is not a folder", where=str(directory), remedy="Name a folder, new or existing.")
-    directory = directory.absolute()
-    directory.parent.mkdir(parents=True, exist_ok=True)
-    aside = directory.parent / f".{directory.name}.unfinished-{os.getpid()}"
-    shutil.rmtree(aside, ignore_errors=True)
-    aside.mkdir()
-    try:
-        yield aside
-        if not directory.exists():
-            aside.rename(directory)
-            return
-        (directory / last).unlink(missing_ok=True)
-        files = sorted(path.relative_to(aside) for path in aside.rglob("*") if path.is_file())
-        for path in sorted(files, key=lambda path: path == Path(last)):
-            (directory / path).parent.mkdir(exist_ok=True)
-            (aside / path).replace(directory / path)
-    finally:
-        shutil.rmtree(aside, ignore_errors=True)

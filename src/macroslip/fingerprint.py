@@ -12,35 +12,23 @@ from pathlib import Path
 
 #: Parts of the package from which kernels are compiled.
 KERNEL_PARTS = (
-    "compiled", "constants", "contact", "film", "integrate", "lubricant", "reference", "ring", "roller", "rolling", "traction", "whole_bearing",
+    "compiled", "constants", "contact", "imposed", "lubricant", "measures", "ring", "roller", "whole",
 )  # fmt: skip
 #: Parts on which the result of a case depends beside those.
-RESULT_PARTS = ("bearing", "case", "catalogue", "loads", "mechanisms", "rating", "result")
+RESULT_PARTS = ("bearing", "case", "input", "loads", "rating", "result")
 #: Parts that use results, or only words, and change no result.
 OTHER_PARTS = (
-    "__init__", "cli", "errors", "files", "fingerprint", "hdf5_file", "kernel_cache", "machine", "overview", "plugins", "progress",
-    "report", "reproduction", "study", "torque",
+    "__init__", "cli", "damage", "errors", "files", "fingerprint", "hdf5_file", "kernel_cache", "machine", "overview", "plugins", "progress",
+    "report", "study", "torque",
 )  # fmt: skip
 _ROOT = Path(__file__).parent
 
 
 def sources_of(*parts: str) -> list[Path]:
-    """Source files of parts of the package, and the tables that go with them.
+    """Source files of parts of the package, and the tables that go with them, sorted.
 
-    Parameters
-    ----------
-    *parts : str
-        Folders or modules at the top of the package, or single modules of a folder: `study/cycles`.
-
-    Returns
-    -------
-    list of Path
-        Sorted.
-
-    Raises
-    ------
-    FileNotFoundError
-        For a part that does not exist.
+    Parts are folders or modules at the top of the package, or single modules of a folder: `study/cycles`. Raises
+    FileNotFoundError for a part that does not exist.
     """
     found: list[Path] = []
     for part in parts:

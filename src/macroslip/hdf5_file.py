@@ -32,7 +32,7 @@ except (ImportError, ValueError, OSError):
 import h5py
 expansion, small = {_MOST_EXPANSION!r}, {_MOST_SMALL!r}
 for path in paths:
-    print(path, flush=True)
+    print(flush=True)  # names of files need not be text
     most = max(small, expansion * os.path.getsize(path))
     with h5py.File(path, "r") as file:
         announced = 0
@@ -57,22 +57,9 @@ for path in paths:
 
 
 def check_hdf5(paths: Sequence[Path], remedy: str) -> None:
-    """Refuse files that the HDF5 library cannot read to their ends in bounded time and memory, or that hold links.
-
-    Parameters
-    ----------
-    paths : sequence of Path
-        Files that exist.
-    remedy : str
-        What to do about a damaged one.
-
-    Raises
-    ------
-    InputError
-        For the first file that cannot be read to its end.
-    """
+    """Refuse the first of files that the HDF5 library cannot read to its end in bounded time and memory, or that holds links."""
     seconds = sum(_SECONDS + path.stat().st_size / _RATE for path in paths)
-    command = [sys.executable, "-c", _READER, str(seconds), *(str(path.absolute()) for path in paths)]
+    command = [sys.executable, "-P", "-c", _READER, str(seconds), *(str(path.absolute()) for path in paths)]
     try:
         done = subprocess.run(
             command,

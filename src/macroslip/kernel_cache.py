@@ -31,8 +31,8 @@ from numba.core import event
 
 from macroslip.fingerprint import KERNEL_PARTS, fingerprint
 
-#: Folders of other sources that stay: enough for a few versions, and for a few laws of one's own.
-KEPT = 12
+#: Folders of other sources that stay: enough for a few versions.
+KEPT = 4
 #: A folder that was used within this time may be in use still [s].
 _IN_USE = 3600.0
 #: Free space below which nothing is stored [bytes]; the kernels of one state of the sources take about 11 MB.
@@ -41,27 +41,18 @@ _SPACE = 64 * 2**20
 _MANIFEST, _LOCK = "manifest", "lock"
 #: Longest time until another process has stored a kernel [s]; after it this one goes on without the lock.
 _PATIENCE = 10.0
-_NAME = re.compile(r"[0-9a-f]{16}(-[0-9a-f]{12})?")
+_NAME = re.compile(r"[0-9a-f]{16}")
 
 
 @functools.cache
-def kernel_folder(laws: str = "") -> Path | None:
+def kernel_folder() -> Path | None:
     """Folder for the kernels of the present sources, which is made if it is not there.
 
     It is in `macroslip` in the folder of the environment variable NUMBA_CACHE_DIR, or else in the cache folder of the
-    user, or in a folder of the user's own among the temporary files. Of other states of the sources the newest stay.
-
-    Parameters
-    ----------
-    laws : str
-        Twelve hexadecimal digits that identify the user's own laws; none without such laws.
-
-    Returns
-    -------
-    Path or None
-        None where no folder can be written, or the disk is full: then every process compiles for itself.
+    user, or in a folder of the user's own among the temporary files. Of other states of the sources the newest stay. None
+    where no folder can be written, or the disk is full: then every process compiles for itself.
     """
-    name = fingerprint(*KERNEL_PARTS)[:16] + (f"-{laws}" if laws else "")
+    name = fingerprint(*KERNEL_PARTS)[:16]
     for home in _homes():
         folder = home / name
         with contextlib.suppress(OSError):
@@ -156,18 +147,8 @@ def _locked(folder: Path) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def entered_in_manifest(folder: Path, function: str, part: str = "*") -> Iterator[None]:
-    """Enter into the manifest what is stored, in the block, for a function.
-
-    Parameters
-    ----------
-    folder : Path
-        From `kernel_folder`.
-    function : str
-        Its qualified name.
-    part : str
-        Name of the folder in there, if it is known.
-    """
+def _entered_in_manifest(folder: Path, function: str, part: str) -> Iterator[None]:
+    """Enter into the manifest what is stored, in the block, for a function of this qualified name in a part of the folder."""
     pattern = f"{part}/*.{re.sub('[<>]', '', function)}-*.nb[ic]"  # names of files have no angle brackets
 
     def states() -> dict[Path, tuple[int, int]]:
@@ -207,7 +188,7 @@ class _Stored(event.Listener):
             self._of_thread.block = block = contextlib.ExitStack()
             # Two processes that store kernels of one function would write each other's index.
             block.enter_context(_locked(place.parent))
-            block.enter_context(entered_in_manifest(place.parent, dispatcher.py_func.__qualname__, place.name))
+            block.enter_context(_entered_in_manifest(place.parent, dispatcher.py_func.__qualname__, place.name))
 
 
 _listener = _Stored()

@@ -24,7 +24,7 @@ def machine() -> dict[str, str | int | None]:
 
 
 def usable_processors() -> int:
-    """Processors this process may use; those of the machine where the system does not report it."""
+    """Processors this process may use; all of the machine where the system does not report it."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -9,18 +9,7 @@ from html import escape
 def html_overview(title: str, headings: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """A heading over a table, every text in it escaped.
 
-    Parameters
-    ----------
-    title : str
-    headings : sequence of str
-        One a column; empty ones make no line of headings.
-    rows : iterable of sequences
-        As long as the headings.
-
-    Returns
-    -------
-    str
-        HTML.
+    Empty headings make no line.
 
     Examples
     --------

@@ -31,19 +31,13 @@ _loaded: dict[str, OwnLaws] = {}
 def load_laws(path: str | PathLike[str]) -> OwnLaws:
     """Run a Python file that registers film or traction laws, so that their names can be used.
 
-    The file is imported as a module whose name follows from its own name and its content, so that kernels compiled for
-    its laws are found again on the disk, by every process and wherever the file lies. To load the same file again does
-    nothing.
+    The file is imported as a module whose name follows from its own name and its content, so that tables made of its laws
+    are found again on the disk, by every process and wherever the file lies. To load the same file again does nothing.
 
     Parameters
     ----------
     path : path
         The file. It is a program: load only files you would run.
-
-    Returns
-    -------
-    OwnLaws
-        Names of the film laws and of the traction laws it has registered.
 
     Raises
     ------
@@ -59,8 +53,7 @@ def load_laws(path: str | PathLike[str]) -> OwnLaws:
     macroslip.errors.InputError: my_laws.py: the file cannot be read (No such file or directory). Allowed: a Python \
 file that registers film or traction laws, as macroslip init --example laws writes. Check its path, which starts at the current folder.
     """
-    from macroslip.film import film_law as film_law
-    from macroslip.traction import traction_law as traction_law
+    from macroslip.contact.registry import FILM_LAWS, TRACTION_LAWS
 
     path = Path(path)
     check_regular(path, "Name a Python file.")
@@ -73,7 +66,7 @@ file that registers film or traction laws, as macroslip init --example laws writ
     name = f"macroslip_laws_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
     if name in _loaded:
         return _loaded[name]
-    kinds = film_law, traction_law
+    kinds = FILM_LAWS, TRACTION_LAWS
     before = [set(kind.names()) for kind in kinds]
 
     def added() -> OwnLaws:
@@ -82,7 +75,7 @@ file that registers film or traction laws, as macroslip init --example laws writ
     try:
         _import(path, name)
         if not any(added()):
-            remedy = "Call macroslip.film.film_law.register or macroslip.traction.traction_law.register in it."
+            remedy = "Call macroslip.register_film or macroslip.register_traction in it."
             raise InputError("the file registers no law", where=str(path), allowed=_ALLOWED, remedy=remedy)
     except BaseException:
         sys.modules.pop(name, None)
@@ -106,14 +99,21 @@ def _import(path: Path, name: str) -> None:
     loader = _SourceOnly(name, str(path.resolve()))
     spec = importlib.util.spec_from_file_location(name, path.resolve(), loader=loader)
     module = importlib.util.module_from_spec(spec)
-    # Compiled kernels are stored with the names of the types in them, and look these up here.
-    sys.modules[name] = module
+    sys.modules[name] = module  # where classes in the file look themselves up
     try:
         loader.exec_module(module)
     except InputError as problem:
         where = ", ".join(part for part in (_place(path, problem), problem.where) if part)
         raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
     except (Exception, SystemExit) as error:
+        if isinstance(error, ImportError) and str(error.name).startswith("macroslip."):
+            raise InputError(
+                "the file uses laws with derivatives and compiled functions, as an earlier version had them",
+                where=_place(path, error),
+                allowed="functions of NumPy arrays that give values",
+                remedy="Write film(interface, load, speed) or traction(interface, load, film, slip) and call "
+                "macroslip.register_film or macroslip.register_traction, as macroslip init --example laws shows.",
+            ) from None
         reason = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
         what = f"{type(error).__name__} while its laws were read{f' ({reason})' if reason else ''}"
         remedy = f"Mend it; python {path} shows where the error comes from."

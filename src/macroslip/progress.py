@@ -17,15 +17,7 @@ PREPARING = "preparing (the first run of all compiles)"
 def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]:
     """Show a bar while the block runs; a notebook needs `ipywidgets` for it.
 
-    Parameters
-    ----------
-    label : str
-        What is counted.
-
-    Yields
-    ------
-    callable
-        For the argument `progress` of `macroslip.simulate`.
+    Gives a function for the argument `progress` of `macroslip.simulate`; `label` names the things that are counted.
 
     Examples
     --------
@@ -44,7 +36,7 @@ def progress_bar(label: str = "rollers") -> Iterator[Callable[[int, int], None]]
 
 
 def bar_with_time_left(console: Console) -> Progress:
-    """A bar with what is done, how much there is, and the time left; it disappears when all is done."""
+    """A bar with counts of done and all, and the time left; it disappears when all is done."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (

@@ -9,8 +9,8 @@ import pytest
 from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.estimate import INNER_WALL, MakersPage, estimate_bearing
 from macroslip.bearing.load_ratings import dynamic_load_rating, static_load_rating
-from macroslip.bearing.shipped import FOLDER, pages, shipped_bearing
 from macroslip.errors import InputError
+from tools.shipped_bearings import FOLDER, pages, shipped_bearing
 
 from .test_load_ratings import CATALOGUE
 

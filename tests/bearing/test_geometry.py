@@ -4,14 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.integrate import tplquad
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.bearing.frames import initial_angles
-from macroslip.bearing.inertia import roller_mass, spin_inertia
-from macroslip.bearing.kinematics import orbital_speed
+from macroslip.bearing.geometry import initial_angles, roller_mass, spin_inertia
 from macroslip.errors import InputError
 
 
@@ -63,21 +59,12 @@ def test_cage_conforms_alike_in_both_directions(base):
     assert lateral == geometry.outer_curvatures(other).lateral
 
 
-@settings(deadline=None)
-@given(st.floats(-5, 5), st.floats(0.05, 2), st.floats(0.01, 0.4))
-def test_pure_rolling_has_no_slip_at_either_raceway(shaft_speed, r_in, r):
-    r_out = r_in + 2 * r * math.cos(0.2)
-    orbit = orbital_speed(shaft_speed, r_in, r_out)
+def test_pure_rolling_has_no_slip_at_either_raceway(base):
+    r_in, r_out, r = geometry.inner_contact_radius(base), geometry.outer_contact_radius(base), base.roller_diameter / 2
+    orbit = geometry.orbit_ratio(base)
     spin = -orbit * r_out / r  # without slip at the outer raceway, which is at rest
-    # Half a dozen roundings of terms up to this size.
-    scale = abs(shaft_speed) * r_in + 1e-300
-    assert abs(-(shaft_speed - orbit) * r_in - spin * r) <= 1e-15 * scale
-
-
-def test_roller_orbits_with_the_shaft(base):
-    r_in, r_out = geometry.inner_contact_radius(base), geometry.outer_contact_radius(base)
-    orbit = orbital_speed(2.0, r_in, r_out)
-    assert 0 < orbit < 1.0
+    assert 0 < orbit < 0.5
+    assert abs(-(1.0 - orbit) * r_in - spin * r) <= 1e-15
 
 
 def test_inertia_is_that_of_a_solid_cylinder():

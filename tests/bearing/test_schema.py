@@ -91,8 +91,8 @@ def test_units_of_the_schema_are_the_units_of_the_reader():
     def entry(key):
         return properties[key]["anyOf"][0]["properties"]
 
-    assert entry("contact_angle")["unit"]["enum"] == ["rad", "deg"]
+    assert entry("contact_angle")["unit"]["enum"] == ["rad", "mrad", "deg"]
     assert entry("pitch_radius")["unit"]["enum"] == ["m", "mm", "um"]
     assert entry("rollers_per_row")["value"]["type"] == "integer"
-    assert properties["pitch_radius"]["description"].endswith("above 0 m and at most 5 m")
+    assert properties["pitch_radius"]["description"].endswith("above 0, up to 5 m")
     assert "bore_diameter" not in Bearing.json_schema()["required"]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.quadrature import patch_by_quadrature
-from macroslip.traction.patch_integral import patch_integral
+from macroslip.contact.closed_form import patch_integral
 
 
 @pytest.mark.parametrize("exponent", [0.05, 1.0, 5.0, 12.0, 25.0])

@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from benchmarks.random_cases import HISTORIES, _largest, compare, random_case, table
+from benchmarks.random_cases import FORCES, HISTORIES, SPEEDS, WIDE, _largest, compare, random_case, table
+from tests.fuzz.oracle import examples
 
 
 def test_a_number_gives_the_same_case_whenever_it_is_asked_for():
@@ -23,6 +26,31 @@ def test_a_difference_is_seen():
     same = compare(2, tight=2e-4, physical=0.0)
     assert same.verdict == "agrees" and same.energy_error == 0.0
     assert 0.0 < compare(2, physical=0.0).energy_error < 1e-3
+
+
+def test_wide_cases_have_every_kind_of_speed_and_force():
+    drawn = [random_case(number, wide=1.0) for number in range(250)]
+    kinds = [kind.removeprefix(f"{WIDE}: ").split(", ") for kind, _ in drawn]
+    assert {speed for speed, _ in kinds} == set(SPEEDS) and {force for _, force in kinds} == set(FORCES)
+    steps = [float(case.loads.time[1] - case.loads.time[0]) for _, case in drawn]
+    assert min(steps) < 2e-3 and max(steps) > 0.5
+
+
+@pytest.mark.slow
+@examples(5)
+@given(number=st.integers(0, 2**20))
+def test_any_legal_case_agrees_with_itself_made_tight_or_says_that_it_failed(number):
+    one = compare(number, tight=2e-5, physical=0.0, wide=1.0)
+    assert not one.verdict.startswith("off"), one
+
+
+@pytest.mark.deep
+@examples(1)
+@given(number=st.integers(0, 2**20), whole=st.sampled_from([0.0, 1.0]))
+def test_any_legal_case_of_both_models_and_dynamics(number, whole):
+    one = compare(number, tight=2e-5, physical=1.0 - whole, whole=whole, wide=1.0)
+    # Of a whole bearing's rollers single touches are chaotic: rows are compared, to 5e-3.
+    assert not one.verdict.startswith("off") or (whole and one.energy_error < 5e-3), one
 
 
 @pytest.mark.deep

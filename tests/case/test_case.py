@@ -6,7 +6,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from macroslip import BackwardEuler, BearingLoads, Case, Drivetrain, ExplicitEuler, InputError, Radau, Traces, Window
+from macroslip import (
+    BackwardEuler,
+    BearingLoads,
+    Case,
+    Drivetrain,
+    ExplicitEuler,
+    InputError,
+    Laws,
+    Radau,
+    Traces,
+    Window,
+)
 from macroslip.loads import HubLoads
 from macroslip.result.simulate import simulate
 
@@ -16,6 +27,7 @@ LOADS = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 1.0)
 def test_numbers_of_numpy_are_welcome():
     case = Case(
         loads=LOADS,
+        laws=Laws.paper(),
         rollers=np.arange(3),
         integrator=Radau(tolerance=np.float32(1e-4), max_steps=np.int64(1000)),
         window=Window(end=np.float64(1.0)),
@@ -31,24 +43,50 @@ def test_numbers_of_numpy_are_welcome():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Radau(tolerance=0.5), "integrator: the tolerance is 0.5. Allowed: 1e-10 to 1e-2."),
-        (lambda: Radau(tolerance="1e-4"), "integrator: tolerance is '1e-4'. Allowed: a finite number."),
-        (lambda: Radau(max_steps=10**30), "integrator: max_steps is 1000000000000000000000000000000. Allowed: a whole"),
-        (lambda: Radau(max_steps=1e30), "integrator: max_steps is 1e+30. Allowed: a whole number."),
-        (lambda: Radau(max_steps=0), "integrator: max_steps is 0. Allowed: a whole number above 0."),
-        (lambda: Radau(tolerence=1e-4), "integrator: the key 'tolerence' is unknown. Did you mean 'tolerance'?"),
+        (lambda: Radau(tolerance=0.5), "integrator.tolerance: it is 0.5. Allowed: 1e-10 to 0.01. 2e-4 gives energies"),
+        (lambda: Radau(tolerance="1e-4"), "integrator.tolerance: it is '1e-4'. Allowed: a finite number."),
+        (
+            lambda: Radau(max_steps=10**30),
+            "integrator.max_steps: it is 1000000000000000000000000000000. Allowed: a whole",
+        ),
+        (lambda: Radau(max_steps=1e30), "integrator.max_steps: it is 1e+30. Allowed: a whole number, 1 to 1e15."),
+        (
+            lambda: Radau(max_steps=0),
+            "integrator.max_steps: it is 0. Allowed: a whole number, 1 to 1e15. It is the number of",
+        ),
+        (lambda: Radau(tolerence=1e-4), "the key 'tolerence' inside integrator is unknown. Did you mean 'tolerance'?"),
         (lambda: ExplicitEuler(), "integrator: 'step' is missing"),
-        (lambda: BackwardEuler(step=3.0), "integrator: the step is 3.0 s. Allowed: 1e-7 to 1 s."),
-        (lambda: Traces(step=-1.0), "traces: the step is -1.0 s. Allowed: a number above 0 s."),
-        (lambda: Window(start=np.nan), "window: start is nan. Allowed: a finite number."),
-        (lambda: replace(Drivetrain(), tilt=5.0), "drivetrain: tilt is 5.0. Allowed: -0.3 to 0.3 rad. Angles are in"),
-        (lambda: Case(loads=LOADS, rollers=[0, 28]), "rollers: rollers is [0, 28]. Allowed: all, or a list"),
-        (lambda: Case(loads=LOADS, rollers=3), "rollers: rollers is 3. Allowed: all, or a list"),
-        (lambda: Case(loads=LOADS, rollers=[True]), "rollers: rollers is [True]. Allowed: all, or a list"),
+        (
+            lambda: BackwardEuler(step=3.0),
+            "integrator.step: it is 3.0. Allowed: 1e-7 to 1 s. It is the fixed time step",
+        ),
+        (lambda: Traces(step=-1.0), "traces.step: it is -1.0. Allowed: a number above 0 s."),
+        (lambda: Window(start=np.nan), "window.start: it is nan. Allowed: a finite number."),
+        (lambda: replace(Drivetrain(), tilt=5.0), "Angles are in radians: math.radians(5.0) for 5 degrees."),
+        (
+            lambda: Radau(tables=True),
+            "the key 'tables' inside integrator is gone. Contacts are always looked up in tables",
+        ),
+        (
+            lambda: replace(Drivetrain(), tilt=5.0),
+            "drivetrain.tilt: it is 5.0. Allowed: -0.3 to 0.3 rad. It is the shaft tilt",
+        ),
+        (
+            lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=[0, 28]),
+            "rollers: rollers is [0, 28]. Allowed: all, or a list",
+        ),
+        (lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=3), "rollers: it is 3. Allowed: all, or a list"),
+        (
+            lambda: Case(loads=LOADS, laws=Laws.paper(), rollers=[True]),
+            "rollers: it is [True]. Allowed: all, or a list",
+        ),
         (lambda: BearingLoads.constant([0, -1, 0], "2", 1.0), "the shaft_speed is '2'. Allowed: a finite number."),
         (lambda: BearingLoads.constant([0, -1, 0], 2.0, 1e308), "the duration of a constant load is 1e+308 s"),
         (lambda: HubLoads.constant(["1", 0, 0], [0, 0, 0], 2.0, 1.0), "constant load: force does not convert"),
-        (lambda: simulate(Case(loads=LOADS, traces=Traces(step=1e-300))), "traces: a step of 1e-300 s makes 1e+300"),
+        (
+            lambda: simulate(Case(loads=LOADS, laws=Laws.paper(), traces=Traces(step=1e-300))),
+            "traces: a step of 1e-300 s makes 1e+300",
+        ),
     ],
 )
 def test_what_is_wrong_is_said_in_words(make, words):

@@ -40,27 +40,29 @@ def reported(tmp_path):
         (
             LOADS + "weather: fair\n",
             "case.yaml, line 2: the key 'weather' is unknown. Allowed: bearing, lubricant, temperature, "
-            "heat, loads, drivetrain, forces, laws, dynamics, cage, integrator, window, rollers, traces, contact_details, rating. Remove it.",
+            "heat, oil_supply, loads, drivetrain, forces, laws, dynamics, cage, integrator, window, rollers, traces, contact_details, rating. Remove it.",
         ),
         (
             "rollers: all\n",
             "case.yaml: 'loads' is missing (loads, from exactly one source). Allowed: a section with the keys bundled, "
-            "file, bearing_file, hub, main_bearing, start, end, shaft_speed. Add it.",
+            "file, bearing_file, roller_loads, hub, main_bearing, start, end, shaft_speed. Add it.",
         ),
         (
             "loads: {bundled: 14B, file: x.outb}\n",
             "case.yaml, line 1, loads: bundled and file stand together. Allowed: exactly one of bundled, file, "
-            "bearing_file, hub, main_bearing. Remove or comment out the others.",
+            "bearing_file, roller_loads, hub, main_bearing. Remove or comment out the others.",
         ),
         (
             "loads:\n  start: 5 s\n",
             "case.yaml, line 1, loads: none of the keys it needs is there. Allowed: exactly one of bundled, file, "
-            "bearing_file, hub, main_bearing. Add one of them.",
+            "bearing_file, roller_loads, hub, main_bearing. Add one of them.",
         ),
         (
             "loads: {bundled: 14D}\n",
             "case.yaml, line 1, loads.bundled: '14D' does not exist. Allowed: 12A, 12B, 12C, 14A, 14B, 14C, 16A, "
-            "16B, 16C, 18A, 18B, 18C, 20A, 20B, 20C, 22A, 22B, 22C, 24A, 24B, 24C. Did you mean 14C?",
+            "16B, 16C, 18A, 18B, 18C, 20A, 20B, 20C, 22A, 22B, 22C, 24A, 24B, 24C, 4A, "
+            "4B, 6A, 6B, 8A, 8B, 10A, 10B, 8B-2, 10B-2, 12B-2, 16B-2, 24B-2, start-8, start-14, stop-14, stop-24, "
+            "estop-20, gridloss-14, idle-6, idle-25, parked-12, eog-14, ecd-14, yaw20-14. Did you mean 14C?",
         ),
         (
             "loads: {file: nothing.outb}\n",
@@ -92,46 +94,48 @@ def reported(tmp_path):
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1.26\n",
-            "case.yaml, line 3, drivetrain.hub_to_bearing: 1.26 has no unit. Allowed: a number with its unit, m "
+            "case.yaml, line 3, drivetrain.hub_to_bearing: it is 1.26, which does not give its unit. Allowed: a number with its unit, m "
             "or mm or um. Write 1.26 m or 1.26 mm or 1.26 um, whichever it is.",
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 4 ft\n",
-            "case.yaml, line 3, drivetrain.hub_to_bearing: '4 ft' has the unit 'ft'. Allowed: a number with its "
+            "case.yaml, line 3, drivetrain.hub_to_bearing: it is '4 ft', which has the unit 'ft'. Allowed: a number with its "
             "unit, m or mm or um. Convert it to one of these units.",
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1,26 m\n",
-            "case.yaml, line 3, drivetrain.hub_to_bearing: '1,26 m' is not a quantity. Allowed: a number with its "
+            "case.yaml, line 3, drivetrain.hub_to_bearing: it is '1,26 m', which is not a quantity. Allowed: a number with its "
             "unit, m or mm or um. Use a decimal point, not a comma.",
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: about one metre\n",
-            "case.yaml, line 3, drivetrain.hub_to_bearing: 'about one metre' is not a quantity. Allowed: a number "
+            "case.yaml, line 3, drivetrain.hub_to_bearing: it is 'about one metre', which is not a quantity. Allowed: a number "
             "with its unit, m or mm or um. Write 1 m, for example.",
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1e999 m\n",
-            "case.yaml, line 3, drivetrain.hub_to_bearing: '1e999 m' is too large for a number. Allowed: a number "
+            "case.yaml, line 3, drivetrain.hub_to_bearing: it is '1e999 m', which is too large for a number. Allowed: a number "
             "with its unit, m or mm or um.",
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1260 m\n  tilt: 50 deg\n  shaft_mass_station: 4 m\n",
-            "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m. "
-            "Check value and unit. (2) case.yaml, line 4, drivetrain.tilt: it is 50 deg. Allowed: -17.1887 to 17.1887 "
-            "deg. Check value and unit.",
+            "2 problems: (1) case.yaml, line 3, drivetrain.hub_to_bearing: it is 1260 m. Allowed: 0 to 20 m. It "
+            "is the distance from hub centre to main bearing; check value and unit. (2) case.yaml, line 4, "
+            "drivetrain.tilt: it is 50 deg. Allowed: -17.1887 to 17.1887 deg. It is the shaft tilt, positive with the hub "
+            "end up; check value and unit.",
         ),
         (
             LOADS + "drivetrain: {tilt: 5 rad, bearing_to_gearbox: 0mm, shaft_mass: -1 kg}\n",
             "3 problems: (1) case.yaml, line 2, drivetrain.bearing_to_gearbox: it is 0mm. Allowed: above 0, up to 20000 "
-            "mm. Check value and unit. (2) case.yaml, line 2, drivetrain.tilt: it is 5 rad. Allowed: -0.3 to 0.3 rad. "
-            "Check value and unit. (3) case.yaml, line 2, drivetrain.shaft_mass: it is -1 kg. Allowed: 0 to 1e6 kg. "
-            "Check value and unit.",
+            "mm. It is the distance from main bearing to gearbox support; check value and unit. (2) case.yaml, line 2, "
+            "drivetrain.tilt: it is 5 rad. Allowed: -0.3 to 0.3 rad. It is the shaft tilt, positive with the hub end up; "
+            "check value and unit. (3) case.yaml, line 2, drivetrain.shaft_mass: it is -1 kg. Allowed: 0 to 1e6 kg. It is "
+            "the mass of the shaft without rotor; check value and unit.",
         ),
         (
             LOADS + "drivetrain:\n  shaft_mass_station: 4 m\n",
             "case.yaml, line 3, drivetrain.shaft_mass_station: it is 4 m. Allowed: 0 to 3.46 m, from the hub to the "
-            "end of the shaft. Check value and unit.",
+            "end of the shaft. It is the distance of that mass behind the hub centre; check value and unit.",
         ),
         (
             LOADS + "dynamics: free\n",
@@ -144,7 +148,8 @@ def reported(tmp_path):
         ),
         (
             LOADS + "dynamics: whole-bearing\ncage:\n  gap: -0.1 mm\n",
-            "case.yaml, line 4, cage.gap: the gap is -0.0001 m. Allowed: 0 to 100 mm.",
+            "case.yaml, line 4, cage.gap: it is -0.1 mm. Allowed: 0 to 100 mm. It is the play of a roller between the "
+            "two spars of its pocket; check value and unit.",
         ),
         (LOADS + "forces: {gravity: yes}\n", "case.yaml, line 2, forces.gravity: it is 'yes'. Allowed: true or false."),
         (
@@ -176,19 +181,25 @@ def reported(tmp_path):
             "case.yaml, line 2: the key 'tolerance' inside integrator is unknown. Allowed: method, step. Remove it.",
         ),
         (
+            LOADS + "integrator:\n  method: radau\n  tables: false\n",
+            "case.yaml, line 4: the key 'tables' inside integrator is gone. Contacts are always looked up in tables now; "
+            "remove the key.",
+        ),
+        (
             LOADS + "integrator:\n  tolerance: 0.5\n",
-            "case.yaml, line 3, integrator.tolerance: the tolerance is 0.5. Allowed: 1e-10 to 1e-2. 2e-4 gives "
+            "case.yaml, line 3, integrator.tolerance: it is 0.5. Allowed: 1e-10 to 0.01. 2e-4 gives "
             "energies and spin to 1e-4 and peak power to 1 %.",
         ),
         (
             LOADS + "integrator:\n  tolerance: '1e-4'\n  max_steps: 1.5\n",
             "2 problems: (1) case.yaml, line 3, integrator.tolerance: it is '1e-4'. Allowed: a number without "
             "unit. Write it without quotes and units. (2) case.yaml, line 4, integrator.max_steps: it is 1.5. "
-            "Allowed: a whole number.",
+            "Allowed: a whole number, 1 to 1e15.",
         ),
         (
             LOADS + "integrator: {method: backward-euler, step: 3 s}\n",
-            "case.yaml, line 2, integrator.step: the step is 3.0 s. Allowed: 1e-7 to 1 s.",
+            "case.yaml, line 2, integrator.step: it is 3 s. Allowed: 1e-7 to 1 s. It is the fixed time step; check value "
+            "and unit.",
         ),
         (
             LOADS + "window: {start: 5 s, end: 11 s}\n",
@@ -201,7 +212,7 @@ def reported(tmp_path):
         ),
         (
             LOADS + "window: {end: auto}\n",
-            "case.yaml, line 2, window.end: 'auto' is not a quantity. Allowed: a number with its unit, s or ms. "
+            "case.yaml, line 2, window.end: it is 'auto', which is not a quantity. Allowed: a number with its unit, s or ms. "
             "Write 1 s, for example.",
         ),
         (
@@ -215,7 +226,8 @@ def reported(tmp_path):
         ),
         (
             LOADS + "traces: {step: 0 s}\n",
-            "case.yaml, line 2, traces.step: the step is 0.0 s. Allowed: a number above 0 s.",
+            "case.yaml, line 2, traces.step: it is 0 s. Allowed: a number above 0 s. It is the time between samples; "
+            "check value and unit.",
         ),
         (
             LOADS + "traces: {step: 1 s, end: 99 s}\n",
@@ -233,7 +245,7 @@ def reported(tmp_path):
             f"(2) case.yaml, line 3, lubricant: 'oil.yaml' is neither in the catalogue nor a file. Allowed: "
             f"{', '.join(Lubricant.catalogue())}, or the path of a lubricant file. Relative paths start at FOLDER.",
         ),
-        (LOADS + "bearing: 3\n", "case.yaml, line 2, bearing: it is 3. Allowed: text."),
+        (LOADS + "bearing: 3\n", "case.yaml, line 2, bearing: it is 3. Allowed: non-empty text."),
         (
             LOADS + LOADS,
             'case.yaml, line 2: found duplicate key "loads". Allowed: every key once. Delete one of the two.',

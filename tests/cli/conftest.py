@@ -18,9 +18,11 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.fixture
 def quick(folder):
-    """Write `case.yaml`: two rollers a row for two seconds, with further lines if wanted."""
+    """Write `case.yaml`: two rollers a row for two seconds, of the paper's model and without traces if no line says else."""
 
     def write(further="", loads=f"{{file: {DATA / 'sample14B.outb'}, start: 60 s, end: 62 s}}", rollers="[0, 14]"):
+        defaults = ("laws: {model: paper}\n", "traces: none\n")
+        further += "".join(one for one in defaults if one.split(":")[0] not in further)
         (folder / "case.yaml").write_text(f"loads: {loads}\nrollers: {rollers}\n{further}", encoding="utf-8")
         return "case.yaml"
 
@@ -32,7 +34,7 @@ def macroslip():
     """Run a command; gives exit code, standard output and standard error."""
 
     def run(*arguments):
-        from macroslip.cli import app
+        from macroslip.cli.commands import app
 
         done = CliRunner().invoke(app, [str(argument) for argument in arguments])
         return SimpleNamespace(code=done.exit_code, out=done.stdout, err=done.stderr)

@@ -107,9 +107,8 @@ def test_a_page_that_contradicts_itself(folder, macroslip, options, reported):
 def test_a_bearing_file_to_start_from(folder, macroslip):
     assert macroslip("bearing", "init").code == 0
     assert Bearing.read("bearing.yaml").name == "bearing"
-    assert Bearing.read("bearing.yaml").model_dump(exclude={"name", "title"}) == Bearing.read(
-        "skf-240-600-bc"
-    ).model_dump(exclude={"name", "title"})
+    own, base = (Bearing.read(name).model_dump() for name in ("bearing.yaml", "skf-240-600-bc"))
+    assert own | {"name": "", "title": ""} == base | {"name": "", "title": ""}
     assert macroslip("bearing", "init").code == 2
     assert macroslip("bearing", "init", "--force").code == 0
 
@@ -131,7 +130,7 @@ def test_estimate_a_lubricant_that_can_be_read_and_shown(folder, macroslip):
     ("v40", "v100", "base", "message"),
     [
         ("320", "35 mm2/s", "pao", "error: --v40 is '320', which does not give its unit. Allowed: a number with its unit, m2/s"),
-        ("320 mm2/s", "35 Pa s", "pao", "error: --v100 has the unit 'Pa s'. Allowed: a number with its unit, m2/s"),
+        ("320 mm2/s", "35 Pa s", "pao", "error: --v100 is '35 Pa s', which has the unit 'Pa s'. Allowed: a number with its unit, m2/s"),
         ("320 mm2/s", "35 mm2/s", "whale", "error: there is no base oil 'whale'. Allowed: pao (polyalphaolefin), "),
         ("35 mm2/s", "320 mm2/s", "pao", "error: the viscosity is 35 mm2/s at 313.15 K and 320 mm2/s at 373.15 K."),
     ],

@@ -44,10 +44,7 @@ def ran(hostile):
 def test_a_first_run_and_a_study_with_workers(hostile):
     environment = os.environ | {"NUMBA_CACHE_DIR": str(hostile / "kernels")}
     command = [sys.executable, str(hostile / "macroslip-command")]
-    for arguments in (
-        ["run", "case.yaml", "-o", "case.nc"],
-        ["study", "study.yaml", "-o", "out", "--workers", "1"],
-    ):
+    for arguments in (["run", "case.yaml", "-o", "case.nc"], ["study", "study.yaml", "-o", "out", "--workers", "1"]):
         done = subprocess.run(
             [*command, *arguments], env=environment, capture_output=True, text=True, timeout=900, check=False
         )
@@ -66,14 +63,6 @@ def test_a_process_does_not_look_in_the_current_folder(hostile, monkeypatch, ent
     )
     assert (done.returncode, ran(hostile)) == (0, ""), done.stderr
     assert str(hostile / "other") in done.stdout and repr(str(hostile / "sent")) not in done.stdout
-
-
-def test_the_page_of_the_reproduction_is_written_without_them(hostile):
-    from macroslip.reproduction.page_process import page_written
-
-    with pytest.raises(RuntimeError, match="reproduction_page"), page_written(hostile / "page.html", "nothing"):
-        pass
-    assert ran(hostile) == ""
 
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows keeps the current folder")

@@ -37,5 +37,5 @@ def test_no_folder_for_kernels_is_said(macroslip, monkeypatch):
 
 def test_the_same_for_people(macroslip):
     out = macroslip("doctor").out
-    for word in (f"macroslip {package.__version__}", "numba", "kernels", "macroslip reproduce", "ready"):
+    for word in (f"macroslip {package.__version__}", "numba", "kernels", "macroslip report", "ready"):
         assert word in out

@@ -1,11 +1,13 @@
 """An interrupt that arrives where Python can raise nothing is raised a moment later."""
 
 import signal
+import subprocess
+import sys
 import time
 
 import pytest
 
-from macroslip.cli.interrupt import interrupts_kept
+from macroslip.cli.failure import interrupts_kept
 
 
 class Interrupted:
@@ -58,3 +60,13 @@ def test_other_faults_of_finalizers_are_reported_as_before(monkeypatch):
     with interrupts_kept():
         Faulty()
     assert [one.exc_type for one in seen] == [ValueError]
+
+
+def test_an_interrupt_while_the_arguments_are_read_is_told():
+    code = (
+        "import typer.core; from macroslip.cli import main\n"
+        "def interrupted(*_, **__): raise KeyboardInterrupt\n"
+        "typer.core.TyperGroup.make_context = interrupted; main()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")

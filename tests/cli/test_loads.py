@@ -81,13 +81,20 @@ def test_uneven_steps_are_reported(folder, macroslip):
     assert "step      1 s (median; 1 s to 1.2 s)" in macroslip("loads", "inspect", "loads.csv").out
 
 
+def test_semicolons_and_decimal_commas_in_a_table_of_bearing_loads(folder, macroslip):
+    lines = "".join(f"{t},5;1;3,25;-4;0\n" for t in range(3))
+    (folder / "loads.csv").write_text("time_s;shaft_speed_rpm;F_X0_kN;F_Y0_kN;F_Z0_kN\n" + lines)
+    done = macroslip("loads", "inspect", "loads.csv")
+    assert "kind      load on the main bearing" in done.out and rows(done.out)["F_X0 [kN]"] == [3.25, 0.0, 3.25, 3.25]
+
+
 @pytest.mark.parametrize(
     ("file", "content", "message"),
     [
         ("absent.outb", None, "absent.outb: no such file. Check the path; the current folder is FOLDER."),
         ("notes.txt", b"x", "notes.txt: the extension '.txt' is not known. Allowed: .outb (OpenFAST binary output), "
                             ".out (OpenFAST text output), .%nn (Bladed output, any file of the run), .$nn (the same), "
-                            ".sel (HAWC2 output), .hdf5 (HAWC2 output in the format gtsdf), .parquet (table), "
+                            ".sel (HAWC2 output), .dat (HAWC2 output, with its .sel beside it), .hdf5 (HAWC2 output in the format gtsdf), .parquet (table), "
                             ".csv (table)."),
         ("empty.csv", b"", "empty.csv: the file is empty. Write or copy the file again."),
         ("cut.outb", b"\x02\x00\x01", "cut.outb: the file is cut off within its header. Copy the file again, or run "
@@ -165,3 +172,17 @@ def test_a_picture(folder, macroslip):
     assert (folder / "loads.png").read_bytes().startswith(b"\x89PNG")
     assert macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.png").code == 2
     assert "Allowed: .png, .svg, .pdf" in macroslip("loads", "inspect", DATA / "sample14B.outb", "-o", "loads.txt").err
+
+
+def test_both_main_bearings_carry_the_hub_force_together(folder, macroslip):
+    (folder / "both.yaml").write_text(
+        "loads: {bundled: 14B}\ndrivetrain: {mount: four-point, hub_to_bearing: 1.1 m, front_to_rear: 1.6 m, "
+        "locating: rear, bearing: both}\n"
+    )
+    arguments = ("loads", "inspect", DATA / "sample14B.outb", "--case", "both.yaml")
+    found = json.loads(macroslip(*arguments, "--json").out)
+    for hub, ring in (("fx", "F_Z0"), ("fy", "F_X0"), ("fz", "F_Y0")):
+        carried = sum(found[name][f"{ring} [kN]"]["mean"] for name in ("main bearing", "rear main bearing"))
+        assert carried == pytest.approx(found["statistics"][f"{hub} [kN]"]["mean"], rel=1e-9)
+    out = macroslip(*arguments).out
+    assert ": the front bearing" in out and "load on the rear main bearing" in out

@@ -40,9 +40,9 @@ def test_names_that_the_output_cannot_show_are_written_by_numbers(tmp_path):
 
 
 def test_help_imports_nothing_heavy():
-    heavy = "numpy numba pandas xarray pydantic ruamel matplotlib scipy pyarrow"
+    heavy = "numpy numba pandas xarray ruamel matplotlib scipy pyarrow"
     code = (
-        "import sys\nfrom macroslip.cli import app\ntry: app(['--help'])\nexcept SystemExit: pass\n"
+        "import sys\nfrom macroslip.cli.commands import app\ntry: app(['--help'])\nexcept SystemExit: pass\n"
         f"print([name for name in '{heavy}'.split() if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
@@ -54,6 +54,7 @@ def test_help_names_every_command_and_exit_code(macroslip):
     for word in (
         "init",
         "run",
+        "compare",
         "reproduce",
         "loads",
         "bearing",
@@ -78,6 +79,44 @@ def test_a_reader_that_closes_early_is_no_error():
     command = f"{sys.executable} -c 'from macroslip.cli import main; main()' bearing schema | head -1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
     assert (done.stdout, done.stderr) == ("{\n", "")
+    for arguments, code in ((["bearing", "schema"], 0), (["--help"], 0), (["bearing", "show", "nothing"], 2)):
+        process = subprocess.Popen(
+            [sys.executable, "-c", "from macroslip.cli import main; main()", *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
+        process.stdout.close()
+        assert process.wait(60) == code
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_an_interrupt_while_the_command_is_imported_is_told_in_a_word():
+    code = (
+        "import signal, sys, builtins\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "from macroslip.cli import main\nfind = builtins.__import__\n"
+        "def slow(name, *rest):\n    if name == 'typer': signal.raise_signal(signal.SIGINT)\n"
+        "    return find(name, *rest)\nbuiltins.__import__ = slow\nmain()"
+    )
+    done = subprocess.run([sys.executable, "-c", code, "--help"], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
+
+
+def test_compiling_that_is_switched_off_and_long_names_are_told(tmp_path):
+    (tmp_path / "case.yaml").write_text("loads: {bundled: 14B, end: 2 s}\nrollers: [0]\n")
+    code = "from macroslip.cli import main; main()"
+    for output, words in (
+        ("o.nc", "error: NUMBA_DISABLE_JIT: compiling is switched off. Remove this variable"),
+        ("n" * 5000, "too long. Choose a shorter name."),
+    ):
+        done = subprocess.run(
+            [sys.executable, "-c", code, "run", "case.yaml", "-o", output],
+            cwd=tmp_path,
+            env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        assert done.returncode == 2 and words in done.stderr and len(done.stderr) < 600
 
 
 class Terminal(io.StringIO):

@@ -4,7 +4,7 @@ import importlib.util
 
 import pytest
 
-from macroslip.cli.needs import FIGURES, WORKERS, require
+from macroslip.cli.needs import FIGURES, SCHEDULER, require
 from macroslip.errors import MacroslipError
 
 
@@ -22,7 +22,7 @@ def without(monkeypatch):
 
 
 def test_all_is_there():
-    require(FIGURES, WORKERS)
+    require(FIGURES, SCHEDULER)
 
 
 def test_the_message_names_package_and_remedy(without):
@@ -30,21 +30,13 @@ def test_the_message_names_package_and_remedy(without):
     with pytest.raises(
         MacroslipError, match=r"for a page or a picture: jinja2\. .*pip install 'macroslip\[figures\]'$"
     ):
-        require(FIGURES, WORKERS)
-
-
-def test_several_needs_are_one_message_with_one_remedy(without):
-    without("jinja2", "distributed")
-    with pytest.raises(MacroslipError) as error:
-        require(WORKERS, FIGURES)
-    assert "--workers and --scheduler and a page or a picture: distributed, jinja2." in str(error.value)
-    assert str(error.value).endswith("pip install 'macroslip[cluster,figures]'")
+        require(FIGURES, SCHEDULER)
 
 
 def test_a_dry_run_refuses_what_the_run_would_refuse(folder, macroslip, without):
     (folder / "study.yaml").write_text("loads: {bundled: [14B]}\n")
     without("distributed")
-    done = macroslip("study", "study.yaml", "--dry-run", "--workers", "2")
+    done = macroslip("study", "study.yaml", "--dry-run", "--scheduler", "tcp://127.0.0.1:1")
     assert (done.code, done.out) == (2, "")
     assert "distributed" in done.err and "[cluster]" in done.err
 
@@ -53,4 +45,4 @@ def test_doctor_says_which_command_lacks_what(macroslip, without):
     without("matplotlib")
     lines = macroslip("doctor").out.splitlines()
     assert any(line.startswith("macroslip report ") and "lacks matplotlib" in line for line in lines)
-    assert any(line.startswith("macroslip study --workers ") and "ready" in line for line in lines)
+    assert any(line.startswith("macroslip study --scheduler ") and "ready" in line for line in lines)

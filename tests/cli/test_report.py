@@ -34,7 +34,7 @@ def test_one_file_and_a_page_of_ones_own_choice(ran, macroslip):
 
 
 def test_the_folder_of_a_study(folder, macroslip):
-    text = "case: {rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A, 18B]}\n"
+    text = "case: {laws: {model: paper}, rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A, 18B]}\n"
     (folder / "study.yaml").write_text(text, encoding="utf-8")
     assert macroslip("study", "study.yaml", "-o", "out", "--quiet").code == 0
     done = macroslip("report", "out", "--title", "Mine", "--weibull", 9, 2)
@@ -46,7 +46,7 @@ def test_the_folder_of_a_study(folder, macroslip):
 
 
 def test_no_file_of_a_study_becomes_its_page(folder, macroslip):
-    text = "case: {rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A]}\n"
+    text = "case: {laws: {model: paper}, rollers: [0], loads: {end: 16 s}}\nloads: {bundled: [12A]}\n"
     (folder / "study.yaml").write_text(text, encoding="utf-8")
     assert macroslip("study", "study.yaml", "-o", "out", "--quiet").code == 0
     before = {path: path.read_bytes() for path in (folder / "out").rglob("*") if path.is_file()}

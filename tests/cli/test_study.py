@@ -20,7 +20,7 @@ pytestmark = pytest.mark.slow
 DATA = Path(__file__).parents[1] / "data"
 STUDY = """
 title: two seeds
-case: {rollers: [0], loads: {end: 62 s}}
+case: {laws: {model: paper}, rollers: [0], loads: {end: 62 s}}
 loads: {files: "runs/{wind_speed:g}mps_seed{seed:d}.outb"}
 """
 
@@ -62,7 +62,8 @@ def test_of_many_combinations_the_highest_are_shown(folder, macroslip):
     )
     assert macroslip("study", "study.yaml", "-o", "out").code == 0
     done = macroslip("aggregate", "out", "-o", "tables", "--weibull", "9", "2")
-    title, _, *lines = done.out.split("written:")[0].rstrip().splitlines()
+    title, _, *lines, coverage = done.out.split("written:")[0].rstrip().splitlines()
+    assert coverage.startswith("The cases cover ") and coverage.endswith(" h of wind speeds.")
     assert title.endswith("; the 20 highest of 30, all of them are in the table lifetime") and len(lines) == 20
     energies = pd.read_csv("tables/lifetime.csv")["lifetime_energy [J]"]
     assert len(energies) == 30
@@ -79,7 +80,7 @@ def test_dry_run_counts_and_estimates_and_writes_nothing(study, macroslip):
 
 def test_the_estimate_of_the_disk_is_right(folder, macroslip):
     (folder / "study.yaml").write_text(
-        "loads: {bundled: [14A, 14B, 14C]}\ncase: {rollers: [0, 5], loads: {end: 300 s}}\n"
+        "loads: {bundled: [14A, 14B, 14C]}\ncase: {laws: {model: paper}, rollers: [0, 5], loads: {end: 300 s}}\n"
     )
     done = macroslip("study", "study.yaml", "--dry-run")
     estimated = float(re.search(r"^disk +([\d.]+) kB", done.out, re.MULTILINE)[1])
@@ -137,9 +138,9 @@ def test_interrupted_and_resumed_as_a_user_does(folder, workers):
     main = "from signal import *; signal(SIGINT, default_int_handler); from macroslip.cli import main; main()"
     command = [sys.executable, "-c", main, "study", "study.yaml", "-o", "out"]
     process = subprocess.Popen([*command, *workers], stderr=subprocess.PIPE, text=True, start_new_session=True)
-    journal = folder / "out" / "journal.jsonl"
+    log = folder / "out" / "log.txt"
     end = time.monotonic() + 120
-    while not journal.exists() or journal.stat().st_size == 0:
+    while not log.exists() or ": completed" not in log.read_text():
         assert time.monotonic() < end
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)

@@ -1,12 +1,18 @@
 """Stored tables: found again, made again where they are not what was written, and never in the way."""
 
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from macroslip import Bearing, Laws, Lubricant
 from macroslip.contact import table_store as store
+from macroslip.contact.laws import prepare
+from macroslip.contact.look_up import TRACTION
+from macroslip.contact.table import Tables, table_box, write_traction
 
 
 @pytest.fixture
@@ -54,6 +60,33 @@ def test_a_damaged_file_is_made_again(place, monkeypatch, damage):
     assert make.count == 2
 
 
+def test_files_that_were_exchanged_are_made_again(place, monkeypatch):
+    make = Maker()
+    for key in ("ab12", "cd34"):
+        store.stored(key, make)
+    one, other = place / "ab12.table", place / "cd34.table"
+    one.rename(place / "aside")
+    other.rename(one)
+    (place / "aside").rename(other)
+    forget(monkeypatch)
+    for key in ("ab12", "cd34"):
+        store.stored(key, make)
+    assert make.count == 4
+
+
+@pytest.mark.slow
+def test_processes_that_write_one_table_find_it_whole(place):
+    code = (
+        "import time, numpy as np\nfrom macroslip.contact import table_store as store\n"
+        "made = store.stored('ab12', lambda: (time.sleep(0.2), [np.arange(1e5)])[1])\n"
+        "print(int(made[0].sum()))"
+    )
+    started = [subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) for _ in range(4)]
+    assert {process.communicate(timeout=60)[0] for process in started} == {b"4999950000\n"}
+    assert [path.name for path in place.iterdir() if path.suffix != ".lock"] == ["ab12.table"]
+    assert store._read(place / "ab12.table")[0].size == 10**5
+
+
 def test_a_place_that_is_no_folder_leaves_tables_in_memory(tmp_path, monkeypatch):
     forget(monkeypatch)
     (tmp_path / "file").write_text("in the way")
@@ -93,10 +126,50 @@ def test_the_store_is_bounded(place, monkeypatch):
     assert 1 <= len(files) <= 3 and sum(path.stat().st_size for path in files) <= 30_000
 
 
-def test_keys_differ_with_any_value_and_with_the_sources(models, monkeypatch):
-    contact = models[1].inner
-    key = store.table_key(contact, 1.0)
-    assert key == store.table_key(contact, 1.0)
-    assert key != store.table_key(models[1].outer, 1.0) and key != store.table_key(contact, 1.0 + 1e-15)
-    monkeypatch.setattr(store, "own_laws", lambda: ["def thickness(): ..."])
-    assert key != store.table_key(contact, 1.0)
+def test_keys_differ_with_any_value():
+    one = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1)
+    key = store.table_key(one.inner.fluid, 1.0, np.arange(3.0))
+    assert key == store.table_key(one.inner.fluid, 1.0, np.arange(3.0))
+    others = [
+        (one.inner.fluid, 1.0 + 1e-15, np.arange(3.0)),
+        (one.inner.fluid, 1.0, np.arange(3)),
+        (one.inner.fluid, 1.0, np.arange(3.0).reshape(3, 1)),
+        (one.inner.fluid._replace(heating=0.0), 1.0, np.arange(3.0)),
+        (one.inner.interface.hertz, 1.0, np.arange(3.0)),
+    ]
+    assert len({key, *(store.table_key(*parts) for parts in others)}) == 6
+
+
+def test_a_damaged_table_of_a_contact_is_made_again(place, monkeypatch):
+    """A sheet of a raceway's traction, cut in the middle: the table is the same, and the file is whole again."""
+    box = table_box(np.array([-0.41, -0.40]), 1e3, 2e-4)._replace(fineness=2.0)
+    contact = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1).inner
+
+    def made():
+        forget(monkeypatch)
+        record, tables = np.zeros(1, TRACTION), Tables()
+        write_traction(record[0], tables, contact, box)
+        return tables.flat()
+
+    first = made()
+    # Not the oil's table of stresses, which a process makes once.
+    sheets = [path for path in place.glob("*.table") if path.stat().st_size < 500_000]
+    assert len(sheets) >= 5
+    sizes = [path.stat().st_size for path in sheets]
+    for path, size in zip(sheets, sizes, strict=True):
+        path.write_bytes(path.read_bytes()[: size // 2])
+    np.testing.assert_array_equal(made(), first)
+    assert [path.stat().st_size for path in sheets] == sizes
+
+
+def test_cases_share_their_sheets(place, monkeypatch):
+    slower, faster = (
+        table_box(np.array(speeds), 1e3, 2e-4)._replace(fineness=2.0) for speeds in ([-0.41, -0.3], [-0.43, -0.35])
+    )
+    contact = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1).inner
+    forget(monkeypatch)
+    counts = []
+    for box in (slower, faster):
+        write_traction(np.zeros(1, TRACTION)[0], Tables(), contact, box)
+        counts.append(len(list(place.glob("*.table"))))
+    assert counts[1] - counts[0] < 4

@@ -7,21 +7,21 @@ from pathlib import Path
 import pytest
 
 from macroslip import BearingLoads, Case, Laws, Traces, bundled_cases, open_study, read_study, run_study, simulate
-from macroslip.case.keys import INTEGRATORS, CaseFile, LawsKeys
-from macroslip.catalogue.forms import Choice
-from macroslip.catalogue.section_forms import fields_of, form_of, keys_of
-from macroslip.integrate.status import Status
+from macroslip.case.parts import INTEGRATORS
+from macroslip.imposed.status import Status
+from macroslip.input.fields import Choice
+from macroslip.input.section import fields_of, form_of, keys_of
 from macroslip.study.export import tables
-from macroslip.study.outcome import Outcome
-from macroslip.study.study_file import study_of
-from macroslip.study.study_keys import KINDS, StudyFile
+from macroslip.study.settings import METHODS, SCALES
+from macroslip.study.store import Outcome
+from macroslip.study.study_file import KINDS, StudyFile, study_of
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.variation import METHODS, SCALES
 from macroslip.study.weights import Weibull
 
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "tests" / "data" / "sample14B.outb"
 PAGES = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
+STUDIES = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("studies.md", "study-results.md"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 OURS = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.py"), *EXAMPLES]
 
@@ -40,10 +40,10 @@ def test_index_names_every_page_and_every_example():
     assert missing == []
 
 
-def test_input_page_names_every_key_of_a_case():
-    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "input.md").read_text(encoding="utf-8"))
+def test_case_file_page_names_every_key_of_a_case():
+    quoted = re.findall(r"`([^`\n]+)`", (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8"))
     sections = {"drivetrain", "forces", "heat", "laws", "cage", "integrator", "window"}
-    names = [key for key, _ in keys_of(CaseFile) if key not in sections]
+    names = [key for key, _ in keys_of(Case) if key not in sections]
     # Keys of the constant loads stand together in the row of their section.
     names = [key.removeprefix("loads.hub.").removeprefix("loads.main_bearing.") for key in names]
     assert [name for name in names if name not in quoted] == []
@@ -62,20 +62,23 @@ def test_studies_page_has_the_sentence_of_every_outcome():
     assert [outcome for outcome in Outcome if f"| `{outcome}` | {outcome.sentence} |" not in text] == []
 
 
-def test_studies_page_names_every_file_every_table_and_every_variable(tmp_path):
-    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
-    study = {"case": {"rollers": [0], "loads": {"end": "8 s"}}, "loads": {"bundled": ["14B"]}, "cycles": True}
+def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):
+    study = {
+        "case": {"laws": {"model": "paper"}, "rollers": [0], "loads": {"end": "8 s"}},
+        "loads": {"bundled": ["14B"]},
+        "cycles": True,
+    }
     run_study(study_of(study), tmp_path / "out")
     opened = open_study(tmp_path / "out")
     found = tables(opened, Weibull(9.0, 2.0))
     files = [f"{path.name}/" if path.is_dir() else path.name for path in (tmp_path / "out").iterdir()]
     labels = [name for name, one in opened.coords.items() if one.dims == ("case",)]
     names = [*files, *found, *ROW_VARIABLES, *CASE_VARIABLES, *labels, "load_cycles", *opened.load_cycles.dims]
-    assert [name for name in names if f"`{name}`" not in text] == []
+    assert [name for name in names if f"`{name}`" not in STUDIES] == []
 
 
 def test_studies_page_gives_the_units_of_the_summary():
-    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "studies.md").read_text(encoding="utf-8"), re.MULTILINE)
+    rows = re.findall(r"^\|(.*)\|$", STUDIES, re.MULTILINE)
     cells = [[cell.strip() for cell in row.split("|")] for row in rows]
     for name, (units, _) in (ROW_VARIABLES | CASE_VARIABLES).items():
         assert any(units in re.split(", ", row[1]) for row in cells if f"`{name}`" in row[0]), name
@@ -87,7 +90,7 @@ def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     block, balance = re.findall(r"^```yaml\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
     (tmp_path / "balance.yaml").write_text(balance, encoding="utf-8")
     balanced = read_study(tmp_path / "balance.yaml")
-    assert (len(balanced), balanced.heat.conductance, balanced.weights.shape) == (21, 60.0, 2.0)
+    assert (len(balanced), balanced.heat.conductance, balanced.weights.year.wind.shape) == (21, 60.0, 2.0)
     (tmp_path / "dlc12").mkdir()
     shutil.copy(SAMPLE, tmp_path / "dlc12" / "14mps_seed1.outb")
     shutil.copy(ROOT / "src/macroslip/bearing/catalogue/skf-240-600-bc.yaml", tmp_path / "other-bearing.yaml")
@@ -95,9 +98,9 @@ def test_study_files_of_page_and_examples_are_right(tmp_path, monkeypatch):
     assert len(read_study(tmp_path / "study.yaml")) == 2 * 2 * 3 * 16
 
 
-def test_input_page_names_every_law_and_method():
-    text = (ROOT / "docs" / "input.md").read_text(encoding="utf-8")
-    laws = [form_of(field) for field in fields_of(LawsKeys).values()]
+def test_case_file_page_names_every_law_and_method():
+    text = (ROOT / "docs" / "case-file.md").read_text(encoding="utf-8")
+    laws = [form_of(field) for field in fields_of(Laws).values()]
     choices = [name for choice in laws if isinstance(choice, Choice) for name in choice.names()]
     names = [*choices, *INTEGRATORS, bundled_cases()[0], bundled_cases()[-1]]
     missing = [name for name in names if f"`{name}`" not in text]
@@ -112,6 +115,10 @@ def test_input_page_shows_the_lines_that_the_program_asks_for():
     assert missing == []
 
 
+#: Variables of a result stand on its page, and what criteria of damage need on theirs.
+RESULTS = "\n".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("results.md", "damage.md"))
+
+
 @pytest.fixture(scope="module")
 def dataset():
     """A result of the physical model, which has all variables of the paper's and more."""
@@ -120,14 +127,14 @@ def dataset():
 
 
 def test_results_page_names_every_variable_coordinate_and_attribute(dataset):
-    text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    text = RESULTS
     labels = [*dataset.interface.values, *dataset.row.values, *dataset.mechanism.values]
     names = [*dataset.variables, *dataset.attrs, *labels]
     assert [name for name in names if f"`{name}`" not in text] == []
 
 
 def test_results_page_gives_the_units_of_every_variable(dataset):
-    rows = re.findall(r"^\|(.*)\|$", (ROOT / "docs" / "results.md").read_text(encoding="utf-8"), re.MULTILINE)
+    rows = re.findall(r"^\|(.*)\|$", RESULTS, re.MULTILINE)
     cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)] for row in rows]
     for name, variable in dataset.data_vars.items():
         found = [row for row in cells if f"`{name}`" in row[0]]
@@ -166,4 +173,4 @@ def test_readme_for_a_package_index_has_no_link_into_the_repository():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     for one in settings["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]:
         text = re.sub(one["pattern"], one["replacement"], text)
-    assert "](" not in text and "figure_3a.png" not in text and "first\nrun" in text
+    assert "](" not in text and "bearing_slip" not in text and re.search(r"first\srun", text)

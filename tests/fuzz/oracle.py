@@ -46,7 +46,7 @@ def ends_well(folder, file, *arguments, app=None):
     Either it accepts the file, or it says in one paragraph what is wrong with it and what to do, and leaves nothing.
     """
     if app is None:
-        from macroslip.cli import app
+        from macroslip.cli.commands import app
     before, peak = _files(folder), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     start = time.process_time()
     with _limited_memory():

@@ -6,7 +6,7 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
-from macroslip import BearingLoads, Case, Traces, open_result, simulate
+from macroslip import BearingLoads, Case, Laws, Traces, open_result, simulate
 from macroslip.result.stored import to_netcdf
 from tests.fuzz.mutations import damaged
 from tests.fuzz.oracle import app_of, ends_well, examples
@@ -23,7 +23,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def result():
     loads = BearingLoads.constant([0.0, -300e3, 80e3], 2.1, 14.0)
-    return simulate(Case(loads=loads, rollers=[0, 7], traces=Traces(step=0.1)))
+    return simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0, 7], traces=Traces(step=0.1)))
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from macroslip import Bearing, Lubricant
-from macroslip.catalogue.source import parse
+from macroslip.input.files import parse
 from macroslip.study.study_file import read_study
 from tests.fuzz.mutations import damaged, misshapen
 from tests.fuzz.oracle import app_of, ends_well, examples
@@ -28,7 +28,7 @@ traces: {step: 10 ms, start: 0.5 s, end: 1.5 s}
 CONSTANT = "loads: {main_bearing: {force: [0 N, -300 kN, 80 kN], shaft_speed: 20 rpm, duration: 2 s}}\ndynamics: whole-bearing\n"
 STUDY = """
 title: mine
-case: {loads: {start: 0 s, end: 2 s}, rollers: [0, 7]}
+case: {laws: {model: paper}, loads: {start: 0 s, end: 2 s}, rollers: [0, 7]}
 loads: {files: "runs/{wind_speed:g}mps_seed{seed:d}.csv", kind: main-bearing, units: {wind_speed: m/s}}
 bearings: [skf-240-600-bc, skf-230-600-ca]
 models: {base: {}, no drag: {forces.drag: false}}

@@ -4,9 +4,14 @@ import pytest
 
 from tools import golden
 
+#: Tables that reach down to standstill take minutes at the tolerance of the numbers; shorter tests have both.
+LONG = ("short-physical-reversal", "short-physical-standstill")
+
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", golden.cases())
+@pytest.mark.parametrize(
+    "case", [pytest.param(one, marks=[pytest.mark.deep] if one in LONG else []) for one in golden.cases()]
+)
 def test_numbers_are_what_they_were(case):
     ratio, name = golden.check(case)[case]
     assert ratio <= 1.0, f"{name} of {case} is off by {ratio:.3g} times its bound"

@@ -6,7 +6,7 @@ import pytest
 from macroslip.case.case_file import read_case
 from macroslip.errors import InputError
 from macroslip.loads import HubLoads
-from macroslip.study.build import read_loads
+from macroslip.study.settings import read_loads, template
 from macroslip.study.study_file import read_study
 
 HUB = ["Mx", "My", "Mz", "Myz", "Fx", "Fy", "Fz", "Fyz"]
@@ -100,8 +100,9 @@ def test_a_case_and_a_study_may_give_the_speed(tmp_path, truth):
     study = tmp_path / "study.yaml"
     study.write_text(f"case: {{loads: {{shaft_speed: 20 rpm}}}}\nloads: {{files: {header.name}}}\n")
     found = read_study(study)
-    assert found.cut == {"shaft_speed": pytest.approx(20.0 * np.pi / 30.0)}
-    assert read_loads("file", str(header), found.cut).shaft_speed == pytest.approx(20.0 * np.pi / 30.0)
+    _, cut = template(found.case, [], {})
+    assert cut == {"shaft_speed": pytest.approx(20.0 * np.pi / 30.0)}
+    assert read_loads("file", str(header), cut).shaft_speed == pytest.approx(20.0 * np.pi / 30.0)
 
 
 @pytest.mark.parametrize("source", ["bundled: 14B", "bearing_file: x.csv"])

@@ -1,6 +1,7 @@
 """The bundled cases: what thinning from 50 Hz to 20 Hz keeps, and that all files are whole."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -94,6 +95,8 @@ def test_provenance_and_size():
             file.metadata.row_group(0).column(i).total_compressed_size for i in range(file.metadata.num_columns)
         )
     assert total < 8e6
+    # All of them go into the wheel.
+    assert sum(path.stat().st_size for path in Path(folder).iterdir()) < 16e6
 
 
 def test_making_a_case(tmp_path, clip):

@@ -111,6 +111,7 @@ def test_list_of_channels(tmp_path, truth, sign, direction, binary):
     # The angle of 20 turns in 16 bits is good to 0.1 degrees.
     _check(read, truth, 3e-3 if binary else 1e-5)
     assert any("node 5" in line for line in read.reading)
+    _check(HubLoads.read(tmp_path / "run.dat"), truth, 3e-3 if binary else 1e-5)
 
 
 @pytest.mark.parametrize("packed", [False, True])
@@ -157,6 +158,9 @@ def test_data_that_are_cut_off_or_absent(tmp_path, truth, binary, length, words)
         data.write_bytes(content[:length])
     message = _message(path)
     assert words in message and (str(data) in message or not length)
+    path.unlink()
+    data.write_bytes(content)
+    _message(data, "there is no run.sel beside it")
 
 
 def test_a_list_that_is_none(tmp_path):

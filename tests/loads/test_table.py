@@ -112,7 +112,7 @@ def test_a_column_that_stands_twice(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("time_s;fx_N\n0;1\n", ["separated by semicolons or tabs", "commas between columns"]),
+        (";".join(HUB) + "\n" + "0,5;1.5;3;4;5;6;7;8\n" * 2, ["holds string, not numbers", "the same decimal mark"]),
         ("time_s,fx_N\n0,1\n0.1\n", ["not readable as a CSV table", "Expected 2 columns, got 1"]),
         ("time_s,fx_N\n0,1\n0.1,2,3\n", ["Expected 2 columns, got 3"]),
         ("\n\n", ["not readable as a CSV table"]),
@@ -131,6 +131,19 @@ def test_csv_as_people_write_it(tmp_path):
     rows = [", ".join(str(values[i]) for values in BEARING.values()) for i in range(3)]
     path.write_bytes(("\ufeff" + "\r\n".join([", ".join(BEARING), *rows]).replace("100000.0", "100000")).encode())
     assert BearingLoads.read(path).force[2].tolist() == [3e3, -3e5, 1e5]
+
+
+@pytest.mark.parametrize(("separator", "mark"), [(";", ","), (";", "."), ("\t", ","), ("\t", ".")])
+def test_csv_with_other_separators_and_decimal_commas(tmp_path, separator, mark):
+    """As spreadsheets write it where numbers have a comma."""
+    path = tmp_path / "a.csv"
+    rows = [
+        separator.join(f"{1e-3 * values[i]:.6f}".replace(".", mark) for values in BEARING.values()) for i in range(3)
+    ]
+    path.write_text("\n".join([separator.join([*BEARING, "remark"]), *(f"{row}{separator}a,b.c" for row in rows)]))
+    read = BearingLoads.read(path)
+    assert read.force[2] == pytest.approx([3.0, -3e2, 1e2], rel=1e-12)
+    assert read.time == pytest.approx(1e-3 * np.array(BEARING["time_s"]), abs=1e-12)
 
 
 @pytest.mark.parametrize("part", [0.02, 0.5, 0.9, 0.999])

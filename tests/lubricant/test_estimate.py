@@ -45,3 +45,6 @@ def test_what_cannot_be_estimated():
         estimate_lubricant(320e-6, 30e-6, "whale", "mine")
     with pytest.raises(InputError, match="^the viscosity is 30 mm2/s at 313.15 K and 320 mm2/s at 373.15 K"):
         estimate_lubricant(30e-6, 320e-6, "pao", "mine")
+    for pair in ((1e294, 1e-5), (1e294, 1e293), (1e-2, 1e-9), (1e24, 1e-5)):
+        with pytest.raises(InputError, match="mm2/s. Allowed: 1 to 100000 mm2/s"):
+            estimate_lubricant(*pair, "pao", "mine")

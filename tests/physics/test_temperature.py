@@ -21,9 +21,3 @@ def downwind_energy(oil, rheology):
 def test_friction_of_a_loaded_row_falls_with_temperature(rheology):
     cold, own, warm = (downwind_energy(OIL.at(f"{celsius} degC"), rheology) for celsius in (20, 35, 50))
     assert cold > 1.1 * own > 1.2 * warm
-
-
-def test_with_the_pressure_viscosity_coefficient_kept_it_would_rise():
-    # Kept, it makes Roelands' index rise: the fault that the constant index mends.
-    warm = OIL.at("50 degC").replace(pressure_viscosity=OIL.pressure_viscosity)
-    assert downwind_energy(warm, "limiting-shear") > downwind_energy(OIL, "limiting-shear")

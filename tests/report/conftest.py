@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from macroslip import Case, HubLoads, Traces, simulate
+from macroslip import Case, HubLoads, Laws, Traces, simulate
 
 #: Text that would run, load something or break the page if it were not escaped.
 HOSTILE = "<script>window.broken=1</script><img src=x onerror=window.broken=2>\"'&{{7*7}}</script>"
@@ -19,7 +19,7 @@ def hostile():
 @pytest.fixture(scope="session")
 def result():
     loads = HubLoads.bundled("14B").window(0.0, 20.0)
-    return simulate(Case(loads=loads, rollers=[0, 7, 14, 21], traces=Traces(step=0.05)))
+    return simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0, 7, 14, 21], traces=Traces(step=0.05)))
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ matplotlib.use("agg")
 @pytest.fixture(scope="module")
 def result():
     loads = BearingLoads.constant([0.0, -343.5e3, 100e3], 2.143, 14.0)
-    return simulate(Case(loads=loads, rollers=[0, 7, 14, 21], traces=Traces(step=0.02)))
+    return simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0, 7, 14, 21], traces=Traces(step=0.02)))
 
 
 @pytest.fixture(autouse=True)
@@ -43,12 +43,13 @@ def test_energy_bars_are_the_means_over_the_rollers(result):
     assert heights == pytest.approx(result.energy.mean("roller").values.ravel(), rel=1e-12)
 
 
-@pytest.mark.parametrize("name", ["energy", "peaks", "rollers", "spin", "load_zone", "orbit"])
+@pytest.mark.parametrize("name", ["energy", "peaks", "rollers", "spin", "load_zone", "orbit", "bearing"])
 def test_every_picture_is_drawn_on_new_axes_or_on_those_given(result, name):
     from matplotlib.figure import Figure
 
     draw = getattr(result.macroslip.plot, name)
-    assert draw().figure.axes
+    figure = draw().figure
+    assert figure.axes and figure.get_suptitle() == f"model paper, {result.attrs['oil']}"
     projection = {"projection": "polar"} if name == "orbit" else {}
     axes = Figure().add_subplot(**projection)
     assert draw(axes=axes) is axes
@@ -81,7 +82,7 @@ def test_without_microslip_there_are_no_maps(result):
 
 def test_pictures_that_need_traces_say_so(result):
     bare = result.drop_dims("time")
-    for name in ("spin", "load_zone", "orbit"):
+    for name in ("spin", "load_zone", "orbit", "bearing"):
         with pytest.raises(InputError, match=r"has no traces.*step: 0.05 s"):
             getattr(bare.macroslip.plot, name)()
 

@@ -9,11 +9,11 @@ from matplotlib.figure import Figure
 
 from macroslip import BearingLoads, Case, Laws, Traces, simulate
 from macroslip.bearing import Bearing
+from macroslip.report.bearing_figures import plot_force_by_position, plot_residuals
 from macroslip.report.bearing_view import scene_data
+from macroslip.report.result_numbers import counterpart, is_whole
 from macroslip.report.results_page import results_page
-from macroslip.report.whole_figures import plot_force_by_position, plot_residuals
-from macroslip.report.whole_section import counterpart, is_whole, whole_blocks
-from macroslip.result.orbit_scene import scene
+from macroslip.result.orbit import scene
 
 pytestmark = pytest.mark.slow
 
@@ -34,14 +34,14 @@ def page(results):
     return results_page(results)
 
 
-def test_only_a_coupled_result_has_the_section(results):
+def test_only_a_coupled_result_has_the_section(results, page):
     assert is_whole(results["coupled"])
     assert not is_whole(results["imposed"])
-    assert whole_blocks(results["imposed"], results) == ()
+    assert 'id="whole-1"' in page and 'id="whole"' not in page
 
 
 def test_it_finds_the_same_case_on_imposed_orbits(case, results):
-    assert counterpart(results["coupled"], results)[0] == "imposed"
+    assert counterpart(results["coupled"], results) == "imposed"
     other = simulate(replace(case, drag=False))
     assert counterpart(results["coupled"], {"other": other}) is None
 

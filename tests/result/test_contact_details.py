@@ -6,10 +6,10 @@ import pytest
 import xarray as xr
 
 from macroslip import BackwardEuler, Case, HubLoads, InputError, Laws, Traces, simulate
-from macroslip.result import thermal_balance
+from macroslip.result import heat_balance
 from macroslip.result.surface_maps import energy_density
 from macroslip.result.variables import CONTACT_DETAILS
-from macroslip.study.build import template
+from macroslip.study.settings import template
 
 LOADS = HubLoads.bundled("14B").window(30.0, 42.0)
 CASE = Case(loads=LOADS, laws=Laws.physical(), rollers=[7], traces=Traces(step=0.5))
@@ -45,10 +45,10 @@ def test_simulations_that_look_for_a_temperature_leave_them_out(monkeypatch):
         seen.append(set(result.data_vars))
         return 600.0
 
-    monkeypatch.setattr(thermal_balance, "bearing_friction_power", power)
+    monkeypatch.setattr(heat_balance, "bearing_friction_power", power)
     heat = {"temperature": "balance", "heat": {"conductance": "60 W/K", "ambient": "15 degC"}}
     case, _ = template({"laws": {"model": "physical"}, "rollers": [7], **heat}, [], {})
-    found = thermal_balance.case_at_balance(replace(case, loads=LOADS.window(30.0, 31.0)), simulate)
+    found = heat_balance.case_at_balance(replace(case, loads=LOADS.window(30.0, 31.0)), simulate)
     assert found.contact_details and seen
     assert all(names.isdisjoint(CONTACT_DETAILS) and "mechanism_energy" in names for names in seen)
 

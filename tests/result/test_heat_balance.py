@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 from scipy.special import lambertw
 
+from macroslip import Heat
 from macroslip.errors import InputError
-from macroslip.result.heat_balance import HOTTEST, balance_temperature, tabulated_power
+from macroslip.result.heat_balance import HOTTEST, balance_temperature, ring_temperatures, tabulated_power
 
 
 @given(st.floats(0.0, 3000.0), st.floats(40.0, 80.0), st.floats(250.0, 310.0))
@@ -80,3 +82,44 @@ def test_a_table_is_met_at_its_points_and_stays_between_them():
 def test_a_table_that_is_none(temperatures, powers):
     with pytest.raises(InputError):
         tabulated_power(temperatures, powers)
+
+
+RINGS = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=2500.0, ring_conductance=100.0)
+
+
+def test_rings_warm_as_their_equations_say():
+    time = np.array([600.0, 7200.0, 36000.0])
+    found = ring_temperatures(RINGS, 1200.0, time, (300.0, 290.0))
+
+    def rise(_, now):
+        flow = 100.0 * (now[0] - now[1])
+        return [(600.0 - flow) / (4000.0 * 460.0), (600.0 + flow - 60.0 * (now[1] - 293.15)) / (2500.0 * 460.0)]
+
+    known = solve_ivp(rise, (0.0, 36000.0), [300.0, 290.0], t_eval=time, rtol=1e-10, atol=1e-9).y.T
+    assert found == pytest.approx(known, abs=1e-5)
+
+
+def test_rings_in_the_steady_state_lose_what_they_get():
+    inner, outer = ring_temperatures(RINGS, 1200.0, [math.inf], (293.15, 293.15))[0]
+    assert 100.0 * (inner - outer) == pytest.approx(600.0, rel=1e-12)
+    assert 60.0 * (outer - 293.15) == pytest.approx(1200.0, rel=1e-12)
+    # The oil has their mean, at which the conductance to the oil carries off the same power.
+    assert RINGS.to_oil * (0.5 * (inner + outer) - 293.15) == pytest.approx(1200.0, rel=1e-12)
+
+
+def test_one_node_is_the_limit_of_rings_that_conduct_well():
+    one = Heat(conductance=60.0, ambient=293.15)
+    assert one.to_oil == 60.0
+    close = Heat(conductance=60.0, ambient=293.15, inner_mass=1.0, outer_mass=1.0, ring_conductance=1e9)
+    assert close.to_oil == pytest.approx(60.0, rel=1e-7)
+    # Cooling, the masses lose their heat at one rate: exp(−G t/((m_i + m_o) c)).
+    both = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=2500.0, ring_conductance=1e6)
+    cooled = ring_temperatures(both, 0.0, [36000.0], (313.15, 313.15))[0]
+    assert cooled - 293.15 == pytest.approx(20.0 * math.exp(-60.0 * 36000.0 / (6500.0 * 460.0)), rel=1e-4)
+
+
+def test_part_of_the_rings_is_refused():
+    with pytest.raises(InputError, match="need inner_mass, outer_mass and ring_conductance. Allowed: all three"):
+        Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0)
+    with pytest.raises(InputError, match="the masses of the rings are not given"):
+        ring_temperatures(Heat(conductance=60.0, ambient=293.15), 1.0, [0.0], (1.0, 1.0))

@@ -47,7 +47,7 @@ def test_densities_times_areas_are_the_energies(turbulent):
     np.testing.assert_allclose(
         total, turbulent.energy.sel(interface=["inner", "outer"]).sum("roller").values, rtol=1e-9
     )
-    bearing = Case(loads=HubLoads.bundled("14B")).bearing
+    bearing = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing
     along = roller_energy_density(turbulent, bearing)
     area = math.pi * bearing.roller_diameter * bearing.roller_length / turbulent.sizes["station"]
     found = (along * area * turbulent.sizes["roller"]).sum(("station", *SPLIT))
@@ -57,7 +57,7 @@ def test_densities_times_areas_are_the_energies(turbulent):
 
 def test_areas_add_up_to_the_raceway_between_its_edges(turbulent):
     """Each raceway is nearly a zone of a cone; its lateral area is 2π times mean radius times slant length."""
-    bearing = Case(loads=HubLoads.bundled("14B")).bearing
+    bearing = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing
     total = (turbulent.cell_area.sum("station") * turbulent.sizes["angle"]).values
     cosine = math.cos(bearing.contact_angle)
     radii = np.array([bearing.pitch_radius + sign * 0.5 * bearing.roller_diameter * cosine for sign in (-1, 1)])
@@ -76,7 +76,7 @@ def test_the_power_over_the_angle_is_that_of_the_traces(weight):
     """Energy by sector from the trapezoid rule over finely sampled traces, placed by the known motion."""
     one = weight.isel(row=0, roller=0)
     time = one.time.values
-    bearing = Case(loads=HubLoads.bundled("14B")).bearing
+    bearing = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing
     inner = bearing.pitch_radius - 0.5 * bearing.roller_diameter * math.cos(bearing.contact_angle)
     ratio = inner / (2.0 * bearing.pitch_radius)
     sectors = weight.sizes["angle"]
@@ -108,7 +108,7 @@ def test_the_sign_of_slip_follows_the_contour(weight):
 def test_film_regimes_follow_the_films(weight):
     """No film below the roughness in the traces, no energy below; and the other way round."""
     film = weight.film_thickness.sel(interface=["inner", "outer"])
-    ratio = film / Case(loads=HubLoads.bundled("14B")).bearing.composite_roughness
+    ratio = film / Case(loads=HubLoads.bundled("14B"), laws=Laws.paper()).bearing.composite_roughness
     energy = weight.surface_energy.sum(("row", "raceway", "angle", "station", "slip_sign"))
     assert float(ratio.min()) > 1.0
     assert float(energy.sel(film_regime="below 1")) == 0.0
@@ -143,6 +143,6 @@ def test_fixed_steps_fill_the_maps_too():
 
 
 def test_results_without_microslip_have_no_maps():
-    result = simulate(Case(loads=BearingLoads.constant([0.0, -4e5, 0.0], 0.0, 1.0), rollers=[0]))
+    result = simulate(Case(loads=BearingLoads.constant([0.0, -4e5, 0.0], 0.0, 1.0), laws=Laws.paper(), rollers=[0]))
     with pytest.raises(InputError, match="no maps of the raceways.*model: physical"):
         energy_density(result)

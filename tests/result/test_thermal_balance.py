@@ -5,8 +5,8 @@ import pytest
 
 from macroslip import BearingLoads, Case, Heat, Laws, Lubricant, Traces, read_case, simulate
 from macroslip.errors import InputError
+from macroslip.result.heat_balance import bearing_friction_power
 from macroslip.result.run_input import run_input
-from macroslip.result.thermal_balance import bearing_friction_power
 
 pytestmark = pytest.mark.slow
 
@@ -24,8 +24,8 @@ def by_temperature():
 
 def test_the_lubricants_own_temperature_changes_no_digit():
     own = Lubricant.read("vg460-pao").inlet_temperature
-    plain = simulate(Case(loads=LOADS, rollers=[0]))
-    stated = simulate(Case(loads=LOADS, rollers=[0], temperature=own))
+    plain = simulate(Case(loads=LOADS, laws=Laws.paper(), rollers=[0]))
+    stated = simulate(Case(loads=LOADS, laws=Laws.paper(), rollers=[0], temperature=own))
     for name in ("energy", "rolling_energy", "end_slip", "min_spin_ratio"):
         np.testing.assert_array_equal(plain[name], stated[name])
     assert float(stated.inlet_temperature) == own
@@ -52,8 +52,8 @@ def test_the_oil_given_is_the_oil_at_that_temperature(by_temperature):
     np.testing.assert_array_equal(direct.energy, by_temperature[50.0].energy)
     # What a result tells of its own input has that oil too.
     np.testing.assert_array_equal(
-        run_input(direct).models["upwind"].films.inner.viscosity,
-        run_input(by_temperature[50.0]).models["upwind"].films.inner.viscosity,
+        run_input(direct).models["upwind"].laws.inner.rolling.viscosity,
+        run_input(by_temperature[50.0]).models["upwind"].laws.inner.rolling.viscosity,
     )
 
 
@@ -70,19 +70,25 @@ def test_at_the_balance_friction_heats_as_much_as_is_lost():
 @pytest.mark.parametrize(("text", "expected"), [("50 degC", 323.15), ("323 K", 323.0), ("balance", "balance")])
 def test_keys_of_a_case_file(tmp_path, text, expected):
     path = tmp_path / "case.yaml"
-    path.write_text(
-        f"loads: {{bundled: 14B, end: 20 s}}\ntemperature: {text}\nheat: {{conductance: 60 W/K, ambient: 20 degC}}\n"
+    loads, heat = (
+        f"loads: {{bundled: 14B, end: 20 s}}\ntemperature: {text}\n",
+        "heat: {conductance: 60 W/K, ambient: 20 degC}\n",
     )
+    path.write_text(loads + heat)
+    if expected != "balance":
+        with pytest.raises(InputError, match="line 3, heat: only a balance of heat uses it"):
+            read_case(path)
+        path.write_text(loads)
     found = read_case(path)
     assert found.temperature == pytest.approx(expected) if expected != "balance" else found.temperature == expected
-    assert found.heat == Heat(conductance=60.0, ambient=293.15)
+    assert found.heat == (Heat(conductance=60.0, ambient=293.15) if expected == "balance" else None)
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"temperature": "warm"}, "temperature"),
-        ({"temperature": 35.0}, "20 to 150 degC"),
+        ({"temperature": 35.0}, "253.15 to 423.15 K"),
         ({"temperature": "balance"}, "conductance"),
         ({"temperature": True}, "temperature"),
     ],
@@ -95,3 +101,13 @@ def test_what_is_no_temperature_is_refused(changes, message):
 def test_an_oil_whose_temperature_is_not_found_yet_is_refused():
     with pytest.raises(InputError, match="only a simulation finds"):
         _ = case(temperature="balance", heat=Heat(conductance=60.0, ambient=288.15)).oil
+
+
+def test_rings_of_their_own_temperature_share_the_balance():
+    heat = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=3000.0, ring_conductance=100.0)
+    result = simulate(case(temperature="balance", heat=heat))
+    inner, outer = result.attrs["inner_ring_temperature"], result.attrs["outer_ring_temperature"]
+    assert 293.15 < outer < inner
+    assert 0.5 * (inner + outer) == pytest.approx(float(result.inlet_temperature), abs=1e-6)
+    assert 60.0 * (outer - 293.15) == pytest.approx(bearing_friction_power(result), rel=0.03)
+    assert result.attrs["clearance_loss"] == pytest.approx(11.9e-6 * 0.7454 * (inner - outer), rel=1e-6)

@@ -37,13 +37,6 @@ def test_instant_is_linear_with_exact_angle(motion, time):
     assert now[2:] == pytest.approx([np.interp(time, TIME, part) for part in DISPLACEMENT.T], abs=1e-13)
 
 
-def test_motion_is_continuous_at_samples(motion):
-    for k in range(1, TIME.size - 1):
-        before, after = instant(motion, k - 1, TIME[k]), instant(motion, k, TIME[k])
-        assert before == pytest.approx(after, abs=1e-13)
-        assert after == pytest.approx((SPEED[k], motion.shaft_angle[k], *DISPLACEMENT[k]), abs=1e-15)
-
-
 @given(st.floats(-1.0, 2.1), st.integers(0, 3))
 @settings(deadline=None, max_examples=60)
 def test_interval_is_found_from_any_start(time, start):

@@ -1,4 +1,6 @@
-"""Forces on a roller by hand and against the same model written in high precision."""
+"""Forces on a roller: by hand, in high precision, in balance with rings and cage, and mirrored."""
+
+from __future__ import annotations
 
 import math
 
@@ -7,201 +9,165 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
+from macroslip import Laws
+from macroslip.bearing import geometry
+from macroslip.contact.interface import interfaces
+from macroslip.contact.rolling import light_contact
 from macroslip.ring.orbit import Instant
-from macroslip.roller.contact_force import LOWEST_ENTRAINMENT_SPEED, contact_force
-from macroslip.roller.forces import Station, interference, slip_forces, station
-from macroslip.roller.model import interfaces, roller_model
+from macroslip.roller.forces import carried
+from tests.one_roller import (
+    BEARING,
+    OIL,
+    RATED,
+    RING_SPEED,
+    TILT,
+    a_station,
+    forces_of,
+    models,
+    net,
+    powers_of,
+    rollers,
+    station_of,
+)
 
-RATED = 20.463 * 2 * math.pi / 60
-ALPHA, TILT = math.radians(11.2), math.radians(5.0)
-MASS = 7850.0 * math.pi * 0.035**2 * 0.106
+ALPHA, RADIUS, PITCH_RADIUS = math.radians(11.2), 0.035, 0.3727
+MASS = 7850.0 * math.pi * RADIUS**2 * 0.106
 WEIGHT = MASS * 9.81
-PITCH_RADIUS, RADIUS = 0.3727, 0.035
 INNER_RADIUS, OUTER_RADIUS = (PITCH_RADIUS + sign * RADIUS * math.cos(ALPHA) for sign in (-1, 1))
 ORBITAL = RATED * INNER_RADIUS / (INNER_RADIUS + OUTER_RADIUS)
+SIGNS = {"downwind": 1, "upwind": -1}
+ODD = ("inner", "outer", "cage", "cage_load", "resistance", "lag", "skew")
 
-RIGHT, TOP, LEFT, BOTTOM = 0.0, math.pi / 2, math.pi, -math.pi / 2
-clock = pytest.mark.parametrize("angle", [RIGHT, TOP, LEFT, BOTTOM], ids=["right", "top", "left", "bottom"])
-rows = pytest.mark.parametrize("sign", [1, -1], ids=["downwind", "upwind"])
+clock = pytest.mark.parametrize(
+    "angle", [0.0, math.pi / 2, math.pi, -math.pi / 2], ids=["right", "top", "left", "bottom"]
+)
+rows = pytest.mark.parametrize("row", SIGNS)
 
 
-def at_rest(speed=0.0, displacement=(0.0, 0.0, 0.0), shaft_angle=0.0):
-    return Instant(speed, shaft_angle, *displacement)
+@pytest.fixture(scope="module")
+def paper():
+    return rollers(models(Laws.paper()))
+
+
+@pytest.fixture(scope="module")
+def physical():
+    return rollers(models(Laws.physical()))
+
+
+@pytest.fixture(scope="module")
+def dry():
+    """All mechanisms but rolling resistance: no oil beside the contacts."""
+    return rollers(models(Laws.physical().but(rolling="none")))
+
+
+def now(speed=0.0, displacement=(0.0, 0.0, 0.0), shaft_angle=0.0):
+    return Instant(speed, shaft_angle, *map(float, displacement))
+
+
+# --- Stations --------------------------------------------------------------------------------------------------------
 
 
 @clock
 @rows
-def test_weight_by_hand(models, angle, sign):
-    found = station(models[sign], angle, at_rest())
+def test_weight_by_hand(paper, angle, row):
+    found = station_of(paper[row], angle, now())
     # Weight vector in the bearing frame: the shaft falls towards downwind, so part of it points along +Z0.
     weight = WEIGHT * np.array([0.0, -math.cos(TILT), math.sin(TILT)])
-    y = np.array([math.cos(angle) * math.cos(ALPHA), math.sin(angle) * math.cos(ALPHA), sign * math.sin(ALPHA)])
-    x = np.array([math.sin(angle), -math.cos(angle), 0.0])
-    assert found.tangential == pytest.approx(weight @ x, abs=1e-12)
-    outward = weight @ y
-    assert found.outer_load == pytest.approx(max(outward, 0.0), abs=1e-12)
-    assert found.inner_load == pytest.approx(max(-outward, 0.0), abs=1e-12)
-
-
-def test_where_weight_rests(models):
-    # At the top a roller lies on the inner raceway, at the bottom on the outer one.
-    top, bottom = (station(models[1], angle, at_rest()) for angle in (TOP, BOTTOM))
-    assert top.inner_load > 0.0 == top.outer_load
-    assert bottom.outer_load > 0.0 == bottom.inner_load
-    # Moving counter-clockwise it climbs at the right: weight pulls it back, along +x, there.
-    right, left = (station(models[1], angle, at_rest()) for angle in (RIGHT, LEFT))
-    assert right.tangential == pytest.approx(WEIGHT * math.cos(TILT), rel=1e-12, abs=0.0)
-    assert left.tangential == pytest.approx(-WEIGHT * math.cos(TILT), rel=1e-12, abs=0.0)
-    # The axial part of weight presses downwind rollers outward, upwind rollers inward, all round.
-    axial = WEIGHT * math.sin(TILT) * math.sin(ALPHA)
-    assert right.outer_load == pytest.approx(axial, rel=1e-12, abs=0.0)
-    assert station(models[-1], RIGHT, at_rest()).inner_load == pytest.approx(axial, rel=1e-12, abs=0.0)
+    y = [math.cos(angle) * math.cos(ALPHA), math.sin(angle) * math.cos(ALPHA), SIGNS[row] * math.sin(ALPHA)]
+    outward = float(weight @ np.array(y))
+    assert found["tangential"] == pytest.approx(weight @ [math.sin(angle), -math.cos(angle), 0.0], abs=1e-12)
+    assert found["outer_load"] == pytest.approx(max(outward, 0.0), abs=1e-12)
+    assert found["inner_load"] == pytest.approx(max(-outward, 0.0), abs=1e-12)
 
 
 @clock
-@rows
-@pytest.mark.parametrize("speed", [RATED, -RATED, 30.0])
-def test_centrifugal_force_and_drag_by_hand(bearing, lubricant, angle, sign, speed):
-    model = roller_model(bearing, lubricant, sign, tilt=0.0, gravity=False)
-    found = station(model, angle, at_rest(speed))
+@pytest.mark.parametrize("speed", [RATED, -RATED])
+def test_centrifugal_force_and_drag_by_hand(angle, speed):
+    made = models(Laws.paper(), tilt=0.0, gravity=False)
+    found = station_of(rollers(made)["downwind"], angle, now(speed))
     orbital = speed * ORBITAL / RATED
-    assert found.outer_load == pytest.approx(MASS * PITCH_RADIUS * orbital**2 * math.cos(ALPHA), rel=1e-12, abs=0.0)
-    assert found.inner_load == 0.0
+    assert found["outer_load"] == pytest.approx(MASS * PITCH_RADIUS * orbital**2 * math.cos(ALPHA), rel=1e-12)
+    assert found["inner_load"] == 0.0
     drag = 0.5 * 1.0 * (0.7 * 900.0) * (2 * RADIUS * 0.106) * (orbital * PITCH_RADIUS) ** 2
     # Against the motion: a roller moves along −x for a positive shaft speed.
-    assert found.tangential == pytest.approx(math.copysign(drag, speed), rel=1e-12, abs=0.0)
-    still = station(model._replace(drag=0.0), angle, at_rest(speed))
-    assert still.tangential == 0.0
-
-
-def test_weight_and_drag_can_be_switched_off(bearing, lubricant):
-    model = roller_model(bearing, lubricant, 1, tilt=TILT, gravity=False, drag=False)
-    assert (model.weight_in_plane, model.weight_along_axis, model.drag) == (0.0, 0.0, 0.0)
-    assert model.centrifugal == pytest.approx(MASS * PITCH_RADIUS, rel=1e-12, abs=0.0)
-
-
-def test_spin_inertia_is_a_cylinders(models):
-    # r²/I = 2/m.
-    assert models[1].mobility == pytest.approx(2.0 / MASS, rel=1e-12, abs=0.0)
+    assert found["tangential"] == pytest.approx(math.copysign(drag, speed), rel=1e-12)
+    assert models(Laws.paper(), drag=False)["downwind"].drag == 0.0
+    # r²/I = 2/m of a cylinder.
+    assert made["downwind"].mobility == pytest.approx(2.0 / MASS, rel=1e-12)
 
 
 @clock
 @rows
-def test_elastic_load_by_hand(models, angle, sign):
+def test_elastic_load_by_hand(paper, angle, row):
     d = np.array([1.5e-4, -2.5e-4, 3e-4])
-    found = station(models[sign], angle, at_rest(RATED, d))
-    n = np.array([math.cos(angle) * math.cos(ALPHA), math.sin(angle) * math.cos(ALPHA), sign * math.sin(ALPHA)])
-    approach = n @ d - 1e-4 * math.cos(ALPHA)
-    load = models[sign].stiffness * max(approach, 0.0) ** 1.5
-    assert found.interference == pytest.approx(approach, abs=1e-18)
-    assert found.elastic_load == pytest.approx(load, rel=1e-12, abs=0.0)
-    bare = station(models[sign], angle, at_rest(RATED))
+    found = station_of(paper[row], angle, now(RATED, d))
+    n = [math.cos(angle) * math.cos(ALPHA), math.sin(angle) * math.cos(ALPHA), SIGNS[row] * math.sin(ALPHA)]
+    approach = float(np.array(n) @ d) - 1e-4 * math.cos(ALPHA)
+    load = paper[row].body[0]["stiffness"] * max(approach, 0.0) ** 1.5
+    assert found["interference"] == pytest.approx(approach, abs=1e-18)
+    assert found["elastic_load"] == pytest.approx(load, rel=1e-12)
     # Body forces add to what the rings press, at the side they point to.
-    assert found.inner_load - load == pytest.approx(bare.inner_load, abs=1e-9)
-    assert found.outer_load - load == pytest.approx(bare.outer_load, abs=1e-9)
-    assert interference(models[sign], math.cos(angle), math.sin(angle), at_rest(0.0, d)) == found.interference
+    bare = station_of(paper[row], angle, now(RATED))
+    for side in ("inner_load", "outer_load"):
+        assert found[side] - load == pytest.approx(bare[side], abs=1e-9)
 
 
-def test_rings_pass_the_roller_with_the_speeds_of_pure_rolling(models):
-    found = station(models[1], 0.3, at_rest(RATED))
-    assert found.ring_speed == pytest.approx(-(RATED - ORBITAL) * INNER_RADIUS, rel=1e-12, abs=0.0)
-    assert found.ring_speed == pytest.approx((0.0 - ORBITAL) * OUTER_RADIUS, rel=1e-12, abs=0.0)
+def test_rings_pass_with_the_speeds_of_pure_rolling_and_the_roller_moves_on(paper):
+    found = station_of(paper["downwind"], 0.3, now(RATED))
+    assert found["ring_speed"] == pytest.approx(-(RATED - ORBITAL) * INNER_RADIUS, rel=1e-12)
+    assert found["ring_speed"] == pytest.approx(-ORBITAL * OUTER_RADIUS, rel=1e-12)
+    here = station_of(paper["downwind"], 0.4 + ORBITAL / RATED * 2.5, now(RATED, (1e-4, 2e-4, 3e-4)))
+    there = station_of(paper["downwind"], 0.4, now(RATED, (1e-4, 2e-4, 3e-4), shaft_angle=2.5))
+    assert there.tolist() == pytest.approx(here.tolist(), rel=1e-12)
 
 
-def test_roller_has_moved_on_by_its_part_of_the_shaft_angle(models):
-    here = station(models[1], 0.4 + ORBITAL / RATED * 2.5, at_rest(RATED, (1e-4, 2e-4, 3e-4)))
-    there = station(models[1], 0.4, at_rest(RATED, (1e-4, 2e-4, 3e-4), shaft_angle=2.5))
-    assert there == pytest.approx(here, rel=1e-12, abs=0.0)
+# --- Mirrors ---------------------------------------------------------------------------------------------------------
+
+lengths = st.floats(-3e-4, 3e-4)
 
 
-turns = st.floats(-10.0, 10.0)
-lengths = st.floats(-4e-4, 4e-4)
+@pytest.mark.parametrize("kind", ["paper", "physical"])
+@given(st.floats(-10.0, 10.0), lengths, lengths, lengths, st.floats(-0.3, 0.3).map(lambda x: round(x, 9)))
+@settings(max_examples=40)
+def test_a_shaft_that_turns_back_is_the_mirror_image(request, kind, angle, dx, dy, dz, slip):
+    """Mirror at the vertical plane: φ → π − φ, dX → −dX, all speeds and tangential forces change sign."""
+    roller = request.getfixturevalue(kind)["downwind"]
+    here = station_of(roller, angle, now(RATED, (dx, dy, dz)))
+    there = station_of(roller, math.pi - angle, now(-RATED, (-dx, dy, dz)))
+    for name, sign in (("ring_speed", -1), ("tangential", -1), ("inner_load", 1), ("outer_load", 1)):
+        assert there[name] == pytest.approx(sign * here[name], rel=1e-9, abs=1e-6)
+    there["ring_speed"], there["tangential"] = -here["ring_speed"], -here["tangential"]
+    for name in ("interference", "elastic_load", "inner_load", "outer_load"):
+        there[name] = here[name]
+    ahead, back = forces_of(roller, here, slip), forces_of(roller, there, -slip)
+    for name in ahead.dtype.names:
+        sign = -1 if name in ODD else 1
+        np.testing.assert_allclose(back[name], sign * ahead[name], rtol=1e-12, err_msg=name)
+    np.testing.assert_allclose(powers_of(roller, there, back, -slip), powers_of(roller, here, ahead, slip), rtol=1e-12)
 
 
-@given(turns, turns, lengths, lengths, lengths)
-@settings(deadline=None, max_examples=60)
-def test_without_weight_no_direction_is_special(models, angle, turn, dx, dy, dz):
-    model = models[1]._replace(weight_in_plane=0.0, weight_along_axis=0.0)
-    turned = (dx * math.cos(turn) - dy * math.sin(turn), dx * math.sin(turn) + dy * math.cos(turn), dz)
-    here = station(model, angle, at_rest(RATED, (dx, dy, dz)))
-    there = station(model, angle + turn, at_rest(RATED, turned))
-    assert there.interference == pytest.approx(here.interference, abs=1e-17)
-    assert there == pytest.approx(here, rel=1e-9, abs=1e-6)
+@pytest.mark.parametrize("slip", [-0.2, 1e-3, 0.05])
+def test_rows_are_mirror_images(physical, slip):
+    """But for the side to which the roller's axis tilts, which turns the sign of its skew moment."""
+    at = a_station(3e4, 10.0)
+    one, other = (forces_of(physical[row], at, slip) for row in SIGNS)
+    np.testing.assert_array_equal(other["skew"], -one["skew"])
+    assert (one["skew"] != 0.0).all()
+    for name in set(one.dtype.names) - {"skew"}:
+        np.testing.assert_array_equal(other[name], one[name], err_msg=name)
+    here, there = (powers_of(physical[row], at, forces_of(physical[row], at, slip), slip) for row in SIGNS)
+    np.testing.assert_allclose(there, here, rtol=1e-12)
 
 
-@given(turns, lengths, lengths, lengths, st.floats(-1.0, 1.0))
-@settings(deadline=None, max_examples=60)
-def test_mirror_image_turns_the_other_way(models, angle, dx, dy, dz, slip):
-    # Mirror at the vertical plane: φ → π − φ, dX → −dX, all speeds and tangential forces change sign.
-    here = station(models[1], angle, at_rest(RATED, (dx, dy, dz)))
-    there = station(models[1], math.pi - angle, at_rest(-RATED, (-dx, dy, dz)))
-    assert (there.ring_speed, there.tangential) == pytest.approx((-here.ring_speed, -here.tangential), abs=1e-9)
-    assert there.interference == pytest.approx(here.interference, abs=1e-17)
-    assert there[2:5] == pytest.approx(here[2:5], rel=1e-9, abs=1e-6)
-    mirrored = here._replace(ring_speed=-here.ring_speed, tangential=-here.tangential)
-    ahead, behind = slip_forces(models[1], here, slip), slip_forces(models[1], mirrored, -slip)
-    odd = {name: -getattr(ahead, name) for name in ("inner", "outer", "cage", "cage_load")}
-    assert behind == ahead._replace(**odd)
-
-
-def a_station(load, extra_outer=12.0, tangential=-25.0, ring_speed=-0.39594):
-    return Station(ring_speed, 1e-5, load, load, load + extra_outer, tangential)
-
-
-@pytest.mark.parametrize("load", [0.0, 100.0, 2e4])
-def test_pure_rolling_has_no_raceway_traction_and_a_braking_cage(models, load):
-    at = a_station(load)
-    found = slip_forces(models[1], at, 0.0)
-    assert (found.inner, found.outer) == (0.0, 0.0)
-    assert found.cage_load == at.tangential
-    # The surface moves along −x, the pocket is at rest: friction drives ω up, that is towards zero.
-    assert found.cage > 0.0
-    assert slip_forces(models[1], at._replace(ring_speed=0.39594), 0.0).cage == -found.cage
-
-
-@pytest.mark.parametrize("slip", [-0.3, -1e-4, 1e-9, 0.2])
-def test_cage_normal_force_balances_everything_tangential(models, slip):
-    at = a_station(3e2)
-    found = slip_forces(models[1], at, slip)
-    assert found.cage_load == pytest.approx(at.tangential + found.inner - found.outer, rel=1e-14, abs=0.0)
-    # The slower body is driven: raceway traction has the sign of the slip.
-    assert math.copysign(1.0, found.inner) == math.copysign(1.0, found.outer) == math.copysign(1.0, slip)
-
-
-def test_standstill_is_at_rest(models):
-    at = station(models[1], 0.7, at_rest(0.0, (0.0, 0.0, 8e-4)))
-    assert at.elastic_load > 0.0 and at.ring_speed == 0.0
-    found = slip_forces(models[1], at, 0.0)
-    assert (found.inner, found.outer, found.cage) == (0.0, 0.0, 0.0)
-    assert math.isfinite(found.slope) and found.slope > 0.0
-    assert found.cage_load == pytest.approx(WEIGHT * math.cos(TILT) * math.cos(0.7), rel=1e-12, abs=0.0)
-
-
-def test_contact_without_load_has_no_traction(models):
-    for load in (0.0, -5.0):
-        assert contact_force(models[1].inner, load, 0.3, 0.4, -0.5) == (0.0, 0.0, 0.0)
-    untouched = Station(-0.4, -1e-4, 0.0, 0.0, 0.0, 0.0)
-    found = slip_forces(models[1], untouched, 0.1)
-    # Contacts of the paper's model give nothing beside their forces.
-    details = {"inner_detail": None, "outer_detail": None, "cage_detail": None}
-    nothing = details | {"rolling_power": (0.0, 0.0, 0.0)}
-    assert found._asdict() == dict.fromkeys(found._fields, 0.0) | nothing
-
-
-def test_entrainment_speed_has_a_floor(models):
-    contact = models[1].inner
-    floor = contact_force(contact, 1e3, 1e-4, LOWEST_ENTRAINMENT_SPEED, 0.0)
-    assert contact_force(contact, 1e3, 1e-4, 0.0, -0.5) == floor
-    assert contact_force(contact, 1e3, 1e-4, 0.99e-6, 0.5) == floor
-    assert contact_force(contact, 1e3, 1e-4, 2e-6, 0.0)[0] != floor[0]
+# --- Forces ----------------------------------------------------------------------------------------------------------
 
 
 class Reference:
-    """The forces of one roller in mpmath, from the interfaces' data alone."""
+    """The forces of one roller of the paper's model in mpmath, from the interfaces' data alone."""
 
-    def __init__(self, bearing, lubricant):
-        self.faces = interfaces(bearing, lubricant)
+    faces = interfaces(BEARING, OIL)
 
     @staticmethod
     def film(face, load, speed):
@@ -232,49 +198,197 @@ class Reference:
         return area * oil.viscosity * slip / self.film(face, load, speed) * patch
 
     def __call__(self, at, slip):
-        """(F_i, F_o, F_c) at contact speeds u1 = u2 − v, Δu_cage = −u1, u_e = |u1 + u2|/2."""
-        slip, ring = mpmath.mpf(slip), mpmath.mpf(at.ring_speed)
+        """F_i, F_o and F_c at contact speeds u1 = u2 − v, Δu_cage = −u1, u_e = |u1 + u2|/2."""
+        slip, ring = mpmath.mpf(slip), mpmath.mpf(float(at["ring_speed"]))
         surface = ring - slip
-        inner = self.traction(self.faces[0], mpmath.mpf(at.inner_load), slip, abs(ring + surface) / 2)
-        outer = self.traction(self.faces[1], mpmath.mpf(at.outer_load), slip, abs(ring + surface) / 2)
-        push = abs(mpmath.mpf(at.tangential) + inner - outer)
+        inner, outer = (
+            self.traction(face, mpmath.mpf(float(at[f"{face.name}_load"])), slip, abs(ring + surface) / 2)
+            for face in self.faces[:2]
+        )
+        push = abs(mpmath.mpf(float(at["tangential"])) + inner - outer)
         return inner, outer, self.traction(self.faces[2], push, -surface, abs(surface) / 2)
 
 
 # Unloaded, lightly loaded and gripped rollers, cage force of either sign, surface turning backwards.
 PLACES = [
-    (a_station(0.0), -0.3), (a_station(0.0, tangential=30.0), -0.05), (a_station(5.0), -1e-3), (a_station(800.0), -0.2),
-    (a_station(800.0), 0.15), (a_station(3e4), -1e-8), (a_station(3e4, tangential=31.0), 2e-3), (a_station(1e5), 1e-13),
-    (a_station(1e5), -0.01), (a_station(50.0), -0.9), (a_station(50.0, ring_speed=0.39594), 0.9),
-    (a_station(0.0, ring_speed=0.2), 0.1), (a_station(200.0, ring_speed=0.0), 0.02),
+    (a_station(0.0, 12.0), -0.3), (a_station(0.0, 12.0, 30.0), -0.05), (a_station(5.0, 12.0), -1e-3),
+    (a_station(800.0), -0.2), (a_station(800.0), 0.15), (a_station(3e4), -1e-8), (a_station(3e4, 0.0, 31.0), 2e-3),
+    (a_station(1e5), 1e-13), (a_station(1e5), -0.01), (a_station(50.0, 12.0), -0.9),
+    (a_station(50.0, 12.0, ring_speed=0.39594), 0.9), (a_station(0.0, 12.0, ring_speed=0.2), 0.1),
+    (a_station(200.0, ring_speed=0.0), 0.02),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("at", "slip"), PLACES)
-def test_forces_and_total_slope_in_high_precision(bearing, lubricant, models, at, slip):
-    reference = Reference(bearing, lubricant)
-    found = slip_forces(models[1], at, slip)
-    with mpmath.workdps(40):
+def test_the_papers_forces_and_their_slope_in_high_precision(paper, at, slip):
+    """Total derivative, with film and cage load following the slip; films are those of a table over loads and speeds."""
+    reference, found = Reference(), forces_of(paper["downwind"], at, slip)
+    with mpmath.workdps(30):
         expected = reference(at, slip)
-        assert found[:3] == pytest.approx([float(force) for force in expected], rel=1e-11, abs=0.0)
-        # Total derivative, with film and cage load following the slip.
-        step = mpmath.mpf(abs(slip)) * mpmath.mpf(10) ** -10
-        ahead, behind = (sum(reference(at, slip + sign * step)) for sign in (1, -1))
-        slope = float((ahead - behind) / (2 * step))
-    scale = abs(slope) + abs(found.inner + found.outer + found.cage) / abs(slip)
-    assert found.slope == pytest.approx(slope, abs=1e-9 * scale)
+        for name, force in zip(("inner", "outer", "cage"), expected, strict=True):
+            assert found[name] == pytest.approx(float(force), rel=2e-7), name
+        step = mpmath.mpf(abs(slip)) * mpmath.mpf(10) ** -8
+        slope = float((sum(reference(at, slip + step)) - sum(reference(at, slip - step))) / (2 * step))
+    scale = abs(slope) + abs(net(found)) / abs(slip)
+    assert found["slope"] == pytest.approx(slope, abs=1e-4 * scale)
+    assert found["cage_load"] == pytest.approx(float(at["tangential"] + found["inner"] - found["outer"]), rel=1e-14)
 
 
-def test_cage_load_couples_into_the_slope(models):
-    # Without the coupling the slope would be the sum of partial derivatives at fixed cage load.
-    at, slip = a_station(3e2), -0.1
-    model = models[1]
-    found = slip_forces(model, at, slip)
-    surface, mean = abs(at.ring_speed - slip), abs(at.ring_speed - slip / 2)
-    parts = [
-        contact_force(model.inner, at.inner_load, slip, mean, 0.5),
-        contact_force(model.outer, at.outer_load, slip, mean, 0.5),
-        contact_force(model.cage, abs(found.cage_load), surface, surface / 2, 0.5),
-    ]
-    fixed = sum(part[1] for part in parts)
-    assert abs(found.slope - fixed) > 1e-4 * abs(fixed)
+@pytest.mark.parametrize("kind", ["paper", "physical", "dry"])
+@pytest.mark.parametrize("load", [0.4, 40.0, 700.0, 2e4, 1e5])
+@pytest.mark.parametrize("slip", [-0.35, -0.05, 1e-4, 0.03])
+def test_slopes_are_the_derivatives_of_all_forces(request, kind, load, slip):
+    """By which Newton's iteration converges: of the net force, of each raceway's, and of the cage's load."""
+    roller, at = request.getfixturevalue(kind)["downwind"], a_station(load, 8.0)
+    change = 1e-7 * max(abs(slip), 1e-3)
+    here, ahead, behind = (forces_of(roller, at, one) for one in (slip, slip + change, slip - change))
+    scale = sum(abs(float(here[name])) for name in ("inner", "outer", "cage", "resistance")) / max(abs(slip), 1e-3)
+    assert here["slope"] == pytest.approx((net(ahead) - net(behind)) / (2.0 * change), rel=1e-4, abs=1e-5 * scale)
+    for name in ("inner", "outer", "cage_load"):
+        difference = (ahead[name] - behind[name]) / (2.0 * change)
+        assert here[f"{name}_slope"] == pytest.approx(difference, rel=1e-4, abs=1e-5 * scale), name
+
+
+def test_pure_rolling_and_standstill(paper):
+    for load in (0.0, 100.0, 2e4):
+        at = a_station(load, 12.0)
+        found = forces_of(paper["downwind"], at, 0.0)
+        assert found["inner"] == found["outer"] == 0.0 and found["cage_load"] == at["tangential"]
+        # The surface moves along −x, the pocket is at rest: friction drives ω up, that is towards zero.
+        assert found["cage"] > 0.0
+    at = station_of(paper["downwind"], 0.7, now(0.0, (0.0, 0.0, 8e-4)))
+    found = forces_of(paper["downwind"], at, 0.0)
+    assert at["elastic_load"] > 0.0 and found["inner"] == found["outer"] == found["cage"] == 0.0
+    assert math.isfinite(found["slope"]) and found["slope"] > 0.0
+    assert found["cage_load"] == pytest.approx(WEIGHT * math.cos(TILT) * math.cos(0.7), rel=1e-12)
+
+
+def test_no_load_no_force(paper, dry):
+    at = a_station(0.0, tangential=0.0)
+    for made in (paper, dry):
+        found = forces_of(made["downwind"], at, 0.1)
+        assert all(np.all(found[name] == 0.0) for name in found.dtype.names)
+
+
+@pytest.mark.parametrize("kind", ["paper", "physical"])
+def test_what_is_not_a_number_is_never_a_plausible_one(request, kind):
+    roller = request.getfixturevalue(kind)["downwind"]
+    assert math.isnan(net(forces_of(roller, a_station(2e4), math.nan)))
+    assert math.isnan(net(forces_of(roller, a_station(2e4, ring_speed=math.nan), 0.01)))
+
+
+@pytest.mark.parametrize("kind", ["physical", "dry"])
+@given(
+    load=st.floats(1.0, 5.0).map(lambda x: 10.0**x),
+    slip=st.floats(-0.2, 0.2).map(lambda x: round(x, 9)),
+    ring=st.sampled_from([0.39, -0.39]),
+    tangential=st.floats(-60.0, 60.0),
+)
+@settings(max_examples=60)
+def test_what_the_rings_give_heats_the_contacts_or_drives_the_spin(request, kind, load, slip, ring, tangential):
+    """Torques about the axes of ring and roller, with lever arms in space, times their speeds in the orbiting frame.
+
+    The cage, at rest there, takes nothing; nor does what acts on the centre. A raceway's rolling shear acts on both surfaces along
+    the ring's motion, its pressure pushes both bodies the other way: power 2 F_R |u|.
+    """
+    roller, at = request.getfixturevalue(kind)["downwind"], a_station(load, 5.0, tangential, ring)
+    forces = forces_of(roller, at, slip)
+    surface = ring - slip
+    given_by_rings, tilt = 0.0, math.sin(ALPHA)
+    for k, (name, place, up) in enumerate((("inner", INNER_RADIUS, 1.0), ("outer", OUTER_RADIUS, -1.0))):
+        # Distance from the bearing axis: r~ − ζ sin α ± h cos α, the drop being towards the roller.
+        pull = forces[name] + forces["lag"][k]
+        torque = place * pull - tilt * forces["skew"][k] + up * math.cos(ALPHA) * RADIUS * forces["lag"][k]
+        given_by_rings += ring / place * torque
+    spent = powers_of(roller, at, forces, slip).sum()
+    into_spin = surface * (forces["inner"] + forces["outer"] + forces["cage"])
+    size = abs(spent) + abs(into_spin) + abs(given_by_rings)
+    assert given_by_rings == pytest.approx(spent + into_spin, abs=1e-9 * size)
+    rough = forces["rough"]
+    assert (rough >= -1e-9 * size).all() and rough.sum() <= spent + 1e-9 * size
+    assert (forces["rolling"] >= 0.0).all()
+
+
+# --- Oil -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("body", [-35.0, 0.0, 4.0, 50.0])
+@pytest.mark.parametrize("play", [2e-6, 5e-5, 3e-4])
+def test_films_and_approach_fill_the_play(physical, play, body):
+    """[h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p, by bracketing with the laws themselves."""
+    roller, laws = physical["downwind"], models(Laws.physical())["downwind"].laws
+    stiffness = float(roller.body[0]["stiffness"])
+
+    def excess(log_load):
+        q = math.exp(log_load)
+        loads = q + max(-body, 0.0), q + max(body, 0.0)
+        heights = [
+            float(light_contact(law.rolling, np.array(load), np.array(0.5 * abs(RING_SPEED)))[2]) / 1.2257
+            for law, load in zip((laws.inner, laws.outer), loads, strict=True)
+        ]
+        return sum(heights) - (q / stiffness) ** (2.0 / 3.0) - play
+
+    expected = math.exp(brentq(excess, math.log(1e-6), math.log(1e5), xtol=1e-12))
+    assert carried(roller.body[0], roller.tables, play, body, RING_SPEED) == pytest.approx(expected, rel=2e-4)
+
+
+def test_loads_are_continuous_where_play_ends_and_films_fade(physical):
+    roller = physical["downwind"]
+    dx = np.linspace(-3e-6, 3e-5, 800) + 1e-4
+    found = np.array([station_of(roller, 0.0, now(RATED, (one, 0.0, 0.0))).tolist() for one in dx])
+    interference, elastic, inner = found[:, 1], found[:, 2], found[:, 3]
+    assert (np.diff(inner) > 0.0).all() and interference[0] < 0.0 < interference[-1]
+    # The steepest change is that of the elastic load; where play ends nothing jumps.
+    assert np.diff(inner).max() < 1.05 * np.diff(elastic).max()
+    faded = elastic > float(roller.body[0]["faded_load"])
+    assert faded.any() and not faded.all()
+    body = inner[faded] - elastic[faded]
+    np.testing.assert_allclose(body, body[0], atol=1e-6)
+    # Just below that load films carry next to nothing.
+    last = np.flatnonzero(~faded)[-1]
+    assert inner[last] - elastic[last] - body[0] < 1e-9 * elastic[last]
+
+
+def test_films_carry_more_the_less_play_there_is_and_nothing_at_standstill(physical):
+    body, tables = physical["downwind"].body[0], physical["downwind"].tables
+    found = [carried(body, tables, play, 30.0, RING_SPEED) for play in (1e-6, 1e-5, 1e-4, 1e-3)]
+    assert found == sorted(found, reverse=True) and found[-1] > 0.0
+    assert carried(body, tables, 1e-4, 30.0, 0.0) == 0.0
+
+
+def test_an_idle_roller_lies_between_two_films(physical, dry):
+    top, bottom = (station_of(physical["downwind"], angle, now(2.14)) for angle in (math.pi / 2, -math.pi / 2))
+    for at in (top, bottom):
+        assert at["elastic_load"] == 0.0 < min(at["inner_load"], at["outer_load"])
+    assert bottom["outer_load"] > bottom["inner_load"] and top["inner_load"] > top["outer_load"]
+    assert station_of(dry["downwind"], -math.pi / 2, now(2.14))["inner_load"] == 0.0
+
+
+def test_a_gripped_roller_makes_up_for_its_rolling_resistance(physical):
+    roller, at = physical["downwind"], a_station(2e4)
+    slip = brentq(lambda one: net(forces_of(roller, at, one)), -0.05, 0.05, xtol=1e-16)
+    forces = forces_of(roller, at, slip)
+    assert forces["resistance"] > 0.0  # against a motion along −x
+    assert forces["inner"] + forces["outer"] + forces["cage"] == pytest.approx(-forces["resistance"], rel=1e-6)
+    assert (forces["rolling"] > 0.0).all()
+
+
+@pytest.mark.parametrize("load", [5.0, 300.0, 2e4])
+@pytest.mark.parametrize("slip", [-0.3, 0.002])
+def test_oil_at_a_raceway_turns_nothing_about_the_bearing(load, slip):
+    """Torques of shear and inclined pressure on roller and ring add up to zero; the pushes act through both axes."""
+    roller = rollers(models(Laws.paper().but(rolling="whole-film")))["downwind"]
+    bare = rollers(models(Laws.paper()))["downwind"]
+    at = a_station(load)
+    with_oil, without = forces_of(roller, at, slip), forces_of(bare, at, slip)
+    mean = RING_SPEED - 0.5 * slip
+    for name, place in (("inner", INNER_RADIUS), ("outer", OUTER_RADIUS)):
+        law = getattr(models(Laws.paper().but(rolling="whole-film"))["downwind"].laws, name)
+        conductance, resistance, _ = (float(one) for one in light_contact(law.rolling, np.array(load), np.array(-mean)))
+        assert with_oil[name] - without[name] == pytest.approx(conductance * slip, rel=1e-4, abs=1e-6)
+        assert with_oil["rolling"][0 if name == "inner" else 1] == pytest.approx(2.0 * resistance * abs(mean), rel=1e-4)
+        # Shear F_R acts on both surfaces at the contact's radius; the push along x at the roller's centre is (push − 1) of it.
+        push = float(roller.body[0][name]["push"]) - 1.0
+        curvature = geometry.inner_curvatures(BEARING) if name == "inner" else geometry.outer_curvatures(BEARING)
+        assert push == pytest.approx(-2.0 / (curvature.rolling * RADIUS), rel=1e-9)
+        assert 2.0 * place + push * PITCH_RADIUS == pytest.approx(0.0, abs=1e-9)

@@ -1,17 +1,18 @@
 """Small studies: one roller a row, constant or varying loads of a few seconds in tables of their own."""
 
 import json
+import sqlite3
 import subprocess
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from macroslip.study.journal import records
 from macroslip.study.run import run_study
-from macroslip.study.store import JOURNAL, case_path, checksum
+from macroslip.study.store import DATABASE, case_path, checksum
 
 #: Runs a study from a file of its arguments, and writes a line for every run that is reported done.
 SCRIPT = """
@@ -47,7 +48,7 @@ def load_files(tmp_path):
 def content():
     """A study of those files as plain data: four runs."""
     return {
-        "case": {"rollers": [0]},
+        "case": {"laws": {"model": "paper"}, "rollers": [0]},
         "loads": {"files": "runs/{wind_speed:g}mps_seed{seed:d}.csv", "kind": "main-bearing"},
     }
 
@@ -57,7 +58,7 @@ def long_content():
     """A study of forty runs that take some ten milliseconds each."""
     values = [round(4.0 + 0.1 * number, 1) for number in range(40)]
     return {
-        "case": {"rollers": [0, 7], "loads": {"end": "40 s"}},
+        "case": {"laws": {"model": "paper"}, "rollers": [0, 7], "loads": {"end": "40 s"}},
         "loads": {"bundled": ["14B"]},
         "variations": {"grid": {"drivetrain.tilt": {"values": values, "unit": "deg"}}},
     }
@@ -97,14 +98,17 @@ def counted(monkeypatch):
     return calls
 
 
-def _journal(directory):
-    """The sound records of a folder's journal."""
-    return [record for record in records(Path(directory) / JOURNAL) if record is not None]
+def _rows(directory, query):
+    """Rows of the database of a folder, as anybody may ask for them; nothing without one."""
+    if not (Path(directory) / DATABASE).exists():
+        return []
+    with closing(sqlite3.connect(Path(directory) / DATABASE)) as database:
+        return database.execute(query).fetchall()
 
 
 def _done(directory):
-    """Keys that the journal calls done; each is shown to be on the disk as it was stored."""
-    found = {record["key"]: record["detail"] for record in _journal(directory) if "detail" in record}
+    """Keys of the results that are recorded; each is shown to be on the disk as it was stored."""
+    found = dict(_rows(directory, "SELECT key, detail FROM results"))
     for key, detail in found.items():
         assert checksum(case_path(Path(directory), key).read_bytes()) == detail
     return set(found)
@@ -135,5 +139,5 @@ def _fixture(function):
     return pytest.fixture(name=function.__name__.removeprefix("_"))(lambda: function)
 
 
-write_loads, journal, done, identities = map(_fixture, (_write_loads, _journal, _done, _identities))
+write_loads, rows, done, identities = map(_fixture, (_write_loads, _rows, _done, _identities))
 wait_for, resumed = map(_fixture, (_wait_for, _resumed))

@@ -1,6 +1,7 @@
 """One temperature for the loads of a study: the heat of their mean power is lost at it; weights, groups and refusals."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -58,8 +59,11 @@ def test_every_result_was_computed_at_that_temperature(directory):
     found = open_study(directory)
     np.testing.assert_array_equal(found.inlet_temperature, found.temperature)
     assert (found.outcome == "completed").all()
-    # The runs on the way are a study of their own, at other temperatures.
-    assert AMBIENT in open_study(directory / BALANCE_RUNS).temperature.values or (directory / BALANCE_RUNS).is_dir()
+    # The way there: the surroundings' temperature, 30 K above, and ever closer, each for both load histories.
+    log = (directory / BALANCE_RUNS / "log.txt").read_text()
+    on_the_way = [float(one) for one in re.findall(r"temperature ([\d.]+): completed", log)]
+    assert {AMBIENT, AMBIENT + 30.0} <= set(on_the_way) and len(on_the_way) == 2 * len(set(on_the_way)) >= 6
+    assert min(abs(one - float(found.temperature[0])) for one in on_the_way) < 0.2
 
 
 def test_going_on_computes_nothing_again(directory):
@@ -82,11 +86,7 @@ def test_oils_have_a_temperature_each(tmp_path):
     assert by_point[0, 2] > by_point[0, 0]
 
 
-def test_weights_and_varied_temperatures_are_refused_where_they_mean_nothing():
-    content = made(weights=WEIGHTS)
-    content["case"] |= {"temperature": "40 degC"}
-    with pytest.raises(InputError, match="nothing is weighted"):
-        study_of(content)
+def test_varied_temperatures_and_unknown_fields_are_refused():
     with pytest.raises(InputError, match="it is varied"):
         study_of(made(variations={"list": [{"temperature": "40 degC"}]}))
     with pytest.raises(InputError, match="no number as 'gust'"):

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from macroslip import InputError
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
+from macroslip.study.loads_list import Load
 from macroslip.study.summary import ROW_VARIABLES
-from macroslip.study.weights import YEAR, Given, Weibull, binned
+from macroslip.study.weights import YEAR, Given, Weibull, Weighting, binned
 
 SPEEDS = [12.0, 12.4, 11.6, 14.0, 14.0, 12.0, 14.0]
 CLEARANCES = [0.0] * 5 + [0.2] * 2
@@ -39,27 +40,11 @@ def test_lifetime_energy_is_the_weighted_sum():
     assert float(found.covered) == 0.75 and found.runs.values.tolist() == [[3, 2], [1, 1]]
 
 
-def test_constant_power_gives_power_times_time_whatever_the_weights():
-    same = study([600.0] * 7)
-    weights = Weibull(9.0, 2.2)
-    found = lifetime_energy(same, weights, years=20.0)
-    np.testing.assert_allclose(
-        found.lifetime_energy.sel(row="downwind"), 20.0 * YEAR * float(found.covered), rtol=1e-12
-    )
-
-
 @pytest.mark.slow
 @given(st.floats(3.0, 15.0), st.floats(1.0, 4.0), st.floats(0.25, 4.0))
 def test_weibull_bins_cover_all_speeds(scale, shape, width):
     centres = np.arange(0, int(600 / width)) * width
     assert sum(Weibull(scale, shape).probability(c, width) for c in centres) == pytest.approx(1.0, abs=1e-9)
-
-
-def test_weibull_is_that_of_scipy():
-    from scipy.stats import weibull_min
-
-    expected = weibull_min(2.2, scale=9.0)
-    assert Weibull(9.0, 2.2).probability(12.0, 2.0) == pytest.approx(expected.cdf(13.0) - expected.cdf(11.0), rel=1e-12)
 
 
 def test_a_run_without_a_result_is_left_out_and_reported():
@@ -93,6 +78,19 @@ def test_bins_and_groups():
     # A parameter that some runs leave to the base case is one value of it.
     some = study().assign_coords({"bearing.diametral_clearance": ("case", [math.nan] * 5 + [0.2] * 2)})
     assert len(binned(some, "wind_speed", 2.0).groups) == 2
+
+
+def test_a_bin_reaches_half_its_width_to_either_side():
+    """10.9 m/s counts as 10, 11.0 and 12.9 as 12, 13.0 as 14: the same for the weights of loads and the bins of results."""
+    speeds = [10.9, 11.0, 12.9, 13.0]
+    above = [math.exp(-((edge / 9.5) ** 2)) for edge in (9.0, 11.0, 13.0, 15.0)]
+    low, middle, high = (above[k] - above[k + 1] for k in range(3))
+    expected = np.array([low, 0.5 * middle, 0.5 * middle, high]) / (low + middle + high)
+    loads = [Load(str(speed), {"wind_speed": speed}) for speed in speeds]
+    np.testing.assert_allclose(Weighting(scale=9.5, shape=2.0).of(loads), expected, rtol=1e-12)
+    found = binned(study().isel(case=slice(4)).assign_coords(wind_speed=("case", speeds)), "wind_speed", 2.0)
+    assert (found.centres.tolist(), found.bin.tolist()) == ([10.0, 12.0, 14.0], [0, 1, 1, 2])
+    np.testing.assert_allclose(found.probabilities(Weibull(9.5, 2.0)), [low, middle, high], rtol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -1,15 +1,27 @@
 """A whole study in this process: what it stores, what it computes again, and what it does about bad cases."""
 
+import dataclasses
 import json
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from macroslip import BearingLoads, Case, InputError, MacroslipError, open_study, run_study, simulate
+from macroslip import (
+    BearingLoads,
+    Case,
+    InputError,
+    Laws,
+    MacroslipError,
+    Radau,
+    Window,
+    open_study,
+    run_study,
+    simulate,
+)
 from macroslip.study.reader import stored_results
+from macroslip.study.run import Progress
 from macroslip.study.study_file import study_of
-from macroslip.study.summary import ALWAYS_KEPT
+from macroslip.study.work import ALWAYS_KEPT, case_key
 
 pytestmark = pytest.mark.slow
 
@@ -20,7 +32,7 @@ def test_results_are_those_of_simulate(tmp_path, load_files, content):
     study = open_study(tmp_path / "out")
     for case in range(4):
         loads = BearingLoads.read(load_files / str(study.loads.values[case]))
-        expected = simulate(Case(loads=loads, rollers=[0]))
+        expected = simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0]))
         one = study.isel(case=case)
         for name in ("energy", "min_spin_ratio", "status", "end_slip", "steps"):
             np.testing.assert_array_equal(one[name].values, expected[name].values.astype(float))
@@ -50,14 +62,6 @@ def test_only_what_is_to_be_kept_is_stored(tmp_path, load_files, content):
     np.testing.assert_array_equal(some.peak_power_mean, whole.peak_power_mean)
 
 
-def test_a_failed_roller_is_told_whatever_is_kept(tmp_path, load_files, content):
-    failing = content | {"keep": ["energy"], "models": {"short": {"integrator.max_steps": 1}}}
-    ended = run_study(study_of(failing, load_files), tmp_path / "out")
-    assert ended.progress.failed == 4
-    assert {outcome for _, outcome, _ in ended.failures} == {"rollers failed"}
-    assert "2 of 2 rollers failed" in ended.failures[0][2]
-
-
 def test_results_one_by_one_are_whole(tmp_path, load_files, content):
     bad = content | {"models": {"base": {}, "refused": {"bearing.osculation_outer": 1.5}}}
     run_study(study_of(bad, load_files), tmp_path / "out")
@@ -70,7 +74,12 @@ def test_results_one_by_one_are_whole(tmp_path, load_files, content):
 
 
 def test_the_torque_of_the_contacts_is_their_power_over_the_speed(tmp_path):
-    study = study_of({"case": {"rollers": [0, 14], "loads": {"end": "30 s"}}, "loads": {"bundled": ["14B"]}})
+    study = study_of(
+        {
+            "case": {"laws": {"model": "paper"}, "rollers": [0, 14], "loads": {"end": "30 s"}},
+            "loads": {"bundled": ["14B"]},
+        }
+    )
     run_study(study, tmp_path / "out")
     one = open_study(tmp_path / "out").isel(case=0)
     # Two rollers stand for 28 of each row; whole orbits take a whole part of the shaft's angle.
@@ -79,13 +88,13 @@ def test_the_torque_of_the_contacts_is_their_power_over_the_speed(tmp_path):
     assert float(one.contact_torque) == pytest.approx(work / seconds / float(one.shaft_speed_mean), rel=0.05)
 
 
-def test_unchanged_runs_are_never_computed_again(tmp_path, load_files, content, counted, identities, journal, resumed):
+def test_unchanged_runs_are_never_computed_again(tmp_path, load_files, content, counted, identities, rows, resumed):
     study, out = study_of(content, load_files), tmp_path / "out"
     run_study(study, out)
     before = identities(out)
     ended, simulated = resumed(study, out, counted)
     assert (ended.progress.unchanged, ended.progress.computed, simulated) == (4, 0, 0)
-    assert identities(out) == before and len(journal(out)) == 4
+    assert identities(out) == before and rows(out, "SELECT count(*) FROM results") == [(4,)]
 
 
 def test_a_moved_or_renamed_load_file_is_not_computed_again(tmp_path, load_files, content, counted, resumed):
@@ -132,7 +141,7 @@ def test_a_study_may_grow_and_shrink(tmp_path, load_files, content, counted, res
 def test_a_changed_program_computes_all_again(tmp_path, load_files, content, counted, monkeypatch, resumed):
     out = tmp_path / "out"
     run_study(study_of(content, load_files), out)
-    monkeypatch.setattr("macroslip.study.key.fingerprint", lambda *parts: "another program")
+    monkeypatch.setattr("macroslip.study.work.fingerprint", lambda *parts: "another program")
     assert resumed(study_of(content, load_files), out, counted)[1] == 4
 
 
@@ -175,7 +184,7 @@ def test_strict_stops_at_the_first(tmp_path, load_files, content):
 
 
 def test_failed_rollers_are_a_result_and_a_failure(tmp_path, load_files, content, counted, resumed):
-    few = content | {"case": {"rollers": [0], "integrator": {"max_steps": 3}}}
+    few = content | {"case": {"laws": {"model": "paper"}, "rollers": [0], "integrator": {"max_steps": 3}}}
     ended = run_study(study_of(few, load_files), tmp_path / "out")
     assert (ended.progress.computed, ended.progress.failed) == (0, 4)
     study = open_study(tmp_path / "out")
@@ -214,11 +223,22 @@ def test_folders_that_are_refused(tmp_path, load_files, content):
     with pytest.raises(InputError, match="not a folder"):
         run_study(study, load_files / "runs" / "12mps_seed1.csv")
     manifest = tmp_path / "out" / "manifest.json"
-    manifest.write_text(manifest.read_text().replace('"format": 1', '"format": 99'))
+    whole = manifest.read_text()
+    manifest.write_text(whole.replace('"lubricant": [', '"mubricant": ['))
+    with pytest.raises(InputError, match="manifest.json: the manifest is damaged: its checksum has changed"):
+        open_study(tmp_path / "out")
+    manifest.write_text(whole.replace('"format": 3', '"format": 99'))
     with pytest.raises(InputError, match="format 99"):
         open_study(tmp_path / "out")
     with pytest.raises(InputError, match="no study in this folder"):
         open_study(load_files)
+    # The last version had a journal; its manifest has format 1.
+    (tmp_path / "old").mkdir()
+    (tmp_path / "old" / "journal.jsonl").touch()
+    (tmp_path / "old" / "manifest.json").write_text('{"format": 1}')
+    for act in (lambda: open_study(tmp_path / "old"), lambda: run_study(study, tmp_path / "old", resume=True)):
+        with pytest.raises(InputError, match="another version.*or compute the study again in a new folder"):
+            act()
 
 
 def test_a_second_process_is_refused(tmp_path, begin, long_content, load_files, content):
@@ -231,7 +251,10 @@ def test_a_second_process_is_refused(tmp_path, begin, long_content, load_files, 
 
 
 def test_traces_and_cycles_come_on_request(tmp_path, load_files, content):
-    wanted = content | {"cycles": True, "case": {"rollers": [0], "traces": {"step": "0.1 s"}}}
+    wanted = content | {
+        "cycles": True,
+        "case": {"laws": {"model": "paper"}, "rollers": [0], "traces": {"step": "0.1 s"}},
+    }
     run_study(study_of(wanted, load_files), tmp_path / "out")
     study = open_study(tmp_path / "out")
     assert study.spin.dims == ("case", "row", "roller", "sample") and study.time.dims == ("case", "sample")
@@ -254,59 +277,29 @@ def test_the_summary_is_a_parquet_table_with_units(tmp_path, load_files, content
     assert table["wind_speed"].to_pylist() == [12.0, 12.0, 14.0, 14.0]
 
 
+def test_a_parameter_of_numbers_and_words_is_text_in_the_summary(tmp_path, load_files, content):
+    import pyarrow.parquet as pq
+
+    varied = content | {"variations": {"grid": {"oil_supply": {"values": [0.5, "flooded"]}}}}
+    run_study(study_of(varied, load_files), tmp_path / "out")
+    table = pq.read_table(tmp_path / "out" / "summary.parquet")
+    assert table["oil_supply"].to_pylist() == [*["0.5", "flooded"] * 4]
+
+
 def test_every_name_of_a_file_is_data(tmp_path, content, write_loads):
     """Names with escapes, markup and ways out of the folder are labels, and nothing else."""
-    names = ["runs/12mps_seed1.csv", "runs/[red]x\x1b[2J_12mps_seed2.csv", "runs/$(touch made) 12mps_seed3.csv"]
-    for name in names:
-        write_loads(tmp_path / name)
-    (tmp_path / name).write_text("")
-    study = study_of(
-        content
-        | {
-            "loads": {
-                "files": "runs/*seed{seed:d}.csv",
-                "kind": "main-bearing",
-            }
-        },
-        tmp_path,
-    )
-    up = study_of(
-        content | {"loads": {"files": "../" + tmp_path.name + "/runs/{a}_seed{seed:d}.csv", "kind": "main-bearing"}},
-        tmp_path,
-    )
-    for number, one in enumerate((study, up)):
+    for name in ("12mps_seed1.csv", "[red]x\x1b[2J_12mps_seed2.csv", "$(touch made) 12mps_seed3.csv"):
+        write_loads(tmp_path / "runs" / name)
+    (tmp_path / "runs" / name).write_text("")
+    for number, pattern in enumerate(("runs/*seed{seed:d}.csv", f"../{tmp_path.name}/runs/{{a}}_seed{{seed:d}}.csv")):
         out = tmp_path / f"out{number}"
-        run_study(one, out)
-        log = (out / "log.txt").read_bytes()
-        assert b"\x1b" not in log
-        outside = [path for path in out.rglob("*") if not path.resolve().is_relative_to(out)]
-        assert outside == [] and {path.name for path in out.iterdir()} <= {
-            "manifest.json",
-            "runs.parquet",
-            "journal.jsonl",
-            "summary.parquet",
-            "log.txt",
-            "cases",
-            "lock",
-        }
+        run_study(study_of(content | {"loads": {"files": pattern, "kind": "main-bearing"}}, tmp_path), out)
+        assert b"\x1b" not in (out / "log.txt").read_bytes()
+        assert all(path.resolve().is_relative_to(out) for path in out.rglob("*"))
+        names = {"manifest.json", "study.sqlite", "summary.parquet", "log.txt", "cases", "lock"}
+        assert {path.name for path in out.iterdir()} == names
         assert all(set(path.stem) <= set("0123456789abcdef") for path in out.glob("cases/*/*"))
     assert not (tmp_path / "made").exists()
-
-
-def test_no_pickle_is_read_from_a_study(tmp_path, load_files, content, monkeypatch):
-    import pickle
-
-    out = tmp_path / "out"
-    run_study(study_of(content, load_files), out)
-
-    def refuse(*args, **options):
-        raise AssertionError("a pickle was read")
-
-    for name in ("load", "loads", "Unpickler"):
-        monkeypatch.setattr(pickle, name, refuse)
-    study = open_study(out)
-    assert study.load().energy.notnull().all()
-    run_study(study_of(content, load_files), out, resume=True)
 
 
 def test_a_manifest_of_another_study_stops_the_workers(tmp_path, load_files, content):
@@ -324,10 +317,42 @@ def test_a_worker_of_another_version_stops_the_study(tmp_path, load_files, conte
         run_study(study_of(content, load_files), tmp_path / "out")
 
 
-def test_the_manifest_holds_the_study(tmp_path, load_files, content, done):
-    run_study(study_of(content, load_files), tmp_path / "out")
-    manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
-    assert manifest["study"] == content
-    study = open_study(tmp_path / "out")
-    assert json.loads(study.attrs["study"]) == content
-    assert isinstance(study, xr.Dataset) and len(done(tmp_path / "out")) == 4
+LOADS = BearingLoads.constant([0.0, -300e3, 10e3], 2.0, 10.0)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"drag": False}, {"rollers": [0]}, {"integrator": Radau(tolerance=1e-5)}, {"window": Window(start=1.0)},
+        {"loads": LOADS.window(0.0, 9.0)}, {"loads": BearingLoads.constant([0.0, -300e3, 10.000001e3], 2.0, 10.0)},
+        {"bearing": Case(loads=LOADS, laws=Laws.paper()).bearing.replace(diametral_clearance=1.3e-4)},
+    ],
+)  # fmt: skip
+def test_any_change_of_input_changes_the_key_and_the_place_of_the_loads_does_not(change, monkeypatch):
+    case = Case(loads=LOADS, laws=Laws.paper())
+    assert (
+        case_key(dataclasses.replace(case, **change), {}) != case_key(case, {}) != case_key(case, {"keep": ["energy"]})
+    )
+    moved = BearingLoads(LOADS.time, LOADS.shaft_speed, LOADS.force, "elsewhere.csv")
+    assert case_key(Case(loads=moved, laws=Laws.paper()), {}) == case_key(case, {})
+    before = case_key(case, {})
+    monkeypatch.setattr("macroslip.study.work.own_laws", lambda: ["def traction(): ..."])
+    assert case_key(case, {}) != before
+
+
+def test_rate_and_time_left(monkeypatch):
+    """Runs that were there already tell nothing of the rest, failures count as work, workers that come are seen."""
+    now = 1000.0
+    monkeypatch.setattr("macroslip.study.run.time.monotonic", lambda: now)
+    progress = Progress(10**6, started=now)
+    progress.unchanged, now = 20, now + 8.0
+    assert (progress.done, progress.rate, progress.time_left) == (20, 0.0, None)
+    assert progress.short == "20 of 1000000, 0 failed, 0 a second, - left"
+    progress.failed = 4
+    assert progress.rate == 0.5 and progress.line.endswith("0.5 a second, 23 d 3 h left")
+    for rate in (1, 9):  # an hour, then ten minutes
+        for _ in range(3600 if rate == 1 else 300):
+            now += 1.0
+            progress.computed += rate
+            progress.mark()
+    assert progress.rate == pytest.approx(5.0, rel=0.01)

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from macroslip import InputError, open_study, run_study
-from macroslip.report.study_page import CLASS_ONE, study_page
+from macroslip.report.study_page import CLASS_ONE
 from macroslip.result.surface_maps import energy_density
-from macroslip.study.lifetime import lifetime_energy
+from macroslip.study.lifetime import lifetime_energy, weighted_maps
 from macroslip.study.study_file import study_of
-from macroslip.study.surface import weighted_maps
 from macroslip.study.weights import Given
 
 pytestmark = pytest.mark.slow
@@ -53,15 +52,11 @@ def test_the_inner_ring_is_alike_all_round_and_the_outer_one_is_not(study):
     np.testing.assert_allclose(largest.transpose(*expected.dims).values, expected.values)
 
 
-def test_the_page_shows_maps_and_ratings(study):
-    page = study_page(study, title="Maps")
-    assert 'id="surface"' in page and 'id="rating"' in page
-    assert "Ratings of 3 of 3 runs" in page
-    assert "downwind row, outer raceway, J/mm²" in page
-
-
 def test_a_study_of_the_paper_has_no_maps(tmp_path):
-    content = {"case": {"rollers": [0], "loads": {"end": "1 s"}}, "loads": {"bundled": ["12A"]}}
+    content = {
+        "case": {"laws": {"model": "paper"}, "rollers": [0], "loads": {"end": "1 s"}},
+        "loads": {"bundled": ["12A"]},
+    }
     run_study(study_of(content), tmp_path / "out")
     with pytest.raises(InputError, match="no maps of the raceways.*model: physical"):
         weighted_maps(open_study(tmp_path / "out"), CLASS_ONE)

@@ -17,9 +17,9 @@ def result(request):
     return simulate(Case(loads=loads, traces=Traces(step=0.02, start=0.005), laws=Laws.named(request.param)))
 
 
-def constant(force, speed=SPEED, **options):
+def constant(force, speed=SPEED, laws=Laws.paper(), **options):
     loads = BearingLoads.constant(force, speed, 8.0)
-    return simulate(Case(loads=loads, traces=Traces(step=0.05), **options))
+    return simulate(Case(loads=loads, traces=Traces(step=0.05), laws=laws, **options))
 
 
 def test_torque_times_speed_is_what_is_dissipated(result):
@@ -98,16 +98,16 @@ def test_a_failed_roller_leaves_no_number(result):
 def test_what_is_needed_is_said():
     loads = BearingLoads.constant([0.0, -300e3, 0.0], SPEED, 2.0)
     with pytest.raises(InputError, match="has no traces"):
-        computed_torque(simulate(Case(loads=loads)))
+        computed_torque(simulate(Case(loads=loads, laws=Laws.paper())))
     with pytest.raises(InputError, match="27 rollers of each row are missing"):
-        computed_torque(simulate(Case(loads=loads, rollers=[0], traces=Traces(step=0.5))))
-    one_row = simulate(Case(loads=loads, traces=Traces(step=0.5))).sel(row=["upwind"])
+        computed_torque(simulate(Case(loads=loads, laws=Laws.paper(), rollers=[0], traces=Traces(step=0.5))))
+    one_row = simulate(Case(loads=loads, laws=Laws.paper(), traces=Traces(step=0.5))).sel(row=["upwind"])
     with pytest.raises(InputError, match="a row is missing"):
         computed_torque(one_row)
 
 
 def test_handbooks_are_told_of_the_same_times(result):
-    case = Case(loads=HubLoads.bundled("14B"))
+    case = Case(loads=HubLoads.bundled("14B"), laws=Laws.paper())
     loads = main_bearing_load(case.loads, case.drivetrain)
     computed = computed_torque(result)
     found = torque_histories({"one": computed}, loads, case.bearing, case.lubricant)

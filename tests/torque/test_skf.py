@@ -46,7 +46,7 @@ def test_without_load_nothing_resists_but_the_bath():
 
 def test_at_rest_only_starting_friction_resists():
     rest = skf_torque(BEARING, OIL, 3e5, 1e5, 0.0, bath=OilBath(0.2, 1e-3))
-    assert rest.rolling == rest.drag == rest.seal == 0.0
+    assert rest.rolling == rest.drag == 0.0
     # Boundary friction while turning is 0.12 and before that 0.15.
     creeping = skf_torque(BEARING, OIL, 3e5, 1e5, 1e-9)
     assert rest.sliding / creeping.sliding == pytest.approx(0.15 / 0.12, rel=1e-6)
@@ -132,7 +132,7 @@ def test_oil_thicker_than_the_model_knows_is_said():
 def test_arrays_broadcast_and_agree_with_single_numbers():
     radial, speed = np.array([0.0, 1e5, 3e5]), np.array([[0.0], [2.0]])
     torque = skf_torque(BEARING, OIL, radial, 5e4, speed, bath=OilBath(0.2, 1e-3))
-    for part in (torque.rolling, torque.sliding, torque.drag, torque.seal, torque.total):
+    for part in (torque.rolling, torque.sliding, torque.drag, torque.total):
         assert part.shape == (2, 3)
     single = skf_torque(BEARING, OIL, 3e5, 5e4, 2.0, bath=OilBath(0.2, 1e-3))
     assert torque.total[1, 2] == pytest.approx(single.total, rel=1e-15)

@@ -3,26 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar
 
-from pydantic import Field
-
-from macroslip.bearing.assembly import misfits
-from macroslip.catalogue import Record
-from macroslip.catalogue.source import Source
-from macroslip.catalogue.units import (
-    ANGLE,
-    CONDUCTIVITY,
-    DENSITY,
-    FORCE,
-    LENGTH,
-    MASS,
-    NUMBER,
-    PRESSURE,
-    SPECIFIC_HEAT,
-)
+from macroslip.bearing import geometry
 from macroslip.errors import InputError
+from macroslip.input.fields import Positive, Quantity, Text
+from macroslip.input.files import Source
+from macroslip.input.record import Record
+from macroslip.input.units import ANGLE, CONDUCTIVITY, DENSITY, FORCE, LENGTH, MASS, NUMBER, PRESSURE, SPECIFIC_HEAT
+
+#: Relative difference allowed between given and computed positions of the roller centre: drawings round.
+SPHERE_TOLERANCE = 0.01
+_Optional = float | None
 
 
 class Bearing(Record):
@@ -46,85 +39,170 @@ class Bearing(Record):
     """
 
     noun: ClassVar[str] = "bearing"
+    sections: ClassVar[Mapping[str, str]] = {
+        "out_of_round": "out-of-roundness of the outer raceway, as a housing that gives way makes it: waves of the clearance"
+    }
 
-    name: str = Field(min_length=1, description="short name of the bearing, used in results")
-    title: str = Field(default="", description="one line that describes the bearing")
+    name: Annotated[str, Text("short name of the bearing, used in results", line=True)]
+    title: Annotated[str, Text("one line that describes the bearing", may_be_empty=True, line=True)] = ""
 
-    bore_diameter: Annotated[
-        float | None, LENGTH, Field(gt=0, le=10, description="bore diameter of the inner ring")
-    ] = None
-    outside_diameter: Annotated[
-        float | None, LENGTH, Field(gt=0, le=10, description="outside diameter of the outer ring")
-    ] = None
-    width: Annotated[float | None, LENGTH, Field(gt=0, le=5, description="width of the bearing")] = None
-    dynamic_load_rating: Annotated[
-        float | None, FORCE, Field(gt=0, le=1e9, description="basic dynamic radial load rating C")
-    ] = None
-    static_load_rating: Annotated[
-        float | None, FORCE, Field(gt=0, le=1e9, description="basic static radial load rating C0")
-    ] = None
-    fatigue_load_limit: Annotated[
-        float | None, FORCE, Field(gt=0, le=1e9, description="fatigue load limit C_u, in some catalogues P_u")
-    ] = None
-    axial_factor_e: Annotated[
-        float | None, NUMBER, Field(gt=0, le=5, description="ratio e of axial to radial load between Y1 and Y2")
-    ] = None
-    axial_factor_y1: Annotated[
-        float | None, NUMBER, Field(gt=0, le=100, description="axial load factor Y1, at or below e")
-    ] = None
-    axial_factor_y2: Annotated[
-        float | None, NUMBER, Field(gt=0, le=100, description="axial load factor Y2, above e")
-    ] = None
-    axial_factor_y0: Annotated[float | None, NUMBER, Field(gt=0, le=100, description="static axial load factor Y0")] = (
+    bore_diameter: Annotated[_Optional, Positive("bore diameter of the inner ring", LENGTH, 10)] = None
+    outside_diameter: Annotated[_Optional, Positive("outside diameter of the outer ring", LENGTH, 10)] = None
+    width: Annotated[_Optional, Positive("width of the bearing", LENGTH, 5)] = None
+    dynamic_load_rating: Annotated[_Optional, Positive("basic dynamic radial load rating C", FORCE, 1e9)] = None
+    static_load_rating: Annotated[_Optional, Positive("basic static radial load rating C0", FORCE, 1e9)] = None
+    fatigue_load_limit: Annotated[_Optional, Positive("fatigue load limit C_u, in some catalogues P_u", FORCE, 1e9)] = (
         None
     )
-    mass: Annotated[float | None, MASS, Field(gt=0, le=1e6, description="mass of the bearing")] = None
+    axial_factor_e: Annotated[_Optional, Positive("ratio e of axial to radial load between Y1 and Y2", NUMBER, 5)] = (
+        None
+    )
+    axial_factor_y1: Annotated[_Optional, Positive("axial load factor Y1, at or below e", NUMBER, 100)] = None
+    axial_factor_y2: Annotated[_Optional, Positive("axial load factor Y2, above e", NUMBER, 100)] = None
+    axial_factor_y0: Annotated[_Optional, Positive("static axial load factor Y0", NUMBER, 100)] = None
+    mass: Annotated[_Optional, Positive("mass of the bearing", MASS, 1e6)] = None
 
-    rollers_per_row: Annotated[int, NUMBER, Field(ge=3, le=500, description="number of rollers in each row")]
-    roller_diameter: Annotated[float, LENGTH, Field(gt=0, le=1, description="largest roller diameter")]
-    roller_length: Annotated[float, LENGTH, Field(gt=0, le=2, description="roller length")]
+    rollers_per_row: Annotated[int, Quantity("number of rollers in each row", NUMBER, 3, 500, whole=True)]
+    roller_diameter: Annotated[float, Positive("largest roller diameter", LENGTH, 1)]
+    roller_length: Annotated[float, Positive("roller length", LENGTH, 2)]
     contact_angle: Annotated[
-        float,
-        ANGLE,
-        Field(ge=0, lt=math.pi / 4, description="angle of the contact normals to the radial plane"),
+        float, Quantity("angle of the contact normals to the radial plane", ANGLE, 0, math.pi / 4, below=True)
     ]
-    pitch_radius: Annotated[
-        float, LENGTH, Field(gt=0, le=5, description="distance of the roller centres from the bearing axis")
-    ]
-    outer_raceway_radius: Annotated[float, LENGTH, Field(gt=0, le=10, description="radius of the outer raceway sphere")]
-    row_offset: Annotated[
-        float, LENGTH, Field(ge=0, le=5, description="axial distance of the roller centres from the mid-plane")
-    ]
+    pitch_radius: Annotated[float, Positive("distance of the roller centres from the bearing axis", LENGTH, 5)]
+    outer_raceway_radius: Annotated[float, Positive("radius of the outer raceway sphere", LENGTH, 10)]
+    row_offset: Annotated[float, Quantity("axial distance of the roller centres from the mid-plane", LENGTH, 0, 5)]
     osculation_inner: Annotated[
-        float, NUMBER, Field(gt=0.9, lt=1, description="roller contour radius / contour radius of the inner raceway")
+        float,
+        Quantity("roller contour radius / contour radius of the inner raceway", NUMBER, 0.9, 1, above=True, below=True),
     ]
     osculation_outer: Annotated[
-        float, NUMBER, Field(gt=0.9, lt=1, description="roller contour radius / radius of the outer raceway sphere")
+        float,
+        Quantity("roller contour radius / radius of the outer raceway sphere", NUMBER, 0.9, 1, above=True, below=True),
     ]
     diametral_clearance: Annotated[
-        float, LENGTH, Field(ge=-1e-3, le=5e-3, description="diametral operating clearance, negative for preload")
+        float, Quantity("diametral operating clearance, negative for preload", LENGTH, -1e-3, 5e-3)
     ]
+    out_of_round_second: Annotated[
+        _Optional, Quantity("wave with two crests: its part of the radial clearance", LENGTH, -1e-3, 1e-3)
+    ] = None
+    out_of_round_third: Annotated[
+        _Optional, Quantity("wave with three crests: its part of the radial clearance", LENGTH, -1e-3, 1e-3)
+    ] = None
+    out_of_round_angle: Annotated[
+        _Optional, Quantity("place of a crest of both, from horizontal; 0 if not given", ANGLE, -math.pi, math.pi)
+    ] = None
 
-    youngs_modulus: Annotated[
-        float, PRESSURE, Field(ge=1e9, le=1e12, description="Young's modulus of rollers and raceways")
-    ]
-    poisson_ratio: Annotated[float, NUMBER, Field(ge=0, lt=0.5, description="Poisson ratio of rollers and raceways")]
-    density: Annotated[float, DENSITY, Field(ge=500, le=25000, description="density of the rollers")]
-    cage_youngs_modulus: Annotated[float, PRESSURE, Field(ge=1e8, le=1e12, description="Young's modulus of the cage")]
-    cage_poisson_ratio: Annotated[float, NUMBER, Field(ge=0, lt=0.5, description="Poisson ratio of the cage")]
-    composite_roughness: Annotated[
-        float, LENGTH, Field(gt=0, le=1e-4, description="composite RMS roughness of roller and raceway")
-    ]
-    hardness: Annotated[
-        float, PRESSURE, Field(ge=1e8, le=1e11, description="Vickers hardness of the softer surface, as a pressure")
-    ]
+    youngs_modulus: Annotated[float, Quantity("Young's modulus of rollers and raceways", PRESSURE, 1e9, 1e12)]
+    poisson_ratio: Annotated[float, Quantity("Poisson ratio of rollers and raceways", NUMBER, 0, 0.5, below=True)]
+    density: Annotated[float, Quantity("density of the rollers", DENSITY, 500, 25000)]
+    cage_youngs_modulus: Annotated[float, Quantity("Young's modulus of the cage", PRESSURE, 1e8, 1e12)]
+    cage_poisson_ratio: Annotated[float, Quantity("Poisson ratio of the cage", NUMBER, 0, 0.5, below=True)]
+    composite_roughness: Annotated[float, Positive("composite RMS roughness of roller and raceway", LENGTH, 1e-4)]
+    hardness: Annotated[float, Quantity("Vickers hardness of the softer surface, as a pressure", PRESSURE, 1e8, 1e11)]
 
     thermal_conductivity: Annotated[
-        float | None, CONDUCTIVITY, Field(gt=0, le=1000, description="thermal conductivity of rollers and raceways")
+        _Optional, Positive("thermal conductivity of rollers and raceways", CONDUCTIVITY, 1000)
     ] = None
-    specific_heat: Annotated[
-        float | None, SPECIFIC_HEAT, Field(gt=0, le=10000, description="specific heat of rollers and raceways")
-    ] = None
+    specific_heat: Annotated[_Optional, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)] = None
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
-        return misfits(self, source)
+        """Yield what keeps the parts from fitting into each other."""
+        # Positions or shapes that contradict each other make all that is computed from them meaningless.
+        contradictions = [*_centres(self, source), *_shape(self, source)]
+        yield from contradictions
+        yield from _spacing(self, source)
+        if not contradictions:
+            yield from _rows(self, source)
+            yield from _rings(self, source)
+
+
+def _centres(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    centre = bearing.outer_raceway_radius - bearing.roller_diameter / 2
+    for key, expected, formula in (
+        ("pitch_radius", centre * math.cos(bearing.contact_angle), "cos(contact_angle)"),
+        ("row_offset", centre * math.sin(bearing.contact_angle), "sin(contact_angle)"),
+    ):
+        if abs(getattr(bearing, key) - expected) > SPHERE_TOLERANCE * abs(expected):
+            yield InputError(
+                f"{key} is {bearing.written(key)}, but rollers that touch the outer raceway sphere have "
+                f"(outer_raceway_radius - roller_diameter/2) {formula} = {bearing.written(key, expected)}",
+                where=source.where(key, "value"),
+                allowed=f"agreement within {SPHERE_TOLERANCE:.0%}",
+                remedy="Check pitch_radius, row_offset, outer_raceway_radius, roller_diameter and contact_angle.",
+            )
+
+
+def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    # Centres of neighbouring rollers are a chord of the pitch circle apart.
+    spacing = 2 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
+    if spacing <= bearing.roller_diameter:
+        most = math.floor(math.pi / math.asin(min(1.0, bearing.roller_diameter / (2 * bearing.pitch_radius))))
+        yield InputError(
+            f"{bearing.rollers_per_row} rollers do not fit round the circumference: roller_diameter is "
+            f"{bearing.written('roller_diameter')}, centres are {bearing.written('roller_diameter', spacing)} apart",
+            where=source.where("rollers_per_row", "value"),
+            allowed=f"2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter, here at most {most} rollers",
+            remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row counts one row only.",
+        )
+
+
+def _shape(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    slenderness = bearing.roller_length / bearing.roller_diameter
+    if not 0.5 <= slenderness <= 4:
+        yield InputError(
+            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} times roller_diameter",
+            where=source.where("roller_length", "value"),
+            allowed="0.5 to 4 times roller_diameter",
+            remedy="Check roller_length and roller_diameter.",
+        )
+
+
+def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    space = geometry.envelope(bearing)
+    if space.nearest < 0.0:
+        overlap = bearing.written("row_offset", -2.0 * space.nearest)
+        coincide = bearing.row_offset == 0.0
+        what = "both rows lie in one plane" if coincide else f"the rollers of the two rows overlap by {overlap}"
+        yield InputError(
+            f"{what}: row_offset is {bearing.written('row_offset')}, roller_length {bearing.written('roller_length')}",
+            where=source.where("row_offset", "value"),
+            allowed="rollers that end before the mid-plane: row_offset > roller_length/2 cos(contact_angle) + end radius "
+            f"sin(contact_angle) = {bearing.written('row_offset', bearing.row_offset - space.nearest)}",
+            remedy="Check roller_length, contact_angle and outer_raceway_radius.",
+        )
+    if bearing.width is not None and space.farthest > bearing.width / 2:
+        yield InputError(
+            f"the rollers reach {bearing.written('width', space.farthest)} from the mid-plane, farther than the faces of "
+            f"a bearing of width {bearing.written('width')}",
+            where=source.where("width", "value"),
+            allowed=f"a width of at least {bearing.written('width', 2.0 * space.farthest)} for these rollers",
+            remedy="Check width, roller_length, contact_angle and outer_raceway_radius.",
+        )
+
+
+def _rings(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    bore, outside = bearing.bore_diameter, bearing.outside_diameter
+    if bore is not None and outside is not None and bore >= outside:
+        yield InputError(
+            f"bore_diameter is {bearing.written('bore_diameter')}",
+            where=source.where("bore_diameter", "value"),
+            allowed=f"less than outside_diameter, {bearing.written('bore_diameter', outside)}",
+            remedy="Check both diameters.",
+        )
+    inside = geometry.envelope(bearing).inside
+    if bore is not None and inside <= bore / 2 and (outside is None or bore < outside):
+        yield InputError(
+            f"bore_diameter is {bearing.written('bore_diameter')}, so that nothing is left of the inner ring below the "
+            "rollers",
+            where=source.where("bore_diameter", "value"),
+            allowed=f"below {bearing.written('bore_diameter', 2.0 * inside)}, the smallest diameter of the inner raceway",
+            remedy="Check bore_diameter, outer_raceway_radius, roller_diameter and roller_length.",
+        )
+    if outside is not None and outside / 2 <= bearing.outer_raceway_radius:
+        yield InputError(
+            f"outside_diameter is {bearing.written('outside_diameter')}, smaller than the outer raceway sphere",
+            where=source.where("outside_diameter", "value"),
+            allowed=f"above {bearing.written('outside_diameter', 2.0 * bearing.outer_raceway_radius)}, twice "
+            "outer_raceway_radius",
+            remedy="Check outside_diameter and outer_raceway_radius, which is no diameter.",
+        )

@@ -1,27 +1,29 @@
 """The inside of a spherical roller bearing from what its maker publishes.
 
 A catalogue page gives the boundary dimensions, the load ratings and the axial factors, and not one dimension of the
-rollers. What the page leaves open is sampled here within accepted ranges; every sample is a bearing that can exist and
-that has the static load rating of the page. The result is an estimate with its scatter, **not the maker's drawing**.
+rollers. Dimensions that the page leaves open are sampled here within accepted ranges; every sample is a bearing that
+can exist and has the static load rating of the page. The result is an estimate with its scatter, **not the maker's
+drawing**.
 
 * Contact angle: e = 1.5 tan(alpha) (ISO 281), e as printed, with two decimals.
 * Outer raceway: a sphere that meets the face of the outer ring at the shoulder diameter, R^2 = (D1/2)^2 + (B/2)^2.
 * Roller length: from the static load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha) (ISO 76), on which makers
   agree within 15 % for one size; not from the dynamic rating, in which they differ by up to 37 %.
-* Roller diameter: what sphere and inner ring leave between them.
+* Roller diameter: the room that sphere and inner ring leave between them.
 * Number of rollers: from their spacing; or from the overrolling frequencies, BPFO + BPFI = Z per turn of the shaft,
   which give the roller diameter too: (BPFI - BPFO)/Z = Dw cos(alpha)/Dpw.
 """
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from macroslip.bearing.bearing import Bearing
-from macroslip.bearing.estimated_record import ROWS, estimated_record
-from macroslip.bearing.makers_page import MakersPage
+from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
@@ -40,7 +42,7 @@ class Accepted(NamedTuple):
 
 
 STATIC_RATING = Accepted(0.93, 1.07)
-"""Static load rating of the formula over that of the page: makers differ by up to 15 % for one size."""
+"""Static load rating of the formula over the page's: makers differ by up to 15 % for one size."""
 SPACING = Accepted(1.06, 1.22)
 """Distance of neighbouring roller centres over roller diameter: the cage needs the rest."""
 INNER_WALL = Accepted(0.18, 0.27)
@@ -61,6 +63,109 @@ E_ROUNDING = 0.005
 """Half of the last printed digit of e."""
 FREQUENCY_ROUNDING = 0.005
 """Half of the last digit of overrolling frequencies per turn."""
+
+ROWS = 2
+PERCENTILES = (10.0, 90.0)
+"""Ends of the ranges that are given: four out of five samples lie between them."""
+
+_NOTE = "estimate: median of what fits the maker's page, not the maker's drawing"
+_ON_SPHERE = "from sphere, roller diameter and contact angle"
+_OSCULATION = ("1", 3, "E", "usual for spherical roller bearings")
+#: Unit, decimals, tag and note of the sampled dimensions.
+_WRITTEN = {
+    "rollers_per_row": ("1", 0, "E", _NOTE),
+    "roller_diameter": ("mm", 1, "E", _NOTE),
+    "roller_length": ("mm", 1, "E", f"from the static load rating, ISO 76; {_NOTE}"),
+    "contact_angle": ("deg", 2, "D", "from e = 1.5 tan(contact angle), ISO 281"),
+    "outer_raceway_radius": ("mm", 1, "E", _NOTE),
+    "diametral_clearance": ("mm", 3, "E", "operating; in proportion to the bore"),
+}
+_SCALES = {"mm": 1e3, "deg": 180.0 / math.pi, "1": 1.0}
+#: Steel, cage and surfaces are taken from this bearing.
+_STEEL_OF = "skf-240-600-bc"
+_STEEL = (
+    "youngs_modulus", "poisson_ratio", "density", "cage_youngs_modulus", "cage_poisson_ratio", "composite_roughness",
+    "hardness", "thermal_conductivity", "specific_heat",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class MakersPage:
+    """Numbers that a maker publishes of a bearing, SI units.
+
+    Parameters
+    ----------
+    bore, outside, width : float
+        Boundary dimensions d, D, B [m].
+    static_load_rating : float
+        C0 [N].
+    axial_factor_e : float
+        e [-].
+    shoulder : float | None
+        Diameter of the outer ring's shoulder D1 [m].
+    groove : float | None
+        Width of the lubrication groove in the outer ring [m]; the raceways begin beside it.
+    dynamic_load_rating, fatigue_load_limit : float | None
+        C and C_u or P_u [N]; without them the values of ISO 281 are used.
+    axial_factor_y1, axial_factor_y2, axial_factor_y0 : float | None
+        [-]; without them 0.45, 0.67 and 0.44 cot(alpha).
+    mass : float | None
+        Of the bearing [kg].
+    bpfo, bpfi : float | None
+        Overrolling frequencies of outer and inner ring per turn of the shaft [-]; both or none.
+
+    Raises
+    ------
+    InputError
+        If the values contradict each other. `Bearing` has their ranges.
+    """
+
+    bore: float
+    outside: float
+    width: float
+    static_load_rating: float
+    axial_factor_e: float
+    shoulder: float | None = None
+    groove: float | None = None
+    dynamic_load_rating: float | None = None
+    fatigue_load_limit: float | None = None
+    axial_factor_y1: float | None = None
+    axial_factor_y2: float | None = None
+    axial_factor_y0: float | None = None
+    mass: float | None = None
+    bpfo: float | None = None
+    bpfi: float | None = None
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise InputError(f"{field.name} is {value!r}", allowed="a finite number above 0")
+        if not self.bore < self.outside:
+            raise InputError(
+                f"bore is {1e3 * self.bore:g} mm", allowed=f"below the outside diameter, {1e3 * self.outside:g} mm"
+            )
+        if self.shoulder is not None and not self.bore < self.shoulder < self.outside:
+            allowed = f"between bore and outside diameter, {1e3 * self.bore:g} mm and {1e3 * self.outside:g} mm"
+            remedy = "It is the diameter at the outer ring's faces, D1 in catalogues."
+            raise InputError(f"shoulder is {1e3 * self.shoulder:g} mm", allowed=allowed, remedy=remedy)
+        if self.groove is not None and not self.groove < self.width:
+            raise InputError(f"groove is {1e3 * self.groove:g} mm", allowed=f"below the width, {1e3 * self.width:g} mm")
+        if (self.bpfo is None) != (self.bpfi is None):
+            what = "only one overrolling frequency is given"
+            raise InputError(what, allowed="both bpfo and bpfi, or none", remedy="Add the other.")
+        if self.bpfo is not None and self.bpfi is not None:
+            self._check_frequencies(self.bpfo, self.bpfi)
+
+    @staticmethod
+    def _check_frequencies(bpfo: float, bpfi: float) -> None:
+        count = bpfo + bpfi
+        if abs(count - round(count)) > 0.05 or round(count) < 3 or not bpfo < bpfi:
+            raise InputError(
+                f"bpfo is {bpfo:g} and bpfi {bpfi:g} per turn of the shaft, together {count:g}",
+                allowed="a sum that is the whole number of rollers in a row, within 0.05, and bpfo below bpfi",
+                remedy="Divide frequencies in hertz by the shaft's speed in turns per second.",
+            )
 
 
 class EstimatedBearing(NamedTuple):
@@ -84,15 +189,11 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     Parameters
     ----------
     page : MakersPage
-        What the maker publishes.
+        Numbers that the maker publishes.
     name, title : str
         Of the bearing.
     seed : int
         Of the random numbers; the same page and seed give the same bearing.
-
-    Returns
-    -------
-    EstimatedBearing
 
     Raises
     ------
@@ -102,7 +203,7 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     Notes
     -----
     The samples are independent and uniform within the accepted ranges of this module, rejected where the parts do not
-    fit. Length, spacing, sphere and angle of the median bearing agree as those of every sample do.
+    fit. Length, spacing, sphere and angle of the median bearing agree with each other, as in every sample.
 
     References
     ----------
@@ -117,11 +218,11 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
     (29, 75.4, 104.0)
     """
     drawn = _fitting(page, _draw(page, np.random.default_rng(seed)))
-    return EstimatedBearing(estimated_record(page, drawn, name, title), drawn)
+    return EstimatedBearing(_record(page, drawn, name, title), drawn)
 
 
 def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.float64]]:
-    """Sample what the page leaves open, and solve for roller diameter, number and length."""
+    """Sample the dimensions that the page leaves open, and solve for roller diameter, number and length."""
 
     def between(accepted: Accepted) -> NDArray[np.float64]:
         return rng.uniform(*accepted, SAMPLES)
@@ -145,7 +246,7 @@ def _draw(page: MakersPage, rng: np.random.Generator) -> dict[str, NDArray[np.fl
         count = np.full(SAMPLES, float(round(page.bpfo + page.bpfi)))
         gamma = (page.bpfi - page.bpfo + FREQUENCY_ROUNDING * rng.uniform(-2.0, 2.0, SAMPLES)) / count
         diameter = 2.0 * gamma * sphere / (1.0 + gamma)
-    # What the diameter leaves for the inner ring depends little on the length, and the length little on the diameter.
+    # The room for the inner ring depends little on the roller length, and the length little on the diameter.
     for _ in range(30):
         centre = sphere - 0.5 * diameter
         if gamma is None:
@@ -216,3 +317,82 @@ def _fitting(page: MakersPage, drawn: dict[str, NDArray[np.float64]]) -> dict[st
 
 def _within(values: NDArray, accepted: Accepted, margin: float | NDArray = 0.0) -> NDArray[np.bool_]:
     return (values >= accepted.low - margin) & (values <= accepted.high + margin)
+
+
+def _record(page: MakersPage, drawn: Mapping[str, NDArray], name: str, title: str) -> Bearing:
+    """The bearing of the medians; centres of the rollers lie on the sphere of the medians, as in every sample."""
+    entries = {key: _entry(np.median(drawn[key]), drawn[key], *how) for key, how in _WRITTEN.items() if key in drawn}
+    for side in ("inner", "outer"):
+        entries[f"osculation_{side}"] = _entry(np.median(drawn["osculation"]), drawn["osculation"], *_OSCULATION)
+    alpha = math.radians(entries["contact_angle"]["value"])
+    centre = 1e-3 * (entries["outer_raceway_radius"]["value"] - 0.5 * entries["roller_diameter"]["value"])
+    entries["pitch_radius"] = _entry(centre * math.cos(alpha), drawn["pitch_radius"], "mm", 1, "E", _ON_SPHERE)
+    entries["row_offset"] = _entry(centre * math.sin(alpha), drawn["row_offset"], "mm", 1, "E", _ON_SPHERE)
+    entries |= _published(page) | _ratings(page, entries)
+    known = Bearing.read(_STEEL_OF).as_dict()
+    same = {key: known[key] for key in _STEEL}
+    return Bearing.from_dict({"name": name, "title": title} | entries | same)
+
+
+def _entry(value: float, samples: NDArray, unit: str, digits: int, tag: str, note: str) -> dict:
+    """An entry of a bearing file: the value as it would be written, with the range of the samples."""
+
+    def written(number: float) -> float:
+        rounded = round(float(number) * _SCALES[unit], digits)
+        return int(rounded) if digits == 0 else rounded
+
+    low, high = (written(limit) for limit in np.percentile(samples, PERCENTILES))
+    middle = written(value)
+    return {"value": middle, "unit": unit, "tag": tag, "note": note,
+            "range": [min(low, middle), max(high, middle)]}  # fmt: skip
+
+
+def _short(number: float) -> float:
+    """The number without the rounding errors of its conversion, whole where it is whole."""
+    rounded = float(f"{number:.9g}")
+    return int(rounded) if rounded.is_integer() else rounded
+
+
+def _published(page: MakersPage) -> dict[str, dict]:
+    """Entries of the values on the page itself."""
+    found = {
+        "bore_diameter": (page.bore, "mm", "d"),
+        "outside_diameter": (page.outside, "mm", "D"),
+        "width": (page.width, "mm", "B"),
+        "dynamic_load_rating": (page.dynamic_load_rating, "kN", "C"),
+        "static_load_rating": (page.static_load_rating, "kN", "C0"),
+        "fatigue_load_limit": (page.fatigue_load_limit, "kN", "C_u or P_u"),
+        "axial_factor_e": (page.axial_factor_e, "1", "e"),
+        "axial_factor_y1": (page.axial_factor_y1, "1", "Y1"),
+        "axial_factor_y2": (page.axial_factor_y2, "1", "Y2"),
+        "axial_factor_y0": (page.axial_factor_y0, "1", "Y0"),
+        "mass": (page.mass, "kg", "mass"),
+    }
+    scales = {"mm": 1e3, "kN": 1e-3}
+    return {
+        key: {"value": _short(value * scales.get(unit, 1.0)), "unit": unit, "tag": "V",
+              "note": f"maker's page, {symbol}"}
+        for key, (value, unit, symbol) in found.items()
+        if value is not None
+    }  # fmt: skip
+
+
+def _ratings(page: MakersPage, entries: Mapping[str, dict]) -> dict[str, dict]:
+    """Entries of ratings and factors that the page leaves out, by the standards from the median geometry."""
+    alpha = math.radians(entries["contact_angle"]["value"])
+    diameter, length = 1e-3 * entries["roller_diameter"]["value"], 1e-3 * entries["roller_length"]["value"]
+    pitch, count = 2e-3 * entries["pitch_radius"]["value"], entries["rollers_per_row"]["value"]
+    found = {}
+    if page.dynamic_load_rating is None:
+        rating = dynamic_load_rating(ROWS, count, diameter, length, alpha, pitch)
+        note = "ISO 281 from the estimated inside; makers publish up to a third more"
+        found["dynamic_load_rating"] = {"value": round(rating / 1e3), "unit": "kN", "tag": "D", "note": note}
+    if page.fatigue_load_limit is None:
+        limit = fatigue_load_limit(page.static_load_rating, pitch)
+        found["fatigue_load_limit"] = {"value": round(limit / 1e3), "unit": "kN", "tag": "D", "note": "ISO 281"}
+    for name, factor in (("y1", 0.45), ("y2", 0.67), ("y0", 0.44)):
+        if getattr(page, f"axial_factor_{name}") is None:
+            value = round(factor / math.tan(alpha), 2)
+            note = f"{factor} cot(contact angle)"
+            found[f"axial_factor_{name}"] = {"value": value, "unit": "1", "tag": "D", "note": note}
+    return found

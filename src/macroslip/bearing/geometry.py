@@ -1,31 +1,42 @@
-"""Radii and contact curvatures that follow from a bearing's data.
+"""Geometry of a bearing and its rollers: radii, curvatures, space, rows, positions and inertia.
 
-Hart et al., "Dynamic modelling of slip in a wind turbine spherical roller main bearing". The rolling direction lies in
-the plane across the roller's axis, the lateral direction along it. All curvature sums of a valid bearing are positive.
+Hart et al., "Dynamic modelling of slip in a wind turbine spherical roller main bearing". The bearing frame has Z0 along
+the shaft, pointing downwind, Y0 up and X0 = Y0 x Z0 horizontal. A roller's position is its angle from +X0,
+counter-clockwise about Z0: 90 deg is the top, -90 deg the bottom. A positive orbital speed is counter-clockwise about
+Z0, and the roller's spin about its own axis, which also points downwind, is negative then. At a contact the rolling
+direction lies in the plane across the roller's axis, the lateral direction along it. All curvature sums of a valid
+bearing are positive.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
+from macroslip.errors import InputError
+
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from macroslip.bearing.bearing import Bearing
+
+#: Names of the rows, in the order in which results list them.
+ROWS: tuple[str, ...] = ("downwind", "upwind")
+#: Axial sign s of each row: the downwind row (+1) carries downwind thrust.
+AXIAL_SIGNS: Mapping[str, int] = MappingProxyType({"downwind": 1, "upwind": -1})
+# The rows are staggered by half a pitch.
+_STAGGER = MappingProxyType({"downwind": 0.0, "upwind": 0.5})
 
 
 class Curvatures(NamedTuple):
-    """Curvature sums of a contact.
+    """Curvature sums of a contact."""
 
-    Parameters
-    ----------
-    rolling : float
-        Sum of the curvatures of both bodies in the rolling direction [1/m].
-    lateral : float
-        Sum of the curvatures of both bodies along the roller's axis [1/m].
-    """
-
-    rolling: float
-    lateral: float
+    rolling: float  #: Sum of the curvatures of both bodies in the rolling direction [1/m]
+    lateral: float  #: Sum of the curvatures of both bodies along the roller's axis [1/m]
 
 
 def roller_radius(bearing: Bearing) -> float:
@@ -168,22 +179,13 @@ def roller_end_radius(bearing: Bearing) -> float:
 
 
 class Envelope(NamedTuple):
-    """Space that a row's rollers need, from the corners of their ends.
+    """Space that a row's rollers need, from the corners of their ends."""
 
-    Parameters
-    ----------
-    nearest, farthest : float
-        Axial distance from the bearing's mid-plane [m]; a row that crosses the mid-plane has a negative `nearest`.
-    raceway_start : float
-        Axial distance from the mid-plane at which the outer raceway contact can begin [m].
-    inside : float
-        Distance from the bearing axis, at the end that is farther from the mid-plane [m].
-    """
-
+    #: Axial distance from the bearing's mid-plane [m]; a row that crosses the mid-plane has a negative `nearest`.
     nearest: float
     farthest: float
-    raceway_start: float
-    inside: float
+    raceway_start: float  #: Axial distance from the mid-plane at which the outer raceway contact can begin [m]
+    inside: float  #: Distance from the bearing axis, at the end that is farther from the mid-plane [m]
 
 
 def envelope(bearing: Bearing) -> Envelope:
@@ -205,3 +207,43 @@ def envelope(bearing: Bearing) -> Envelope:
         raceway_start=bearing.row_offset - half * cosine + end * sine,
         inside=bearing.pitch_radius - half * sine - end * cosine,
     )
+
+
+def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
+    """Positions (Z,) [rad] of the Z rollers of one of `ROWS` at the start, evenly spaced from the bottom, rising.
+
+    -pi/2 + 2 pi j/Z downwind, -pi/2 + 2 pi (j + 1/2)/Z upwind: rows are staggered by half a pitch. Raises InputError for
+    another row.
+
+    Examples
+    --------
+    >>> np.degrees(initial_angles("downwind", 4)).round(9).tolist()
+    [-90.0, 0.0, 90.0, 180.0]
+    >>> np.degrees(initial_angles("upwind", 4)).round(9).tolist()
+    [-45.0, 45.0, 135.0, 225.0]
+    """
+    if row not in ROWS:
+        raise InputError(f"there is no row {row!r}", allowed=" or ".join(ROWS), remedy="Choose one of the two rows.")
+    return -np.pi / 2 + 2 * np.pi * (np.arange(rollers_per_row) + _STAGGER[row]) / rollers_per_row
+
+
+def roller_mass(density: float, roller_radius: float, roller_length: float) -> float:
+    """Mass of a roller [kg], m = rho pi r^2 l, from its density [kg/m3], radius [m] and length [m].
+
+    Examples
+    --------
+    >>> round(roller_mass(7850, 0.035, 0.106), 6)
+    3.202296
+    """
+    return density * math.pi * roller_radius**2 * roller_length
+
+
+def spin_inertia(mass: float, roller_radius: float) -> float:
+    """Moment of inertia of a roller about its own axis [kg m2], I_z' = m r^2/2, (13), from mass [kg] and radius [m].
+
+    Examples
+    --------
+    >>> round(spin_inertia(3.2, 0.035), 9)
+    0.00196
+    """
+    return mass * roller_radius**2 / 2

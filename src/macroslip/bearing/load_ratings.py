@@ -1,6 +1,8 @@
 """Load ratings that follow from a bearing's inside: static (ISO 76), dynamic and fatigue limit (ISO 281).
 
-Lengths are metres here; the standards' formulas hold for millimetres and newtons.
+Lengths are metres here; the standards' formulas hold for millimetres and newtons. Both ratings take the number of rows i,
+of rollers in a row Z, Dw and effective length L of a roller [m] (Dw of a barrel roller at its middle), alpha [rad] and the
+pitch diameter of the roller centres Dpw [m], above Dw cos(alpha).
 """
 
 from __future__ import annotations
@@ -25,28 +27,8 @@ def static_load_rating(
 ) -> float:
     """Basic static radial load rating, C0 = 44 (1 - Dw cos(alpha)/Dpw) i Z L Dw cos(alpha), C0 in N, lengths in mm.
 
-    Parameters
-    ----------
-    rows : int
-        Number of rows i [-].
-    rollers_per_row : int
-        Rollers in a row Z [-].
-    roller_diameter, roller_length : float
-        Dw and effective length L [m]; Dw of a barrel roller is taken at its middle.
-    contact_angle : float
-        alpha [rad], 0 to below pi/2.
-    pitch : float
-        Pitch diameter of the roller centres Dpw [m], above Dw cos(alpha).
-
-    Returns
-    -------
-    float
-        C0 [N]: the load at which the most loaded contact of a bearing loaded over half its circumference has a
-        pressure of 4000 MPa by the standard's line contact.
-
-    References
-    ----------
-    ISO 76:2006, Rolling bearings - Static load ratings, equation (15).
+    At C0 the most loaded contact of a bearing loaded over half its circumference has a pressure of 4000 MPa by the
+    standard's line contact. ISO 76:2006, Rolling bearings - Static load ratings, equation (15).
 
     Examples
     --------
@@ -58,26 +40,9 @@ def static_load_rating(
 
 
 def geometry_factor(gamma: float) -> float:
-    """Factor f_c of radial roller bearings by linear interpolation in the standard's table.
+    """Factor f_c [-] of radial roller bearings by linear interpolation in the standard's table.
 
-    Parameters
-    ----------
-    gamma : float
-        Dw cos(alpha)/Dpw [-], 0.01 to 0.30.
-
-    Returns
-    -------
-    float
-        f_c [-].
-
-    Raises
-    ------
-    InputError
-        If gamma lies outside the table.
-
-    References
-    ----------
-    ISO 281:2007, table 7. Its values are 172.56 gamma^(2/9) (1 - gamma)^(29/27)/(1 + gamma)^(1/4)
+    gamma is Dw cos(alpha)/Dpw [-], 0.01 to 0.30; outside, InputError. ISO 281:2007, table 7. Its values are 172.56 gamma^(2/9) (1 - gamma)^(29/27)/(1 + gamma)^(1/4)
     {1 + [1.04 ((1 - gamma)/(1 + gamma))^(143/108)]^(9/2)}^(-2/9), which is Lundberg and Palmgren's theory, to 0.05.
 
     Examples
@@ -87,12 +52,9 @@ def geometry_factor(gamma: float) -> float:
     """
     table = np.arange(1, len(_GEOMETRY_FACTORS) + 1) / 100.0
     if not table[0] <= gamma <= table[-1]:
-        raise InputError(
-            f"the ratio of roller to pitch diameter, Dw cos(alpha)/Dpw, is {gamma:.4g}",
-            where="dynamic load rating by ISO 281",
-            allowed="0.01 to 0.30",
-            remedy="Check roller diameter, pitch radius and contact angle.",
-        )
+        what = f"the ratio of roller to pitch diameter, Dw cos(alpha)/Dpw, is {gamma:.4g}"
+        remedy = "Check roller diameter, pitch radius and contact angle."
+        raise InputError(what, where="dynamic load rating by ISO 281", allowed="0.01 to 0.30", remedy=remedy)
     return float(np.interp(gamma, table, _GEOMETRY_FACTORS))
 
 
@@ -104,32 +66,8 @@ def dynamic_load_rating(
     Makers' catalogues have other values than this formula: for spherical roller bearings of one size they differ by up
     to 37 % among each other.
 
-    Parameters
-    ----------
-    rows : int
-        Number of rows i [-].
-    rollers_per_row : int
-        Rollers in a row Z [-].
-    roller_diameter, roller_length : float
-        Dw and effective length L [m].
-    contact_angle : float
-        alpha [rad].
-    pitch : float
-        Pitch diameter of the roller centres Dpw [m].
-
-    Returns
-    -------
-    float
-        C [N], with b_m = 1.15 for spherical roller bearings.
-
-    Raises
-    ------
-    InputError
-        If Dw cos(alpha)/Dpw lies outside 0.01 to 0.30.
-
-    References
-    ----------
-    ISO 281:2007, Rolling bearings - Dynamic load ratings and rating life, section 7.1.
+    b_m = 1.15 for spherical roller bearings. Raises InputError if Dw cos(alpha)/Dpw lies outside 0.01 to 0.30. ISO 281:2007,
+    Rolling bearings - Dynamic load ratings and rating life, section 7.1.
 
     Examples
     --------
@@ -146,21 +84,7 @@ def dynamic_load_rating(
 def fatigue_load_limit(static_load_rating: float, pitch: float) -> float:
     """Fatigue load limit of a roller bearing, C_u = C0/8.2 (100 mm/Dpw)^0.3; C0/8.2 up to a pitch of 100 mm.
 
-    Parameters
-    ----------
-    static_load_rating : float
-        C0 [N].
-    pitch : float
-        Pitch diameter Dpw [m].
-
-    Returns
-    -------
-    float
-        C_u [N].
-
-    References
-    ----------
-    ISO 281:2007, annex B.3.3 (simplified method), roller bearings.
+    From C0 [N] and the pitch diameter Dpw [m]: ISO 281:2007, annex B.3.3 (simplified method), roller bearings.
 
     Examples
     --------

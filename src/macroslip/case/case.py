@@ -1,23 +1,29 @@
-"""A case: everything one simulation needs, validated once and frozen."""
+"""A case: everything one simulation needs, validated once and frozen; its fields are the keys of a case file."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, field
-from numbers import Integral, Real
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from numbers import Integral
+from typing import Annotated, Any
 
 from macroslip.bearing import Bearing
-from macroslip.case.parts import BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
-from macroslip.catalogue.problems import shown
+from macroslip.case.load_source import LoadSource
+from macroslip.case.oil_supply import OilSupply, check_supply, oil_gap
+from macroslip.case.parts import INTEGRATORS, BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
+from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
-from macroslip.loads import BearingLoads, Drivetrain, HubLoads
+from macroslip.input.fields import Choice, Flag, Form, Given, Quantity, Text
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import shown, together
+from macroslip.input.section import Made, OrWord, Variants, form_from, input_section
+from macroslip.input.units import TEMPERATURE
+from macroslip.loads import BearingLoads, Drivetrain, HubLoads, RollerLoads, main_bearing_load
 from macroslip.loads.source_file import without_folders
 from macroslip.lubricant import Lubricant
-from macroslip.mechanisms import Laws
 from macroslip.overview import html_overview
-from macroslip.whole_bearing.cage import Cage
+from macroslip.whole.cage import SKEW_KEYS, Cage
 
 #: Whether orbits are imposed, or rollers and cages move together.
 IMPOSED_ORBIT, WHOLE_BEARING = DYNAMICS = ("imposed-orbit", "whole-bearing")
@@ -26,31 +32,71 @@ IMPOSED_ORBIT, WHOLE_BEARING = DYNAMICS = ("imposed-orbit", "whole-bearing")
 BALANCE = "balance"
 
 
-def _check(good: bool, what: str, where: str, allowed: str, remedy: str = "") -> None:
-    if not good:
-        raise InputError(what, where=where, allowed=allowed, remedy=remedy)
+@dataclass(frozen=True)
+class RollerNumbers(Form):
+    """A list of whole numbers, or all; whether a number exists is checked with the bearing."""
+
+    form = "all, or a list of whole numbers such as [0, 7]"
+
+    def read(self, value: Any, given: Given) -> str | tuple[int, ...]:
+        """Check that each is a whole number; NumPy's are welcome."""
+        if isinstance(value, str) and value == "all":
+            return "all"
+        numbers = () if isinstance(value, str) or not isinstance(value, Iterable) else tuple(value)
+        if not numbers or not all(isinstance(one, Integral) and not isinstance(one, bool) for one in numbers):
+            raise self.wrong(value)
+        return tuple(int(number) for number in numbers)
+
+    def json(self) -> dict[str, Any]:
+        """A list of integers, or the word."""
+        numbers = {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 1, "uniqueItems": True}
+        return {"anyOf": [{"const": "all"}, numbers]}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True)
+class InletTemperature(Quantity):
+    """A temperature, or the word balance."""
+
+    words: tuple[str, ...] = (BALANCE,)
+
+    def read(self, value: Any, given: Given) -> float | str | None:
+        """The word, or the temperature [K]."""
+        if isinstance(value, str) and value == BALANCE:
+            return BALANCE
+        if isinstance(value, str) and not given.in_file:
+            allowed = "a temperature [K], 'balance', or None for the lubricant's own"
+            raise InputError(f"it is {shown(value)}", allowed=allowed)
+        return super().read(value, given)
+
+
+@input_section(
+    "",
+    "everything one simulation needs",
+    groups={"forces": ("forces on the rollers that can be switched off", ("gravity", "drag"))},
+)
 class Case:
     """One simulation.
 
     Parameters
     ----------
-    loads : HubLoads or BearingLoads
     bearing : Bearing
     lubricant : Lubricant
     temperature : float or "balance", optional
         Of the oil at the inlets of the contacts [K]; None: that for which the lubricant's values are given. "balance":
-        the one at which friction power is what the bearing loses by `heat`.
+        the temperature at which the bearing loses its friction power by `heat`.
     heat : Heat, optional
         Goes with "balance".
+    oil_supply : "flooded", "skf" or float, optional
+        How full the inlets of all contacts are: flooded; as SKF's replenishment factor says; or the film over the flooded
+        film, 0.3 to 1, at the inner raceway under the mean load and speed. Film, rolling resistance and idle contacts follow
+        from it. None: as the lubricant's `starvation`, `inlet_film` and `fullness` say.
+    loads : HubLoads, BearingLoads or RollerLoads
     drivetrain : Drivetrain
         Turns hub loads into main-bearing load; its tilt also directs the rollers' weight.
     gravity, drag : bool
         Whether weight and drag act on the rollers.
     laws : Laws
-        Mechanisms in the contacts; the paper's by default, `Laws.physical()` for all of them.
+        Mechanisms in the contacts: all of them, `Laws.physical()`, by default; `Laws.paper()` is the model of Hart et al.
     dynamics : "imposed-orbit" or "whole-bearing"
         Whether every roller turns on its own on an orbit of pure rolling, or all move together with the cage.
     cage : Cage
@@ -69,7 +115,7 @@ class Case:
     Raises
     ------
     InputError
-        For a roller number that does not exist or a wrong choice.
+        For a wrong value, and for values that do not go together.
 
     Examples
     --------
@@ -79,82 +125,60 @@ class Case:
     (28, 0.0002)
     """
 
-    loads: HubLoads | BearingLoads
-    bearing: Bearing = field(default_factory=lambda: Bearing.read("skf-240-600-bc"))
-    lubricant: Lubricant = field(default_factory=lambda: Lubricant.read("vg460-pao"))
-    temperature: float | str | None = None
+    bearing: Annotated[Bearing, Made((Bearing,), Text("name in the catalogue, or path of a bearing file"))] = field(
+        default_factory=lambda: Bearing.read("skf-240-600-bc")
+    )
+    lubricant: Annotated[Lubricant, Made((Lubricant,), Text("name in the catalogue, or path of a lubricant file"))] = (
+        field(default_factory=lambda: Lubricant.read("vg460-pao"))
+    )
+    temperature: Annotated[
+        float | str | None,
+        InletTemperature(
+            "oil at the inlets of the contacts; without it that of the lubricant's values", TEMPERATURE, 253.15, 423.15
+        ),
+    ] = None
     heat: Heat | None = None
+    oil_supply: Annotated[
+        str | float | None,
+        OilSupply(
+            "how full the inlets of all contacts are: flooded, skf (replenishment), or film / flooded film, 0.3 to 1"
+        ),
+    ] = None
+    loads: Annotated[
+        HubLoads | BearingLoads | RollerLoads, Made((HubLoads, BearingLoads, RollerLoads), form_from(LoadSource))
+    ]
     drivetrain: Drivetrain = field(default_factory=Drivetrain)
-    gravity: bool = True
-    drag: bool = True
-    laws: Laws = field(default_factory=Laws.paper)
-    dynamics: str = IMPOSED_ORBIT
+    gravity: Annotated[bool, Flag("weight of the rollers")] = True
+    drag: Annotated[bool, Flag("drag of the lubricant")] = True
+    laws: Annotated[
+        Laws, Variants("named set of mechanisms", "model", "physical", dict.fromkeys(PRESETS, Laws), PRESETS)
+    ] = field(default_factory=Laws.physical)
+    dynamics: Annotated[
+        str, Choice("rollers on orbits of pure rolling, or all of them together with the cage", lambda: DYNAMICS)
+    ] = IMPOSED_ORBIT
     cage: Cage = field(default_factory=Cage)
-    integrator: Radau | ExplicitEuler | BackwardEuler = field(default_factory=Radau)
+    integrator: Annotated[
+        Radau | BackwardEuler | ExplicitEuler, Variants("method of integration in time", "method", "radau", INTEGRATORS)
+    ] = field(default_factory=Radau)
     window: Window = field(default_factory=Window)
-    rollers: str | Sequence[int] = "all"
-    traces: Traces | None = None
-    contact_details: bool = True
-    rating: bool = True
+    rollers: Annotated[str | Sequence[int], RollerNumbers("numbers of the rollers to simulate in each row, from 0")] = (
+        "all"
+    )
+    traces: Annotated[Traces | None, OrWord("none")] = None
+    contact_details: Annotated[
+        bool, Flag("whether to record where on the contacts energy goes, how hot and how densely")
+    ] = True
+    rating: Annotated[bool, Flag("whether to rate the bearing beside its slip: safety, lives, pressure, films")] = True
 
     def __post_init__(self) -> None:
-        for name, kinds in (
-            ("loads", (HubLoads, BearingLoads)),
-            ("bearing", (Bearing,)),
-            ("lubricant", (Lubricant,)),
-            ("drivetrain", (Drivetrain,)),
-            ("gravity", (bool,)),
-            ("drag", (bool,)),
-            ("laws", (Laws,)),
-            ("cage", (Cage,)),
-            ("integrator", (Radau, ExplicitEuler, BackwardEuler)),
-            ("window", (Window,)),
-            ("contact_details", (bool,)),
-            ("rating", (bool,)),
-        ):
-            value = getattr(self, name)
-            allowed = " or ".join(kind.__name__ for kind in kinds)
-            _check(isinstance(value, kinds), f"it is {type(value).__name__}", name, allowed)
-        self._check_temperature()
-        _check_dynamics(self)
-        object.__setattr__(self, "rollers", _rollers(self.rollers, self.bearing.rollers_per_row))
-        first, last = float(self.loads.time[0]), float(self.loads.time[-1])
-        start = first if self.window.start is None else self.window.start
-        end = last if self.window.end is None else self.window.end
-        _check(
-            first <= start < end <= last,
-            f"the window runs from {start!r} s to {end!r} s",
-            "window",
-            f"start before end, both within the loads' {first:g} s to {last:g} s",
-        )
-        if self.traces is not None:
-            start = first if self.traces.start is None else self.traces.start
-            end = last if self.traces.end is None else self.traces.end
-            _check(
-                first <= start <= end <= last,
-                f"the traces run from {start!r} s to {end!r} s",
-                "traces",
-                f"times within the loads' {first:g} s to {last:g} s",
-            )
-
-    def _check_temperature(self) -> None:
-        given = self.temperature
-        words = "a temperature [K], 'balance', or None for the lubricant's own"
-        if isinstance(given, str):
-            _check(given == BALANCE, f"it is {shown(given)}", "temperature", words)
-            _check(
-                isinstance(self.heat, Heat),
-                "temperature is to balance, and the heat that the bearing loses is not given",
-                "heat",
-                "conductance to the surroundings and their temperature",
-                "40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine.",
-            )
-        elif given is not None:
-            _check(
-                isinstance(given, Real) and not isinstance(given, bool), f"it is {shown(given)}", "temperature", words
-            )
-            object.__setattr__(self, "temperature", float(given))
-            self.lubricant.at(float(given))
+        problems = [
+            *_temperature(self),
+            *_raised(check_supply, self.oil_supply, self.bearing),
+            *_dynamics(self),
+            *_times_and_rollers(self),
+        ]
+        if problems:
+            raise together(problems)
 
     @property
     def oil(self) -> Lubricant:
@@ -165,16 +189,30 @@ class Case:
         InputError
             If the temperature is still to be found.
         """
-        if self.temperature is None:
-            return self.lubricant
-        _check(
-            self.temperature != BALANCE,
-            "the temperature is that of a balance of heat, which only a simulation finds",
-            "temperature",
-            "a temperature",
-            "Give the temperature of the oil; inlet_temperature of a result has the one it found.",
-        )
-        return self.lubricant.at(self.temperature)
+        if self.temperature == BALANCE:
+            raise InputError(
+                "the temperature is that of a balance of heat, which only a simulation finds",
+                where="temperature",
+                allowed="a temperature",
+                remedy="Give the temperature of the oil; inlet_temperature of a result has the one it found.",
+            )
+        oil = self.lubricant if self.temperature is None else self.lubricant.at(self.temperature)
+        if self.oil_supply is None:
+            return oil
+        return oil.supplied(oil_gap(self.oil_supply, self.bearing, oil, self.bearing_loads, self.laws))
+
+    @property
+    def ring_loads(self) -> BearingLoads | RollerLoads:
+        """What loads the rollers: the load on the inner ring, or loads of the rollers that are given."""
+        return main_bearing_load(self.loads, self.drivetrain) if isinstance(self.loads, HubLoads) else self.loads
+
+    @property
+    def bearing_loads(self) -> BearingLoads:
+        """The load on the inner ring; of given roller loads their resultant."""
+        loads = self.ring_loads
+        if isinstance(loads, RollerLoads):
+            return loads.resultant(self.bearing.contact_angle, self.bearing.rollers_per_row)
+        return loads
 
     @property
     def roller_numbers(self) -> tuple[int, ...]:
@@ -187,7 +225,7 @@ class Case:
         """The full input as plain data; of the load series its source, extent and a hash of all its numbers."""
         loads = self.loads
         digest = hashlib.sha256()
-        for name in ("time", "shaft_speed", "force", "moment"):
+        for name in ("time", "shaft_speed", "force", "moment", "angle", "load"):
             if hasattr(loads, name):
                 digest.update(getattr(loads, name).tobytes())
         return {
@@ -198,15 +236,18 @@ class Case:
                 "start": float(loads.time[0]),
                 "end": float(loads.time[-1]),
                 "sha256": digest.hexdigest(),
+                **({"event": True} if loads.event else {}),
             },
             "bearing": self.bearing.as_dict(),
             "lubricant": self.lubricant.as_dict(),
             "temperature": self.temperature,
-            "heat": asdict(self.heat) if self.heat else None,
+            "heat": {key: one for key, one in asdict(self.heat).items() if one is not None} if self.heat else None,
+            **({"oil_supply": self.oil_supply} if self.oil_supply is not None else {}),
             "drivetrain": asdict(self.drivetrain),
             "forces": {"gravity": self.gravity, "drag": self.drag},
             "laws": {"model": self.laws.name, **asdict(self.laws)},
-            **({"dynamics": self.dynamics, "cage": asdict(self.cage)} if self.dynamics == WHOLE_BEARING else {}),
+            **({"dynamics": self.dynamics} if self.dynamics == WHOLE_BEARING else {}),
+            **({"cage": asdict(self.cage)} if self.dynamics == WHOLE_BEARING or self.laws.skew != "none" else {}),
             "integrator": {"method": type(self.integrator).__name__, **asdict(self.integrator)},
             "window": asdict(self.window),
             "rollers": self.rollers if self.rollers == "all" else list(self.rollers),
@@ -225,7 +266,8 @@ class Case:
         """The main data, each in a few words."""
         loads, start, end = self.loads, self.window.start, self.window.end
         count = "all rollers" if self.rollers == "all" else f"{len(self.roller_numbers)} rollers of each row"
-        opens = "after the first orbit" if start is None else f"at {start:g} s"
+        late = "at the first sample" if loads.event else "after the first orbit"
+        opens = late if start is None else f"at {start:g} s"
         return [
             ("loads", f"{loads.source}, {loads.time[0]:g} s to {loads.time[-1]:g} s"),
             ("bearing", self.bearing.name),
@@ -239,38 +281,90 @@ class Case:
         ]
 
 
-def _check_dynamics(case: Case) -> None:
-    """Refuse what the chosen dynamics cannot use."""
-    _check(case.dynamics in DYNAMICS, f"'{case.dynamics}' does not exist", "dynamics", " or ".join(DYNAMICS))
+def _temperature(case: Case) -> Iterator[InputError]:
+    """Yield faults of the temperature."""
+    if case.temperature == BALANCE and case.heat is None:
+        yield InputError(
+            "temperature is to balance, and the heat that the bearing loses is not given",
+            where="heat",
+            allowed="conductance to the surroundings and their temperature",
+            remedy="40 to 80 W/K is an estimate for the main bearing of a 2 MW turbine.",
+        )
+    if isinstance(case.temperature, float):
+        for problem in _raised(case.lubricant.at, case.temperature):
+            yield Place(Source(), ("temperature",)).blamed(problem)
+
+
+def _raised(check: Callable[..., Any], *values: Any) -> Iterator[InputError]:
+    """Yield the fault that a check raises."""
+    try:
+        check(*values)
+    except InputError as problem:
+        yield problem
+
+
+def _dynamics(case: Case) -> Iterator[InputError]:
+    """Yield values that the chosen dynamics cannot use."""
+    default, skews = Cage(), case.laws.skew != "none"
+    given = [name for name in SKEW_KEYS if getattr(case.cage, name) != getattr(default, name)]
+    if given and not skews:
+        yield InputError(
+            f"{' and '.join(given)} tell how the cage holds rollers that skew, and here they are held straight",
+            where="cage",
+            allowed="with laws: {skew: quasi-static}",
+            remedy=f"Set laws.skew: quasi-static, or remove {' and '.join(given)}.",
+        )
     if case.dynamics == IMPOSED_ORBIT:
-        _check(
-            case.cage == Cage(), "a cage is described, but rollers on imposed orbits do not use it", "cage",
-            "with dynamics: whole-bearing", "Set dynamics: whole-bearing, or remove the cage",
-        )  # fmt: skip
+        used = (*SKEW_KEYS, "gap") if skews else SKEW_KEYS
+        if replace(case.cage, **{name: getattr(default, name) for name in used}) != default:
+            yield InputError(
+                "a cage is described, but rollers on imposed orbits do not use it",
+                where="cage",
+                allowed="with dynamics: whole-bearing",
+                remedy="Set dynamics: whole-bearing, or remove the cage.",
+            )
+        if skews:
+            yield from _raised(case.cage.check_fit, case.bearing)
         return
-    integrator = case.integrator
-    fixed = f"a fixed step of {getattr(integrator, 'step', 0.0):g} s"
-    _check(
-        isinstance(integrator, Radau),
-        f"{fixed} cannot resolve the impacts of rollers on their cage, which take a tenth of a millisecond and begin at "
-        "any time",
-        "integrator",
-        "an error-controlled integrator for dynamics: whole-bearing",
-        "Choose integrator.method: radau; its tolerance serves the whole bearing too",
-    )
-    case.cage.check_fit(case.bearing)
+    if skews:
+        yield InputError(
+            "skew is computed on imposed orbits only: a pocket of the whole bearing has no ends that could hold a roller",
+            where="laws.skew",
+            allowed="none, with dynamics: whole-bearing",
+            remedy="Set dynamics: imposed-orbit, or laws.skew: none.",
+        )
+    if isinstance(case.loads, RollerLoads):
+        yield InputError(
+            "loads of the rollers are given over their places, but in a whole bearing the rollers' places, and with them "
+            "their loads, follow from the simulation",
+            where="loads.roller_loads",
+            allowed="loads at the hub or on the main bearing, for dynamics: whole-bearing",
+            remedy="Set dynamics: imposed-orbit, or give the load on the bearing.",
+        )
+    if not isinstance(case.integrator, Radau):
+        yield InputError(
+            f"a fixed step of {case.integrator.step:g} s cannot resolve the impacts of rollers on their cage, which take "
+            "a tenth of a millisecond and begin at any time",
+            where="integrator",
+            allowed="an error-controlled integrator for dynamics: whole-bearing",
+            remedy="Choose integrator.method: radau; its tolerance serves the whole bearing too.",
+        )
+    yield from _raised(case.cage.check_fit, case.bearing)
 
 
-def _rollers(given: str | Iterable[int], count: int) -> str | tuple[int, ...]:
-    """Numbers of the rollers as plain integers: NumPy's are welcome."""
-    if isinstance(given, str) and given == "all":
-        return "all"
-    numbers = () if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
-    whole = all(isinstance(number, Integral) and not isinstance(number, bool) for number in numbers)
-    _check(
-        whole and 0 < len(set(numbers)) == len(numbers) and min(numbers) >= 0 and max(numbers) < count,
-        f"rollers is {shown(given)}",
-        "rollers",
-        f"all, or a list of different numbers from 0 to {count - 1}",
-    )
-    return tuple(int(number) for number in numbers)
+def _times_and_rollers(case: Case) -> Iterator[InputError]:
+    """Yield rollers that the bearing does not have, and times at which there are no loads."""
+    count, numbers = case.bearing.rollers_per_row, case.roller_numbers
+    if len(set(numbers)) < len(numbers) or min(numbers) < 0 or max(numbers) >= count:
+        allowed = f"all, or a list of different numbers from 0 to {count - 1}"
+        yield InputError(f"rollers is {shown(list(numbers))}", where="rollers", allowed=allowed)
+    first, last = float(case.loads.time[0]), float(case.loads.time[-1])
+    for name, part, allowed in (
+        ("window", case.window, "start before end, both within the loads'"),
+        ("traces", case.traces, "times within the loads'"),
+    ):
+        start = first if part is None or part.start is None else part.start
+        end = last if part is None or part.end is None else part.end
+        if not first <= start <= end <= last or (name == "window" and start == end):
+            what, allowed = f"the {name} {'runs' if name == 'window' else 'run'} from {start!r} s to {end!r} s", allowed
+            yield InputError(what, where=name, allowed=f"{allowed} {first:g} s to {last:g} s")

@@ -3,47 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
-from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from macroslip.bearing import Bearing
-from macroslip.case.case import Case
-from macroslip.case.keys import LOAD_SOURCES, CaseFile, LawsKeys, LoadsKeys
-from macroslip.catalogue import Record
-from macroslip.catalogue.input_section import read_fields
-from macroslip.catalogue.problems import shown, together
-from macroslip.catalogue.section_forms import json_schema
-from macroslip.catalogue.source import Place, Source, parse, read_text
+from macroslip.case.case import BALANCE, Case
+from macroslip.case.load_source import LoadSource
+from macroslip.contact.mechanisms import check_lubricant
 from macroslip.errors import InputError
-from macroslip.loads import BearingLoads, HubLoads
+from macroslip.input.files import Place, Source, parse, read_text
+from macroslip.input.messages import nearest, parts_of, shown, together
+from macroslip.input.record import Record
+from macroslip.input.section import fields_of, json_schema, read_fields
+from macroslip.loads import BearingLoads, HubLoads, RollerLoads
+from macroslip.loads.statics import BEARINGS
 from macroslip.lubricant import Lubricant
-from macroslip.mechanisms import Laws
 
-# Advice for programs, in the words of a case file.
-_ADVICE = {
-    "read it with BearingLoads.read": "name it under bearing_file",
-    "read it with HubLoads.read, then main_bearing_load": "name it under file",
-    "become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())": "belong under file",
-    "(start=, end=)": "(loads.start, loads.end)",
-}
+#: Value of `drivetrain.bearing` that stands for two cases.
+BOTH = "both"
 
 
-def read_case(path: str | PathLike[str]) -> Case:
+def read_case(path: str | PathLike[str], *, bearing: str = "") -> Case:
     """Read a case file.
 
-    Parameters
-    ----------
-    path : path
-        YAML file; `macroslip init` writes one with every key explained. Every quantity carries its unit. Relative paths
-        in it start at its own folder.
-
-    Returns
-    -------
-    Case
-        In SI units.
+    `macroslip init` writes one with every key explained. Every quantity carries its unit. Relative paths in it start at its
+    own folder. Of a file with `drivetrain.bearing: both`, `bearing` is the one that is meant, front or rear.
 
     Raises
     ------
@@ -51,161 +36,111 @@ def read_case(path: str | PathLike[str]) -> Case:
         If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
     """
     path = Path(path)
-    remedy = "Write a case file that runs with: macroslip init"
-    text = read_text(path, "the case file cannot be read", where=str(path), remedy=remedy)
-    data, source = parse(text, str(path), remedy)
+    data, source = _content(path)
+    if bearing:
+        data["drivetrain"]["bearing"] = bearing
     if "case" in data:
         raise InputError("this is a study file, not a case file", where=str(path), remedy="Run it by macroslip study.")
-    return CaseBuilder(data, source, path.parent).case()
+    case = build_case(data, source, path.parent)
+    if case.heat is not None and case.temperature != BALANCE:  # a case of a balance that was found keeps its heat
+        raise Place(source, ("heat",)).problem(
+            "only a balance of heat uses it",
+            allowed="with temperature: balance",
+            remedy="Set temperature: balance, or remove heat.",
+        )
+    return case
 
 
 def files_named_in(path: Path) -> list[Path]:
     """Files that a case file names: bearing, lubricant and loads. None of a file that cannot be read."""
     try:
-        data, _ = parse(read_text(path, "the case file cannot be read"), str(path))
+        data, _ = _content(path)
     except InputError:
-        return []  # the reader of the case reports what is wrong with it
+        return []  # the reader of the case reports its faults
     loads = data.get("loads")
     named = [data.get("bearing"), data.get("lubricant")]
-    named += [loads.get("file"), loads.get("bearing_file")] if isinstance(loads, Mapping) else []
+    named += [loads.get(key) for key in ("file", "bearing_file", "roller_loads")] if isinstance(loads, Mapping) else []
     return [path.parent / name for name in named if isinstance(name, str) and "\0" not in name]
+
+
+def names_key(path: Path, key: str) -> bool:
+    """Whether a case file that can be read has a key."""
+    return key in _content(path)[0]
+
+
+def bearings_in(path: Path) -> tuple[str, ...]:
+    """The main bearings that a case file means by `drivetrain.bearing: both`; otherwise one, without a name."""
+    drivetrain = _content(path)[0].get("drivetrain")
+    return BEARINGS if isinstance(drivetrain, Mapping) and drivetrain.get("bearing") == BOTH else ("",)
+
+
+def _content(path: Path) -> tuple[dict[Any, Any], Source]:
+    remedy = "Write a case file that runs with: macroslip init"
+    return parse(read_text(path, "the case file cannot be read", where=str(path), remedy=remedy), str(path), remedy)
 
 
 def case_schema() -> dict[str, Any]:
     """JSON Schema (2020-12) of the case file, for editors and for programs that write such files."""
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "case of macroslip",
-        **json_schema(CaseFile),
-    }
+    schema = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "case of macroslip"} | json_schema(
+        Case
+    )
+    schema["properties"]["drivetrain"]["properties"]["bearing"]["enum"].append(BOTH)
+    return schema
 
 
-class CaseBuilder:
-    """Turns the content of a case file into the parts of a case, and remembers every problem on the way."""
+def build_case(
+    data: Mapping[str, Any],
+    source: Source,
+    folder: Path,
+    *,
+    records: Mapping[str, Record] | None = None,
+    series: Callable[[LoadSource], HubLoads | BearingLoads | RollerLoads] | None = None,
+) -> Case:
+    """Make a case of the content of a case file; raises InputError with all that is wrong.
 
-    def __init__(self, data: Mapping[str, Any], source: Source, folder: Path):
-        self.place, self.folder = Place(source), folder
-        self.values, self.problems = read_fields(CaseFile, data, self.place)
-        self.is_bearing_wrong = "bearing" in data and "bearing" not in self.values
-
-    def case(self) -> Case:
-        """Build the case, or raise all problems."""
-        parts: dict[str, Any] = {}
-        for key, build in _PARTS.items():
-            if self.values.get(key) is not None:  # left out, wrong, or switched off by a word
-                try:
-                    parts |= {key: self.values[key]} if build is None else build(self, self.values[key])
-                except InputError as problem:
-                    self.problems.append(self.located(problem, key))
-        self.check_against_loads(parts)
-        if self.problems:
-            raise together(self.problems)
-        case = Case(**parts)
-        self.check_lubricant(case)
-        return case
-
-    def laws(self, given: LawsKeys) -> dict[str, Any]:
-        """The named set with what differs from it."""
-        differs = {key: value for key, value in asdict(given).items() if key != "model" and value is not None}
-        return {"laws": Laws.named(given.model).but(**differs)}
-
-    def check_lubricant(self, case: Case) -> None:
-        """Check before the loads are computed that the lubricant has what the mechanisms need."""
-        if case.laws == Laws.paper():  # it needs nothing that a lubricant may lack
-            return
-        from macroslip.roller.contacts import check_lubricant
-
-        check_lubricant(case.laws, case.lubricant)
-
-    def located(self, problem: InputError, key: str) -> InputError:
-        """The problem with file and line in front, unless it has them."""
-        if problem.where.startswith(f"{self.place.where}, "):
-            return problem
-        keys = problem.where.split(".")
-        return self.place.inside(*keys if keys[0] == key else [key]).blamed(problem)
-
-    def check_against_loads(self, parts: Mapping[str, Any]) -> None:
-        """Check one by one what depends on bearing and loads: a case by itself stops at its first problem."""
-        if "loads" not in parts or self.is_bearing_wrong or (self.values.get("bearing") and "bearing" not in parts):
-            return
-        common = {key: parts[key] for key in ("loads", "bearing") if key in parts}
-        for keys in (("rollers",), ("window",), ("traces",), ("dynamics", "integrator", "cage")):
-            given = {key: parts[key] for key in keys if key in parts}
-            if given:
-                try:
-                    Case(**common, **given)
-                except InputError as problem:
-                    blamed = problem.where.partition(".")[0]
-                    self.problems.append(self.located(problem, blamed if blamed in keys else keys[0]))
-
-    def record(self, kind: type[Record], name: str) -> Record:
-        """Read a bearing or lubricant by catalogue name or path."""
-        names, path = kind.catalogue(), self.folder / name
-        if name in names:
-            return kind.read(name)
-        if not path.exists():
-            close = get_close_matches(name, names, n=1)
-            raise InputError(
-                f"{shown(name)} is neither in the catalogue nor a file",
-                where=kind.noun,
-                allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
-                remedy=f"Did you mean {close[0]}?" if close else self.start_of_paths,
-            )
-        return kind.read(path)
-
-    @property
-    def start_of_paths(self) -> str:
-        """Where relative paths start, in words."""
-        return f"Relative paths start at {self.folder.resolve()}."
-
-    def loads(self, given: LoadsKeys) -> HubLoads | BearingLoads:
-        """Read or make the loads."""
-        (source,) = (key for key in LOAD_SOURCES if getattr(given, key) is not None)
-        cut = {key: getattr(given, key) for key in ("start", "end") if getattr(given, key) is not None}
-        value, place = getattr(given, source), self.place.inside("loads", source)
+    Relative paths start at `folder`. `records`: `bearing` and `lubricant` that have been read already, in place of those
+    that the file names; `series` makes the loads of their section, which are read by default.
+    """
+    place, known, parts = Place(source), records or {}, {}
+    values, problems = read_fields(Case, data, place)
+    for key, value in values.items():
+        inner = (key, value.key) if isinstance(value, LoadSource) else (key,)
         try:
-            if given.shaft_speed is not None:
-                if source != "file":
-                    raise InputError(
-                        f"shaft_speed is given, but {source} has its own",
-                        remedy="Remove loads.shaft_speed; it serves hub loads from a file only.",
-                    )
-                cut["shaft_speed"] = given.shaft_speed
-            if source in ("hub", "main_bearing"):
-                if cut:
-                    raise InputError(
-                        f"{' and '.join(cut)} would cut a series, but these loads are constant",
-                        remedy=f"Remove them; loads.{source}.duration says how long.",
-                    )
-                return (HubLoads if source == "hub" else BearingLoads).constant(**asdict(value))
-            if source == "bundled":
-                return HubLoads.bundled(value).window(cut.get("start"), cut.get("end"))
-            path = self.folder / value
-            if not path.exists():
-                raise InputError(f"there is no file '{value}'", remedy=self.start_of_paths)
-            return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
+            if key in ("bearing", "lubricant"):
+                parts[key] = known.get(key) or _record(Bearing if key == "bearing" else Lubricant, value, folder)
+            elif isinstance(value, LoadSource):
+                parts[key] = series(value) if series else value.series(folder)
+            elif key == "forces":  # a section in files only
+                parts |= value
+            else:
+                parts[key] = value
         except InputError as problem:
-            for programs_words, words in _ADVICE.items():
-                problem.remedy = problem.remedy.replace(programs_words, words)
-            raise place.blamed(problem) from None
+            problems.append(place.inside(*inner).blamed(problem))
+    wrong = {key for key in fields_of(Case).keys() & data.keys() if key != "forces" and key not in parts}
+    case = None
+    if "loads" in parts and "bearing" not in wrong:
+        try:
+            case = Case(**parts)
+        except InputError as failure:
+            found = ((part, part.where.split(".")) for part in parts_of(failure))
+            problems += [place.inside(*keys).blamed(part) for part, keys in found if keys[0] not in wrong]
+    if problems or case is None:
+        raise together(problems)
+    check_lubricant(case.laws, case.lubricant if case.oil_supply is None else case.lubricant.supplied(1.0))
+    return case
 
 
-#: How each key of a case file becomes parts of a case; None: its value is the part.
-_PARTS: dict[str, Callable[[CaseBuilder, Any], dict[str, Any]] | None] = {
-    "bearing": lambda builder, name: {"bearing": builder.record(Bearing, name)},
-    "lubricant": lambda builder, name: {"lubricant": builder.record(Lubricant, name)},
-    "temperature": None,
-    "heat": None,
-    "loads": lambda builder, given: {"loads": builder.loads(given)},
-    "drivetrain": None,
-    "forces": lambda builder, given: asdict(given),
-    "laws": CaseBuilder.laws,
-    "dynamics": None,
-    "cage": None,
-    "integrator": None,
-    "window": None,
-    "rollers": None,
-    "traces": None,
-    "contact_details": None,
-    "rating": None,
-}
+def _record(kind: type[Record], name: str, folder: Path) -> Record:
+    """Read a bearing or lubricant by catalogue name or path."""
+    names, path = kind.catalogue(), folder / name
+    if name in names:
+        return kind.read(name)
+    if not path.exists():
+        close = nearest(name, names)
+        raise InputError(
+            f"{shown(name)} is neither in the catalogue nor a file",
+            where=kind.noun,
+            allowed=f"{', '.join(names)}, or the path of a {kind.noun} file",
+            remedy=f"Did you mean {close}?" if close else f"Relative paths start at {folder.resolve()}.",
+        )
+    return kind.read(path)

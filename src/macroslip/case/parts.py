@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from macroslip.catalogue.forms import Flag, Whole
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import CONDUCTANCE, NUMBER, TEMPERATURE, TIME
+from macroslip.errors import InputError
+from macroslip.input.fields import Positive, Quantity, Whole
+from macroslip.input.section import input_section
+from macroslip.input.units import CONDUCTANCE, MASS, NUMBER, TEMPERATURE, TIME
 
-_Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0, name="step")]
+_Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0)]
 
 
-@input_section("integrator", "error-controlled, implicit, in the slip")
+@input_section(
+    "integrator",
+    "error-controlled, implicit, in the slip",
+    gone={"tables": "Contacts are always looked up in tables now; remove the key."},
+)
 class Radau:
     """The production integrator: Radau IIA in the slip, L-stable, order 5, error-controlled.
 
@@ -22,19 +26,16 @@ class Radau:
         Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
     max_steps : int
         Steps and rejections after which a roller counts as failed.
-    tables : bool
-        Whether contacts with microslip are looked up in tables where these save time.
     """
 
     tolerance: Annotated[
         float,
         Quantity(
-            "relative tolerance per step", NUMBER, 1e-10, 1e-2, name="tolerance",
-            remedy="2e-4 gives energies and spin to 1e-4 and peak power to 1 %",
+            "relative tolerance per step", NUMBER, 1e-10, 1e-2,
+            remedy="2e-4 gives energies and spin to 1e-4 and peak power to 1 %.",
         ),
     ] = 2e-4  # fmt: skip
-    max_steps: Annotated[int, Whole("steps after which a roller counts as failed", 1)] = 100_000_000
-    tables: Annotated[bool, Flag("whether contacts with microslip are looked up in tables")] = True
+    max_steps: Annotated[int, Whole("number of steps after which a roller counts as failed", 1)] = 100_000_000
 
 
 @input_section("integrator", "fixed step, explicit, on the spin")
@@ -58,9 +59,11 @@ class BackwardEuler:
 
     step: _Step
     tolerance: Annotated[
-        float,
-        Quantity("relative change of spin at which the iteration stops", NUMBER, 1e-16, 1e-2, name="tolerance"),
+        float, Quantity("relative change of spin at which the iteration stops", NUMBER, 1e-16, 1e-2)
     ] = 1e-12
+
+
+INTEGRATORS = {"radau": Radau, "backward-euler": BackwardEuler, "explicit-euler": ExplicitEuler}
 
 
 @input_section("window", "part of the time over which energies and peaks are taken")
@@ -71,7 +74,7 @@ class Window:
     ----------
     start : float, optional
         [s] on the loads' time axis. None: when the rollers have completed one orbit, or at the first sample if they
-        never do.
+        never do, or if the loads are an event.
     end : float, optional
         [s]; None: the last sample.
     """
@@ -94,7 +97,7 @@ class Traces:
         First and last time [s] on the loads' time axis; None: first and last sample of the loads.
     """
 
-    step: Annotated[float, Quantity("time between samples", TIME, 0.0, above=True, name="step")]
+    step: Annotated[float, Positive("time between samples", TIME)]
     start: Annotated[float | None, Quantity("first time", TIME)] = None
     end: Annotated[float | None, Quantity("last time", TIME)] = None
 
@@ -109,11 +112,35 @@ class Heat:
         Heat flow per kelvin [W/K]; 40 to 80 is an estimate for the main bearing of a 2 MW turbine.
     ambient : float
         Temperature of the surroundings [K].
+    inner_mass, outer_mass : float, optional
+        Masses that warm with the rings [kg]: inner ring with the shaft, outer ring with the housing.
+    ring_conductance : float, optional
+        Heat flow between them per kelvin [W/K]. With these three the rings have temperatures of their own.
+
+    Notes
+    -----
+    Two nodes: half of the friction goes into each ring, the inner one loses its half to the outer one, and that loses all of
+    it by `conductance`. The oil has the mean of both temperatures.
     """
 
-    conductance: Annotated[
-        float, Quantity("heat flow to the surroundings per kelvin", CONDUCTANCE, 0.0, above=True, name="conductance")
-    ]
-    ambient: Annotated[
-        float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15, name="ambient temperature")
-    ]
+    conductance: Annotated[float, Positive("heat flow to the surroundings per kelvin", CONDUCTANCE)]
+    ambient: Annotated[float, Quantity("temperature of the surroundings", TEMPERATURE, 253.15, 363.15)]
+    inner_mass: Annotated[float | None, Positive("mass that warms with the inner ring", MASS, 1e6)] = None
+    outer_mass: Annotated[float | None, Positive("mass that warms with the outer ring", MASS, 1e6)] = None
+    ring_conductance: Annotated[float | None, Positive("heat flow between the rings per kelvin", CONDUCTANCE)] = None
+
+    def __post_init__(self) -> None:
+        given = [one for one in (self.inner_mass, self.outer_mass, self.ring_conductance) if one is not None]
+        if len(given) not in (0, 3):
+            raise InputError(
+                "rings with temperatures of their own need inner_mass, outer_mass and ring_conductance",
+                allowed="all three, or none of them",
+                remedy="Some tonnes of shaft and housing go with the rings.",
+            )
+
+    @property
+    def to_oil(self) -> float:
+        """Heat flow to the surroundings per kelvin of the oil [W/K]: conductance, and the way from ring to ring."""
+        if self.ring_conductance is None:
+            return self.conductance
+        return 1.0 / (1.0 / self.conductance + 0.25 / self.ring_conductance)

@@ -1,66 +1,46 @@
-"""The command line: one command a file. What a command needs is imported when it runs, so that help comes at once."""
+"""The command line: one command a file. Imports of a command wait until it runs, so that help comes at once."""
 
 from __future__ import annotations
 
 import io
+import os
 import sys
-from typing import Annotated
-
-import typer
-
-import macroslip
-from macroslip.cli.aggregate import aggregate
-from macroslip.cli.catalogue import bearing, lubricant
-from macroslip.cli.doctor import doctor
-from macroslip.cli.failure import command
-from macroslip.cli.init import init
-from macroslip.cli.loads import loads
-from macroslip.cli.report import report
-from macroslip.cli.reproduce import reproduce
-from macroslip.cli.run import run
-from macroslip.cli.study import study
-from macroslip.machine import safe_path
-
-app = typer.Typer(
-    name="macroslip",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    epilog="Exit codes: 0 fine, 1 internal error, 2 bad input or usage, 3 some rollers failed, or some cases of a study, 130 interrupted.",
-)
-command(app, init)
-command(app, run)
-command(app, study)
-command(app, aggregate)
-command(app, report)
-command(app, reproduce)
-command(app, doctor)
-app.add_typer(loads)
-app.add_typer(bearing)
-app.add_typer(lubricant)
 
 
-def _version(requested: bool) -> None:
-    if requested:
-        typer.echo(f"macroslip {macroslip.__version__}")
-        raise typer.Exit()
+class _Patient(io.FileIO):
+    """A stream whose reader may go: `head` has what it wants then, and the command ends as it would have."""
 
-
-@app.callback()
-def _options(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
-    ] = False,
-) -> None:
-    """Slip, friction power and frictional energy of every roller of a wind-turbine main bearing."""
+    def write(self, data, /) -> int:
+        try:
+            return super().write(data) or 0
+        except BrokenPipeError:
+            return len(data)
 
 
 def main() -> None:
     """Entry point of the command `macroslip`."""
-    for stream in (sys.stdout, sys.stderr):
-        # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")
-    # What is started here and gets its path from this process does not get the current folder either.
-    sys.path[:] = safe_path(sys.path)
-    app()
+    try:
+        for name in ("stdout", "stderr"):
+            stream = getattr(sys, name)
+            if isinstance(stream, io.TextIOWrapper):
+                # Output to a file or a pipe is encoded by Windows in a way that lacks most characters.
+                stream.reconfigure(errors="backslashreplace")
+                if os.name == "posix" and not stream.isatty():
+                    raw = io.BufferedWriter(_Patient(stream.fileno(), "w", closefd=False))
+                    line = stream.line_buffering
+                    setattr(sys, name, io.TextIOWrapper(raw, stream.encoding, "backslashreplace", line_buffering=line))
+        from macroslip.machine import safe_path
+
+        # Processes that are started here and get their path from this one do not get the current folder either.
+        sys.path[:] = safe_path(sys.path)
+        from macroslip.cli.commands import app
+
+        app()
+    except SystemExit as end:
+        # While the arguments are read, typer makes an exit of an interrupt and says nothing.
+        if isinstance(getattr(end.__context__, "__cause__", None), KeyboardInterrupt):
+            print("interrupted", file=sys.stderr)
+        raise
+    except KeyboardInterrupt:  # before a command has begun
+        print("interrupted", file=sys.stderr)
+        sys.exit(130)

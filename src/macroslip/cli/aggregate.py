@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError
 from macroslip.files import check_not_input, check_regular
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from macroslip.study.weights import Weights
+    from macroslip.study.weights import Given, Weibull
 
 #: Lines of the table that is printed.
 _MOST_LINES = 20
@@ -25,14 +26,18 @@ def aggregate(
         Path, typer.Option("--output", "-o", help="The folder for the tables; those of the same names are replaced.")
     ],
     weibull: Annotated[
-        tuple[float, float] | None, typer.Option(help="Scale [m/s] and shape of the distribution of the wind speed.")
+        tuple[float, float] | None,
+        typer.Option(help="Scale [m/s] and shape of the distribution of the wind speed, in place of the study file's."),
     ] = None,
     probabilities: Annotated[
         Path | None, typer.Option(help="CSV table with the columns bin and probability, instead of --weibull.")
     ] = None,
     years: Annotated[float, typer.Option(help="The lifetime [years].")] = 20.0,
-    field: Annotated[str, typer.Option(help="The label to sort into bins.")] = "wind_speed",
-    width: Annotated[float, typer.Option(help="Width of a bin [unit of the label].")] = 2.0,
+    field: Annotated[
+        str | None,
+        typer.Option(help="The label to sort into bins; that of the study file, or wind_speed, if not given."),
+    ] = None,
+    width: Annotated[float | None, typer.Option(help="Width of a bin [unit of the label]; else 2.")] = None,
     by: Annotated[
         list[str] | None, typer.Option(help="A further label to keep apart; may be given several times.")
     ] = None,
@@ -43,17 +48,19 @@ def aggregate(
     """Write lifetime energy, percentiles, worst cases and exceedance curves."""
     from macroslip.study.export import FORMATS, tables, write_tables
     from macroslip.study.reader import open_study
+    from macroslip.study.weights import weights_in_use
+    from macroslip.study.year import coverage, year
 
     if form not in FORMATS:
         raise InputError(f"the format is '{form}'", where="--format", allowed=" or ".join(FORMATS))
     study = open_study(directory)
-    found = tables(study, _weights(weibull, probabilities), years=years, field=field, width=width, by=by or ())
+    weights, own_field, own_width = weights_in_use(study, _weights(weibull, probabilities))
+    bins = {"field": field or own_field, "width": own_width if width is None else width, "by": by or ()}
+    found = tables(study, weights, years=years, **bins)
     for name in found:
         check_not_input(output / f"{name}.{form}", [probabilities] if probabilities else [])
     written = write_tables(found, output, form)
     if as_json:
-        from macroslip.cli.printing import print_json
-
         lifetime = found["lifetime"].to_dict("records") if "lifetime" in found else None
         print_json({"lifetime": lifetime, "written": [str(path) for path in written]})
         return
@@ -61,17 +68,18 @@ def aggregate(
         return
     if "lifetime" in found:
         _lifetime(found["lifetime"], years)
+        typer.echo(coverage(year(study, weights, **bins)))
     for path in written:
         typer.echo(f"written: {path}")
 
 
-def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) -> Weights | None:
+def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) -> Weibull | Given | None:
     from macroslip.study.weights import Given, Weibull
 
     if weibull is not None and probabilities is not None:
         raise InputError("--weibull and --probabilities are given together", remedy="Give one of them.")
     if weibull is not None:
-        return Weibull(*weibull)
+        return Weibull(scale=weibull[0], shape=weibull[1])
     if probabilities is None:
         return None
     import pandas as pd
@@ -83,16 +91,13 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
     except InputError:
         raise
     except (OSError, ValueError, KeyError) as error:
-        raise InputError(
-            f"the probabilities cannot be read ({error})",
-            where=str(probabilities),
-            allowed="a CSV table with the columns bin and probability",
-        ) from None
+        what = f"the probabilities cannot be read ({error})"
+        allowed = "a CSV table with the columns bin and probability"
+        raise InputError(what, where=str(probabilities), allowed=allowed) from None
 
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
-    from macroslip.cli.printing import number, print_table
-    from macroslip.study.safe_text import safe_text
+    from macroslip.study.loads_list import safe_text
 
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
     title = f"energy of a roller in {years:g} years, mean over the row"

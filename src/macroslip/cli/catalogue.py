@@ -1,79 +1,79 @@
-"""`macroslip bearing` and `macroslip lubricant`: list, show, describe and estimate catalogue entries."""
+"""`macroslip bearing` and `macroslip lubricant`: catalogue entries, files of the user's own, estimates, drawings."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.bearing import add_commands
 from macroslip.cli.failure import command
+from macroslip.cli.needs import PICTURE, require
+from macroslip.cli.printing import print_json, print_table
+from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
-    from macroslip.catalogue import Record
-    from macroslip.lubricant import Lubricant
+    from macroslip.bearing.estimate import EstimatedBearing
+    from macroslip.input.record import Record
+    from macroslip.input.units import Dimension
+
+_BASE = "skf-240-600-bc"
+_DRAWINGS = (".svg", ".pdf", ".png")
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print it as JSON.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")]
+NameOrFile = Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")]
 
 
-def _catalogue(
-    noun: str, load: Callable[[], type[Record]], derived: Callable[[Record], list[list[str]]]
-) -> typer.Typer:
-    """The commands for one kind of record; `derived` gives name, value and meaning of what follows from it."""
+def si(option: str, text: str | None, dimension: Dimension) -> float | None:
+    """The value of an option, in SI."""
+    from macroslip.input.units import parse_quantity
+
+    return None if text is None else dimension.to_si(*parse_quantity(text, dimension, option))
+
+
+def _write(path: Path, record: Record, force: bool) -> None:
+    with new_file(path, force=force) as temporary:
+        temporary.write_text(record.as_yaml(), encoding="utf-8")
+
+
+def _record(noun: str) -> type[Record]:
+    from macroslip import Bearing, Lubricant
+
+    return Bearing if noun == "bearing" else Lubricant
+
+
+def _catalogue(noun: str) -> typer.Typer:
+    """The commands for one kind of record."""
     app = typer.Typer(
         name=noun, help=f"The {noun} catalogue and files of your own.", no_args_is_help=True, rich_markup_mode=None
     )
 
     def list(as_json: AsJson = False) -> None:
-        from macroslip.cli.printing import print_json, print_table
-
-        records = [load().read(name) for name in load().catalogue()]
+        records = [_record(noun).read(name) for name in _record(noun).catalogue()]
         if as_json:
             print_json([{"name": record.name, "title": record.title} for record in records])
             return
-        print_table(
-            f"{noun}s", [("name", False), ("title", False)], [[record.name, record.title] for record in records]
-        )
+        rows = [[record.name, record.title] for record in records]
+        print_table(f"{noun}s", [("name", False), ("title", False)], rows)
 
     def show(
-        name_or_file: Annotated[str, typer.Argument(help="A catalogue name, or the path of a file.")],
+        name_or_file: NameOrFile,
         yaml: Annotated[bool, typer.Option("--yaml", help="Print it as a file, to save and to change.")] = False,
         as_json: AsJson = False,
     ) -> None:
-        from macroslip.catalogue import TAGS
-        from macroslip.catalogue.units import with_unit
-        from macroslip.cli.printing import print_json, print_table
-
-        record = load().read(name_or_file)
+        record = _record(noun).read(name_or_file)
         if yaml:
             typer.echo(record.as_yaml(), nl=False)
-            return
-        if as_json:
-            from dataclasses import asdict
-
-            follows = [dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in derived(record)]
-            values = {key: asdict(origin) for key, origin in record.provenance.items()}
-            print_json({"name": record.name, "title": record.title, "values": values, "what follows from it": follows})
-            return
-        rows = [
-            [key, with_unit(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]
-            for key, origin in record.provenance.items()
-        ]
-        headings = [("key", False), ("value", True), ("where it comes from", False), ("note", False)]
-        print_table(f"{record.name}: {record.title}" if record.title else record.name, headings, rows)
-        follows = derived(record)
-        if follows:
-            typer.echo()
-            print_table("what follows from it", [("quantity", False), ("value", True), ("meaning", False)], follows)
+        else:
+            _show(record, _of_bearing(record) if noun == "bearing" else [], as_json)
 
     def schema() -> None:
         import json
 
-        typer.echo(json.dumps(load().json_schema(), indent=2))
+        typer.echo(json.dumps(_record(noun).json_schema(), indent=2))
 
     list.__doc__ = f"List the {noun}s of the catalogue."
     show.__doc__ = f"Show every value of a {noun} and its origin."
@@ -83,22 +83,35 @@ def _catalogue(
     return app
 
 
-def _bearing_class() -> type[Bearing]:
-    from macroslip.bearing import Bearing
+def _show(record: Record, follows: list[list[str]], as_json: bool) -> None:
+    """Print a record with name, value and meaning of the numbers that follow from it."""
+    from dataclasses import asdict
 
-    return Bearing
+    from macroslip.input.record import TAGS
+    from macroslip.input.units import with_unit
 
-
-def _lubricant_class() -> type[Lubricant]:
-    from macroslip.lubricant import Lubricant
-
-    return Lubricant
+    if as_json:
+        derived = [dict(zip(("quantity", "value", "meaning"), line, strict=True)) for line in follows]
+        values = {key: asdict(origin) for key, origin in record.provenance.items()}
+        print_json({"name": record.name, "title": record.title, "values": values, "what follows from it": derived})
+        return
+    rows = [
+        [key, with_unit(origin.value, origin.unit), f"{origin.tag}: {TAGS[origin.tag]}", origin.note]
+        for key, origin in record.provenance.items()
+    ]
+    headings = [("key", False), ("value", True), ("where it comes from", False), ("note", False)]
+    print_table(f"{record.name}: {record.title}" if record.title else record.name, headings, rows)
+    if follows:
+        typer.echo()
+        print_table("what follows from it", [("quantity", False), ("value", True), ("meaning", False)], follows)
 
 
 def _of_bearing(bearing: Bearing) -> list[list[str]]:
-    from macroslip.roller.model import roller_model, truncation_load
+    from macroslip import Lubricant
+    from macroslip.contact.interface import truncation_load
+    from macroslip.roller.model import roller_model
 
-    lubricant = _lubricant_class().read("vg460-pao")  # none of these depends on it
+    lubricant = Lubricant.read("vg460-pao")  # none of these depends on it
     model = roller_model(bearing, lubricant, 1, tilt=0.0)
     longest = truncation_load(bearing, lubricant)
     return [
@@ -108,33 +121,163 @@ def _of_bearing(bearing: Bearing) -> list[list[str]]:
     ]
 
 
-def estimate(
+def _option(help: str) -> Any:
+    return typer.Option(help=help)
+
+
+def _estimate_bearing(
+    bore: Annotated[str, _option("Bore diameter d, with its unit: '630 mm'.")],
+    outside: Annotated[str, _option("Outside diameter D: '920 mm'.")],
+    width: Annotated[str, _option("Width B: '290 mm'.")],
+    c0: Annotated[str, _option("Static load rating C0: '17600 kN'.")],
+    e: Annotated[float, _option("Axial factor e: 0.30.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="The bearing file to write.")],
+    shoulder: Annotated[str | None, _option("Shoulder diameter of the outer ring D1: '828 mm'.")] = None,
+    groove: Annotated[str | None, _option("Width of the lubrication groove b: '56.5 mm'.")] = None,
+    c: Annotated[str | None, _option("Dynamic load rating C: '9307 kN'.")] = None,
+    cu: Annotated[str | None, _option("Fatigue load limit C_u or P_u: '1180 kN'.")] = None,
+    y1: Annotated[float | None, _option("Axial factor Y1.")] = None,
+    y2: Annotated[float | None, _option("Axial factor Y2.")] = None,
+    y0: Annotated[float | None, _option("Static axial factor Y0.")] = None,
+    mass: Annotated[str | None, _option("Mass: '623 kg'.")] = None,
+    bpfo: Annotated[float | None, _option("Overrolling frequency of the outer ring, per turn of the shaft.")] = None,
+    bpfi: Annotated[float | None, _option("Overrolling frequency of the inner ring, per turn of the shaft.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 1,
+    force: Force = False,
+    as_json: AsJson = False,
+) -> None:
+    """Estimate the inside of a bearing from its maker's page, and write a bearing file.
+
+    Dimensions that the page leaves open are sampled within usual proportions. The file holds the median of every inner
+    dimension and the range in which four out of five samples lie. It is an estimate, not the maker's drawing.
+    """
+    from macroslip.bearing.estimate import MakersPage, estimate_bearing
+    from macroslip.input.units import FORCE, LENGTH, MASS
+
+    check_new_file(output, force=force)
+    given: dict[str, Any] = {
+        "bore": si("--bore", bore, LENGTH),
+        "outside": si("--outside", outside, LENGTH),
+        "width": si("--width", width, LENGTH),
+        "static_load_rating": si("--c0", c0, FORCE),
+        "shoulder": si("--shoulder", shoulder, LENGTH),
+        "groove": si("--groove", groove, LENGTH),
+        "dynamic_load_rating": si("--c", c, FORCE),
+        "fatigue_load_limit": si("--cu", cu, FORCE),
+        "mass": si("--mass", mass, MASS),
+    }
+    factors = {"axial_factor_e": e, "axial_factor_y1": y1, "axial_factor_y2": y2, "axial_factor_y0": y0}
+    page = MakersPage(**given, **factors, bpfo=bpfo, bpfi=bpfi)
+    size = " x ".join(f"{1e3 * one:g}" for one in (page.bore, page.outside, page.width))
+    found = estimate_bearing(page, output.stem, f"Estimated from its maker's page, {size} mm", seed=seed)
+    _write(output, found.bearing, force)
+    numbers = _numbers(found)
+    if as_json:
+        print_json(numbers | {"written": str(output)})
+        return
+    rows = []
+    for key, one in numbers["values"].items():
+        unit = "" if one["unit"] == "1" else f" {one['unit']}"
+        low, high = one["10 to 90 %"]
+        rows.append([key, f"{one['median']:g}{unit}", f"{low:g} to {high:g}{unit}"])
+    title = (
+        f"{found.bearing.name}: median and range of four out of five of {numbers['bearings that fit the page']} bearings "
+        "that fit the page"
+    )
+    print_table(title, [("key", False), ("median", True), ("10 to 90 %", False)], rows)
+    typer.echo()
+    ratio = numbers["C by ISO 281 / published [1]"]
+    if ratio is not None:
+        typer.echo(
+            f"C by ISO 281 from these dimensions is {ratio:.3f} of the published one; "
+            "within one family of bearings that scatters by 1 to 2 %."
+        )
+    typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")
+
+
+def _numbers(found: EstimatedBearing) -> dict[str, Any]:
+    """Every estimated value with its range, and the rating by ISO 281 over the published one, where there is one."""
+    from macroslip.bearing.load_ratings import dynamic_load_rating
+
+    bearing, ratio = found.bearing, None
+    published = bearing.dynamic_load_rating
+    if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
+        roller = (bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length)
+        ratio = dynamic_load_rating(2, *roller, bearing.contact_angle, 2 * bearing.pitch_radius) / published
+    values = {
+        key: {"median": origin.value, "unit": origin.unit, "10 to 90 %": [*origin.range]}
+        for key, origin in bearing.provenance.items()
+        if origin.range is not None
+    }
+    count = int(found.samples["contact_angle"].size)
+    return {
+        "name": bearing.name,
+        "bearings that fit the page": count,
+        "values": values,
+        "C by ISO 281 / published [1]": ratio,
+    }
+
+
+def _init(
+    path: Annotated[Path, typer.Argument(help="The bearing file to write.")] = Path("bearing.yaml"),
+    force: Force = False,
+) -> None:
+    """Write a bearing file with every key explained, to change into your own: the base bearing's values."""
+    from macroslip import Bearing
+
+    check_new_file(path, force=force)
+    _write(path, Bearing.read(_BASE).replace(name=path.stem, title=f"Started from {_BASE}"), force)
+    typer.echo(
+        f"written: {path}\nlook at it:  macroslip bearing show {path}\nuse it:      bearing: {path}, in a case file"
+    )
+
+
+def _draw(
+    name_or_file: NameOrFile,
+    output: Annotated[Path, typer.Option("--output", "-o", help="The drawing to write: .svg, .pdf or .png.")],
+    force: Force = False,
+) -> None:
+    """Draw the section of a bearing, with the name and value of every dimension."""
+    from macroslip import Bearing
+
+    if output.suffix not in _DRAWINGS:
+        allowed = "a name that ends with .svg, .pdf or .png"
+        raise InputError("this is no kind of drawing", where=str(output), allowed=allowed)
+    check_new_file(output, force=force)
+    require(PICTURE)
+    from macroslip.report.bearing_drawing import draw_bearing
+
+    figure = draw_bearing(Bearing.read(name_or_file))
+    with new_file(output, force=force) as temporary:
+        figure.savefig(temporary, format=output.suffix[1:])
+    typer.echo(f"written: {output}")
+
+
+def _estimate_lubricant(
     v40: Annotated[str, typer.Option("--v40", help="Kinematic viscosity at 40 degC, '320 mm2/s' for example.")],
     v100: Annotated[str, typer.Option("--v100", help="Kinematic viscosity at 100 degC.")],
     base: Annotated[str, typer.Option("--base", help="Base oil, 'pao' or 'mineral' for example.")],
     name: Annotated[str, typer.Option("--name", help="Short name of the lubricant, used in results.")] = "estimated",
     output: Annotated[Path | None, typer.Option("-o", "--output", help="File to write; else it is printed.")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
+    force: Force = False,
 ) -> None:
-    """Write a lubricant file from two viscosities and the base oil; what is estimated has the tag E and a range."""
-    from macroslip.catalogue.quantity import parse_quantity
-    from macroslip.catalogue.units import KINEMATIC_VISCOSITY
+    """Write a lubricant file from two viscosities and the base oil; estimates have the tag E and a range."""
+    from macroslip.input.units import KINEMATIC_VISCOSITY as VISCOSITY
+    from macroslip.input.units import parse_quantity
     from macroslip.lubricant.estimate import estimate_lubricant
 
-    def viscosity(text: str, option: str) -> float:
-        return KINEMATIC_VISCOSITY.to_si(*parse_quantity(text, KINEMATIC_VISCOSITY, option))
-
-    oil = estimate_lubricant(viscosity(v40, "--v40"), viscosity(v100, "--v100"), base, name)
+    at_40, at_100 = (parse_quantity(text, VISCOSITY, key) for text, key in ((v40, "--v40"), (v100, "--v100")))
+    oil = estimate_lubricant(VISCOSITY.to_si(*at_40), VISCOSITY.to_si(*at_100), base, name)
     if output is None:
         typer.echo(oil.as_yaml(), nl=False)
         return
     check_new_file(output, force=force)
-    with new_file(output, force=force) as temporary:
-        temporary.write_text(oil.as_yaml(), encoding="utf-8")
+    _write(output, oil, force)
     typer.echo(f"written: {output}\nshow it: macroslip lubricant show {output}")
 
 
-bearing = _catalogue("bearing", _bearing_class, _of_bearing)
-add_commands(bearing)
-lubricant = _catalogue("lubricant", _lubricant_class, lambda lubricant: [])
-command(lubricant, estimate)
+bearing, lubricant = _catalogue("bearing"), _catalogue("lubricant")
+command(bearing, _estimate_bearing, "estimate")
+command(bearing, _init, "init")
+command(bearing, _draw, "draw")
+command(lubricant, _estimate_lubricant, "estimate")

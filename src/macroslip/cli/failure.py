@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import _thread
+import errno
 import functools
-from collections.abc import Callable
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import typer
 
-from macroslip.cli.interrupt import interrupts_kept
-from macroslip.errors import MacroslipError
+from macroslip.errors import InputError, MacroslipError, legible
+from macroslip.files import SHORTER
 
 INTERNAL_ERROR, BAD_INPUT, ROLLERS_FAILED, INTERRUPTED = 1, 2, 3, 130
 CASES_FAILED = ROLLERS_FAILED
+#: Time after which a lost interrupt is raised again [s]: the finalizer or callback has ended by then.
+_AGAIN = 0.05
+MEMORY = "Use shorter loads, fewer rollers or no traces."
 
 
 def to_stderr(text: str) -> None:
@@ -20,11 +28,11 @@ def to_stderr(text: str) -> None:
     typer.echo(text, err=True)
 
 
-def command(app: typer.Typer, function: Callable[..., None]) -> None:
-    """Add a function to the commands of `app`, under its own name.
+def command(app: typer.Typer, function: Callable[..., None], name: str | None = None) -> None:
+    """Add a function to the commands of `app`, under its own name if no other is given.
 
-    What it raises becomes a paragraph on standard error and an exit code; only an error in the program itself shows a
-    traceback. With the option `quiet` of the command it becomes one line, whatever it is.
+    Its exceptions become a paragraph on standard error and an exit code; only an error in the program itself shows a
+    traceback. With the option `quiet` of the command it becomes one line in any case.
     """
 
     @functools.wraps(function)
@@ -34,34 +42,61 @@ def command(app: typer.Typer, function: Callable[..., None]) -> None:
                 function(*args, **options)
         except (typer.Exit, BrokenPipeError):  # a reader such as `head` that closes the pipe early is not an error
             raise
-        except KeyboardInterrupt:
-            to_stderr("interrupted")
-            raise typer.Exit(INTERRUPTED) from None
-        except MacroslipError as error:
-            message = str(error)
-            to_stderr(f"error: {' '.join(message.split()) if options.get('quiet') else message}")
-            raise typer.Exit(BAD_INPUT) from None
-        except OSError as error:
-            place = f"{error.filename}: " if error.filename else ""
-            to_stderr(
-                f"error: {place}{error.strerror or error}. Check the path, the rights to it and the free space on the disk."
-            )
-            raise typer.Exit(BAD_INPUT) from None
-        except MemoryError:
-            to_stderr(
-                "error: the computer has not enough memory for this. Use shorter loads, fewer rollers or no traces."
-            )
-            raise typer.Exit(BAD_INPUT) from None
-        except Exception as error:
-            if options.get("quiet"):
-                what = " ".join(f"{type(error).__name__}: {error}".split())
-                to_stderr(f"internal error: {what}. This is a fault of macroslip; without --quiet it shows where.")
-            else:
-                import traceback
+        except BaseException as error:
+            code, message = _told(error, quiet=bool(options.get("quiet")))
+            to_stderr(message)
+            raise typer.Exit(code) from None
 
-                traceback.print_exc()
-                name = type(error).__name__
-                to_stderr(f"internal error: {name}. This is a fault of macroslip; please report what is above.")
-            raise typer.Exit(INTERNAL_ERROR) from None
+    app.command(name)(run)
 
-    app.command()(run)
+
+def _told(error: BaseException, *, quiet: bool) -> tuple[int, str]:
+    """Exit code and words for an error."""
+    if isinstance(error, KeyboardInterrupt):
+        return INTERRUPTED, "interrupted"
+    if isinstance(error, MacroslipError):
+        return BAD_INPUT, f"error: {' '.join(str(error).split()) if quiet else error}"
+    if isinstance(error, OSError):
+        place = legible(f"{error.filename}: ", InputError.longest_place) if error.filename else ""
+        remedy = "Check the path, the rights to it and the free space on the disk."
+        return (
+            BAD_INPUT,
+            f"error: {place}{error.strerror or error}. {SHORTER if error.errno == errno.ENAMETOOLONG else remedy}",
+        )
+    if isinstance(error, MemoryError):
+        return BAD_INPUT, f"error: the computer has not enough memory for this. {MEMORY}"
+    if not isinstance(error, Exception):
+        raise error
+    if quiet:
+        what = " ".join(f"{type(error).__name__}: {error}".split())
+        where = "This is a fault of macroslip; without --quiet it shows where."
+        return INTERNAL_ERROR, f"internal error: {what}. {where}"
+    import traceback
+
+    traceback.print_exception(error)
+    return (
+        INTERNAL_ERROR,
+        f"internal error: {type(error).__name__}. This is a fault of macroslip; please report what is above.",
+    )
+
+
+@contextmanager
+def interrupts_kept() -> Iterator[None]:
+    """Raise a `KeyboardInterrupt` in the main thread again, if Python could not raise it.
+
+    Where it arises in a finalizer or in a callback from compiled code, of which compiling makes many, Python cannot
+    raise it: it prints it and goes on.
+    """
+    report = sys.unraisablehook
+
+    def hook(unraisable: Any, /) -> None:
+        if issubclass(unraisable.exc_type, KeyboardInterrupt):
+            threading.Timer(_AGAIN, _thread.interrupt_main).start()
+        else:
+            report(unraisable)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = report

@@ -13,7 +13,7 @@ from macroslip.files import check_new_file, new_file
 
 
 class Example(StrEnum):
-    """What `macroslip init` can write."""
+    """Files that `macroslip init` can write."""
 
     CASE = "case"
     STUDY = "study"
@@ -22,7 +22,7 @@ class Example(StrEnum):
     LAWS = "laws"
 
 
-#: Of each example its files: the first takes the name that the user gives, the others are written beside it.
+#: The files of each example: the first takes the name that the user gives, the others are written beside it.
 _FILES = {
     Example.CASE: ("macroslip.cli/case_template.yaml",),
     Example.STUDY: ("examples/study.yaml",),

@@ -1,15 +1,19 @@
-"""`macroslip loads inspect`: what a load file holds, how it was read, and the load on the main bearing."""
+"""`macroslip loads inspect`: content of a load file, how it was read, and the load on the main bearing."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.failure import command
+from macroslip.cli.catalogue import AsJson, si
+from macroslip.cli.failure import command, to_stderr
 from macroslip.cli.needs import PICTURE, require
+from macroslip.cli.printing import number, print_json, print_table
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
 
@@ -18,12 +22,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from macroslip.case.case import Case
-    from macroslip.catalogue.units import Dimension
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads
 
 loads = typer.Typer(name="loads", help="Load histories.", no_args_is_help=True, rich_markup_mode=None)
 
 _PICTURES = (".png", ".svg", ".pdf")
+_NO_UNIT = ("mount", "locating", "bearing")
 
 
 def _length(help: str) -> Any:
@@ -52,32 +56,40 @@ def inspect(
         Path | None, typer.Option("--output", "-o", help="A picture of the loads to write: .png, .svg or .pdf.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the picture if it exists.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Show which channels of a load file are taken, their statistics, and the load on the main bearing."""
-    from macroslip.catalogue.units import ANGLE, LENGTH, MASS, SPEED
-    from macroslip.cli.printing import print_json
+    from macroslip.case.case_file import bearings_in, read_case
+    from macroslip.input.units import ANGLE, LENGTH, MASS, SPEED
+    from macroslip.loads import Drivetrain
+    from macroslip.result.plausibility import doubtful_loads
 
     if output is not None:
         if output.suffix not in _PICTURES:
             raise InputError("this is no kind of picture", where=str(output), allowed=f"{', '.join(_PICTURES)}")
         require(PICTURE)
         check_new_file(output, force=force, inputs=[file, *([case] if case else [])])
-    speed = _given("--shaft-speed", shaft_speed, SPEED)
+    speed = si("--shaft-speed", shaft_speed, SPEED)
     own = {
-        "hub_to_bearing": _given("--hub-to-bearing", hub_to_bearing, LENGTH),
-        "bearing_to_gearbox": _given("--bearing-to-gearbox", bearing_to_gearbox, LENGTH),
-        "tilt": _given("--tilt", tilt, ANGLE),
-        "shaft_mass": _given("--shaft-mass", shaft_mass, MASS),
-        "shaft_mass_station": _given("--shaft-mass-station", shaft_mass_station, LENGTH),
+        "hub_to_bearing": si("--hub-to-bearing", hub_to_bearing, LENGTH),
+        "bearing_to_gearbox": si("--bearing-to-gearbox", bearing_to_gearbox, LENGTH),
+        "tilt": si("--tilt", tilt, ANGLE),
+        "shaft_mass": si("--shaft-mass", shaft_mass, MASS),
+        "shaft_mass_station": si("--shaft-mass-station", shaft_mass_station, LENGTH),
     }
-    base = _base_case(case)
-    drivetrain = _drivetrain(base, {name: value for name, value in own.items() if value is not None})
-    found, bearing = _read(file, speed, drivetrain)
+    bearings = bearings_in(case) if case else ("",)
+    base = read_case(case, bearing=bearings[0]) if case else None
+    # The case file's drivetrain, or the default one, with single values replaced.
+    own = {name: value for name, value in own.items() if value is not None}
+    drivetrain = replace(base.drivetrain if base else Drivetrain(), **own)
+    found, loads, bearing = _read(file, speed, drivetrain, bearings[1:])
+    doubts = doubtful_loads(loads, base.bearing if base else None)
     if as_json:
-        print_json(found)
+        print_json(found | {"doubtful": doubts})
     else:
         _print(found)
+        for sentence in doubts:
+            to_stderr(f"doubtful: {sentence}.")
     if output is not None:
         figure = _picture(bearing, base, drivetrain)
         with new_file(output, force=force) as temporary:
@@ -89,34 +101,10 @@ def inspect(
 command(loads, inspect)
 
 
-def _given(option: str, text: str | None, dimension: Dimension) -> float | None:
-    """The value of an option, in SI."""
-    if text is None:
-        return None
-    from macroslip.catalogue.quantity import parse_quantity
-
-    return dimension.to_si(*parse_quantity(text, dimension, option))
-
-
-def _base_case(path: Path | None) -> Case | None:
-    if path is None:
-        return None
-    from macroslip.case.case_file import read_case
-
-    return read_case(path)
-
-
-def _drivetrain(case: Case | None, own: dict[str, float]) -> Drivetrain:
-    """The case file's drivetrain, or the default one, with single values replaced."""
-    from dataclasses import replace
-
-    from macroslip.loads import Drivetrain
-
-    return replace(case.drivetrain if case else Drivetrain(), **own)
-
-
-def _read(file: Path, speed: float | None, drivetrain: Drivetrain) -> tuple[dict[str, Any], BearingLoads]:
-    """What is shown of a file, and the load it makes on the main bearing."""
+def _read(
+    file: Path, speed: float | None, drivetrain: Drivetrain, others: Sequence[str]
+) -> tuple[dict[str, Any], HubLoads | BearingLoads, BearingLoads]:
+    """Texts on a file, its loads, and its load on the main bearing; of `others` texts alone."""
     from macroslip.loads import BearingLoads, Drivetrain, HubLoads, main_bearing_load
 
     if _holds_bearing_loads(file):
@@ -125,45 +113,33 @@ def _read(file: Path, speed: float | None, drivetrain: Drivetrain) -> tuple[dict
                 "--shaft-speed is for hub loads", where=str(file), remedy="Write the speed into the table's column."
             )
         bearing = BearingLoads.read(file)
-        return _described(bearing, "load on the main bearing"), bearing
+        return _described(bearing, "load on the main bearing"), bearing, bearing
     hub = HubLoads.read(file, shaft_speed=speed)
     bearing = main_bearing_load(hub, drivetrain)
     found = _described(hub, "hub loads in non-rotating shaft axes")
     found["reading"] = list(hub.reading)
-    found["drivetrain"] = {
-        "default": drivetrain == Drivetrain(),
-        "mount": drivetrain.mount,
-        "hub_to_bearing [m]": drivetrain.hub_to_bearing,
-        "bearing_to_gearbox [m]": drivetrain.bearing_to_gearbox,
-        "front_to_rear [m]": drivetrain.front_to_rear,
-        "locating": drivetrain.locating,
-        "bearing": drivetrain.bearing,
-        "tilt [deg]": math.degrees(drivetrain.tilt),
-        "shaft_mass [kg]": drivetrain.shaft_mass,
-        "shaft_mass_station [m]": drivetrain.shaft_mass_station,
+    units = {"tilt": "deg", "shaft_mass": "kg"}
+    plain = asdict(drivetrain) | {"tilt": math.degrees(drivetrain.tilt)}
+    found["drivetrain"] = {"default": drivetrain == Drivetrain()} | {
+        name if name in _NO_UNIT else f"{name} [{units.get(name, 'm')}]": value for name, value in plain.items()
     }
     found["main bearing"] = _statistics(_forces(bearing))
-    return found, bearing
+    for name in others:
+        load = main_bearing_load(hub, replace(drivetrain, bearing=name))
+        found[f"{name} main bearing"] = _statistics(_forces(load))
+    return found, hub, bearing
 
 
 def _holds_bearing_loads(file: Path) -> bool:
-    """Whether a table's columns are those of main-bearing loads; what else is wrong with it shows when it is read."""
-    import pyarrow as pa
-    import pyarrow.parquet as pq
+    """Whether a table has the columns of main-bearing loads; other faults show when it is read."""
+    from macroslip.loads.table import open_table
 
-    if not file.is_file():  # a pipe would wait for ever
+    if not file.is_file() or file.suffix.lower() not in (".parquet", ".csv"):  # a pipe would wait for ever
         return False
     try:
-        if file.suffix.lower() == ".parquet":
-            names = pq.read_schema(file).names
-        elif file.suffix.lower() == ".csv":
-            with file.open(encoding="utf-8") as text:
-                names = text.readline().split(",")
-        else:
-            return False
-    except (OSError, ValueError, pa.ArrowException):
+        return any(name.strip().startswith("F_X0") for name in open_table(file).column_names)
+    except InputError:
         return False
-    return any(name.strip(' "').startswith("F_X0") for name in names)
 
 
 def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
@@ -206,53 +182,53 @@ def _print(found: dict[str, Any]) -> None:
     step = found["step [s]"]
     uneven = step["max"] - step["min"] > 1e-3 * step["median"]
     spread = f" (median; {step['min']:.6g} s to {step['max']:.6g} s)" if uneven else ""
-    lines = {"source": found["source"], "kind": found["kind"]}
-    if "reading" in found:
-        lines["taken"] = "\n          ".join(found["reading"])
     start, end = found["time [s]"]
-    lines |= {
+    lines = {
+        "source": found["source"],
+        "kind": found["kind"],
+        "taken": "\n          ".join(found.get("reading", ())),
         "samples": f"{found['samples']}",
         "time": f"{start:.6g} s to {end:.6g} s",
         "step": f"{step['median']:.6g} s{spread}",
     }
     for name, text in lines.items():
-        typer.echo(f"{name:<10}{text}")
+        if text:
+            typer.echo(f"{name:<10}{text}")
     typer.echo()
     _table("statistics over the samples", found["statistics"])
     if "main bearing" in found:
         typer.echo()
         _table(f"load on the main bearing, with {_words(found['drivetrain'])}", found["main bearing"])
+    for name in (key for key in found if key.endswith(" main bearing")):
+        typer.echo()
+        _table(f"load on the {name}", found[name])
 
 
 def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
-    from macroslip.cli.printing import number, print_table
-
     rows = [[name, *(number(float(value)) for value in values.values())] for name, values in statistics.items()]
     print_table(title, [("", False), ("mean", True), ("std", True), ("min", True), ("max", True)], rows)
 
 
-def _words(drivetrain: dict[str, Any]) -> str:
-    mass = drivetrain["shaft_mass [kg]"]
-    shaft = (
-        f"a shaft of {mass:g} kg {drivetrain['shaft_mass_station [m]']:g} m behind the hub" if mass else "no shaft mass"
+def _words(given: dict[str, Any]) -> str:
+    """The drivetrain in a line."""
+    shaft = "no shaft mass"
+    if mass := given["shaft_mass [kg]"]:
+        shaft = f"a shaft of {mass:g} kg {given['shaft_mass_station [m]']:g} m behind the hub"
+    start = (
+        f"{'the default' if given['default'] else 'your'} drivetrain ({given['hub_to_bearing [m]']:g} m from hub to "
     )
-    whose = "the default" if drivetrain["default"] else "your"
-    hub = drivetrain["hub_to_bearing [m]"]
-    if drivetrain["mount"] == "four-point":
-        return (
-            f"{whose} drivetrain ({hub:g} m from hub to front bearing, {drivetrain['front_to_rear [m]']:g} m from front to "
-            f"rear bearing, {drivetrain['locating']} locating, {shaft}): the {drivetrain['bearing']} bearing"
-        )
-    gearbox = drivetrain["bearing_to_gearbox [m]"]
-    return f"{whose} drivetrain ({hub:g} m from hub to bearing, {gearbox:g} m from bearing to gearbox, {shaft})"
+    if given["mount"] == "four-point":
+        rear = f"{given['front_to_rear [m]']:g} m from front to rear bearing, {given['locating']} locating"
+        return f"{start}front bearing, {rear}, {shaft}): the {given['bearing']} bearing"
+    return f"{start}bearing, {given['bearing_to_gearbox [m]']:g} m from bearing to gearbox, {shaft})"
 
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:
     """The picture of the loads, with the load that the upwind row carries in the case's bearing."""
-    from macroslip.bearing.frames import ROWS
+    from macroslip.bearing.geometry import ROWS
     from macroslip.case.case import Case
     from macroslip.report.load_figures import load_figure
-    from macroslip.result.row_loads import roller_load_series
+    from macroslip.result.rating import roller_load_series
 
     parts = {"bearing": base.bearing, "lubricant": base.lubricant, "laws": base.laws} if base else {}
     case = Case(loads=bearing, drivetrain=drivetrain, **parts)

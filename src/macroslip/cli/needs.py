@@ -20,16 +20,15 @@ class Need(NamedTuple):
 
 FIGURES = Need("a page or a picture", ("matplotlib", "jinja2"), "figures")
 PICTURE = Need("a picture", ("matplotlib",), "figures")
-WORKERS = Need("--workers and --scheduler", ("dask", "distributed", "cryptography"), "cluster")
+SCHEDULER = Need("--scheduler", ("dask", "distributed"), "cluster")
 
-#: What the commands need beyond the package's own dependencies.
-COMMANDS: Mapping[str, tuple[Need, ...]] = MappingProxyType(
+#: Packages that the commands need beyond the package's own dependencies.
+COMMANDS: Mapping[str, Need] = MappingProxyType(
     {
-        "macroslip report": (FIGURES,),
-        "macroslip reproduce": (FIGURES,),
-        "macroslip loads inspect -o": (PICTURE,),
-        "macroslip bearing draw": (PICTURE,),
-        "macroslip study --workers": (WORKERS,),
+        "macroslip report": FIGURES,
+        "macroslip loads inspect -o": PICTURE,
+        "macroslip bearing draw": PICTURE,
+        "macroslip study --scheduler": SCHEDULER,
     }
 )
 
@@ -48,18 +47,9 @@ def missing_packages(need: Need) -> list[str]:
 def require(*needs: Need) -> None:
     """Refuse a use of the program whose packages are not all installed.
 
-    Raises
-    ------
-    MacroslipError
-        With the packages and the line that installs them.
+    Raises MacroslipError with the packages and the line that installs them.
     """
-    lacking = {need: missing_packages(need) for need in needs}
-    found = {need: names for need, names in lacking.items() if names}
-    if not found:
-        return
-    uses = " and ".join(need.use for need in found)
-    names = ", ".join(dict.fromkeys(name for names in found.values() for name in names))
-    extras = ",".join(dict.fromkeys(need.extra for need in found))
-    raise MacroslipError(
-        f"not installed, but needed for {uses}: {names}. Install with: pip install 'macroslip[{extras}]'"
-    )
+    for need in needs:
+        if lacking := ", ".join(missing_packages(need)):
+            remedy = f"Install with: pip install 'macroslip[{need.extra}]'"
+            raise MacroslipError(f"not installed, but needed for {need.use}: {lacking}. {remedy}")

@@ -7,19 +7,13 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+import typer
+
 if TYPE_CHECKING:
     from rich.console import Console
 
 PIPE_WIDTH = 160
 """Characters a line may have where there is no terminal."""
-
-
-def console() -> Console:
-    """Standard output without markup and without automatic colours."""
-    from rich.console import Console
-
-    found = Console(markup=False, highlight=False)
-    return found if found.is_terminal else Console(markup=False, highlight=False, width=PIPE_WIDTH)
 
 
 def print_table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable[Iterable[str]]) -> None:
@@ -32,9 +26,17 @@ def print_table(title: str, headings: Iterable[tuple[str, bool]], rows: Iterable
         shown.add_column(heading, justify="right" if numbers else "left")
     for row in rows:
         shown.add_row(*row)
-    out = console()
+    out = plain_console()
     out.print(title, style="bold", soft_wrap=True)
     out.print(shown)
+
+
+def plain_console(*, stderr: bool = False) -> Console:
+    """A console without markup and automatic colours, `PIPE_WIDTH` wide where there is no terminal."""
+    from rich.console import Console
+
+    out = Console(stderr=stderr, markup=False, highlight=False)
+    return out if out.is_terminal else Console(stderr=stderr, markup=False, highlight=False, width=PIPE_WIDTH)
 
 
 def number(value: float) -> str:
@@ -52,8 +54,6 @@ def number(value: float) -> str:
 
 def print_json(data: Mapping[str, Any] | list[Any]) -> None:
     """Print data as JSON, for scripts; numbers in full, and null for a number that is not finite."""
-    import typer
-
     typer.echo(json.dumps(_plain(data), indent=2, allow_nan=False))
 
 
@@ -69,10 +69,8 @@ def _plain(data: Any) -> Any:
         return {str(key): _plain(value) for key, value in data.items()}
     if isinstance(data, list | tuple):
         return [_plain(value) for value in data]
-    if isinstance(data, bool | int | str) or data is None:
-        return data
     if hasattr(data, "item"):  # a number of numpy
-        return _plain(data.item())
+        data = data.item()
     if isinstance(data, float):
         return data if math.isfinite(data) else None
-    return str(data)
+    return data if isinstance(data, bool | int | str) or data is None else str(data)

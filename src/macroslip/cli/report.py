@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from macroslip.cli.compare import compare
 from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
 from macroslip.cli.needs import FIGURES, require
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
+
+if TYPE_CHECKING:
+    from macroslip.study.weights import Weibull
 
 PAGE = "report.html"
 _TITLE = "Slip of the rollers"
 
 
 def report(
-    results: Annotated[
-        Path,
-        typer.Argument(help="A file that `macroslip run` wrote, a folder of such files, or the folder of a study."),
+    paths: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="RESULTS...",
+            help="A file that `macroslip run` wrote, a folder of such files, or the folder of a study; several files are compared.",
+        ),
     ],
     output: Annotated[
         Path | None,
@@ -38,16 +44,33 @@ def report(
 ) -> None:
     """Make one self-contained HTML page on results."""
     require(FIGURES)
-    from macroslip.report.study_page import is_study
+    results = paths[0]
+    if len(paths) > 1:
+        if weibull:
+            raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
+        return compare(paths, output=output, title=title or "", force=force, quiet=quiet)
+    from macroslip.study.reader import is_study
+    from macroslip.study.store import CASES, parts
+    from macroslip.study.weights import Weibull
 
-    if output is None:
-        output = (results if results.is_dir() else results.parent) / PAGE
-    make = _of_study if is_study(results) else _of_results
+    output = output or (results if results.is_dir() else results.parent) / PAGE
+    of_study = is_study(results)
+    if weibull and not of_study:
+        raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
     if results.exists():
-        check_new_file(output, force=force, inputs=_inputs(results, output))
-    page, failed = make(results, title, weibull)
+        # Files that the page is made from, as far as the output could be one of them.
+        inputs = results.glob("*.nc") if results.is_dir() else [results]
+        if of_study:
+            stored = (results / CASES).resolve() in output.resolve().parents
+            inputs = [*parts(results), *([output] if stored else [])]
+        check_new_file(output, force=force, inputs=inputs)
+    page, failed = (
+        _of_study(results, title, Weibull(scale=weibull[0], shape=weibull[1]) if weibull else None)
+        if of_study
+        else _of_results(results, title)
+    )
     with new_file(output, force=force) as temporary:
-        temporary.write_text(page, encoding="utf-8")
+        temporary.write_text(page, encoding="utf-8", errors="backslashreplace")
     if not quiet:
         typer.echo(f"written: {output}")
     if failed:
@@ -55,52 +78,32 @@ def report(
         raise typer.Exit(ROLLERS_FAILED)
 
 
-def _inputs(results: Path, output: Path) -> Iterable[Path]:
-    """Files that the page is made from, as far as the output could be one of them."""
-    from macroslip.report.study_page import is_study
-    from macroslip.study.store import CASES, parts
-
-    if not results.is_dir():
-        return [results]
-    if not is_study(results):
-        return results.glob("*.nc")
-    stored = (results / CASES).resolve() in output.resolve().parents
-    return [*parts(results), *([output] if stored else [])]
-
-
-def _of_results(results: Path, title: str | None, weibull: tuple[float, float] | None) -> tuple[str, str]:
-    """The page on results, and what failed."""
-    from macroslip.report.read import read_results
+def _of_results(results: Path, title: str | None) -> tuple[str, str]:
+    """The page on results, and the number of failures in words."""
+    from macroslip.report.accessor import read_results
+    from macroslip.report.result_numbers import rollers_failed
     from macroslip.report.results_page import results_page
 
-    if weibull:
-        raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
     found = read_results(results)
     try:
         page = results_page(found, title=title or _TITLE)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         # A file may have been changed in too many ways to check each.
-        raise InputError(
-            f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})",
-            where=str(results),
-            allowed="what macroslip run wrote, or a selection of it",
-            remedy="Run the case again; if nothing has changed the file since it was written, please report this.",
-        ) from error
-    failed = sum(int((one.status != 0).sum()) for one in found.values())
-    rollers = sum(int(one.status.size) for one in found.values())
+        what = f"no page can be made of this ({type(error).__name__}: {' '.join(str(error).split())[:200]})"
+        allowed = "what macroslip run wrote, or a selection of it"
+        remedy = "Run the case again; if nothing has changed the file since it was written, please report this."
+        raise InputError(what, where=str(results), allowed=allowed, remedy=remedy) from error
+    failed, rollers = rollers_failed(found.values())
     return page, f"{failed} of {rollers} rollers" if failed else ""
 
 
-def _of_study(results: Path, title: str | None, weibull: tuple[float, float] | None) -> tuple[str, str]:
-    """The page on a study, and what failed."""
+def _of_study(results: Path, title: str | None, weights: Weibull | None) -> tuple[str, str]:
+    """The page on a study, and the number of failures in words."""
     from macroslip.report.study_page import study_page
-    from macroslip.study.outcome import Outcome
     from macroslip.study.reader import open_study
-    from macroslip.study.weights import Weibull
+    from macroslip.study.store import Outcome
 
     study = open_study(results)
     failed = int((study.outcome != str(Outcome.COMPLETED)).sum())
-    page = study_page(
-        study, title=title or study.attrs["title"] or _TITLE, weights=Weibull(*weibull) if weibull else None
-    )
+    page = study_page(study, title=title or study.attrs["title"] or _TITLE, weights=weights)
     return page, f"{failed} of {study.sizes['case']} runs failed or are missing" if failed else ""

@@ -2,20 +2,40 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
+from macroslip.cli.failure import MEMORY, ROLLERS_FAILED, to_stderr
+from macroslip.cli.printing import number, print_json, print_table
 from macroslip.cli.progress import command_progress
+from macroslip.constants import ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
+from macroslip.report.style import years
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from macroslip.case.case import Case
+
+#: Time between the samples of a case's motion, and the longest time of it [s].
+_STEP, _MINUTE = 0.05, 60.0
+#: Names in the summary of what `macroslip.report.result_numbers.row_numbers` has for a row.
+_OF_ROW = {
+    "energy": "mean energy per roller [J]", "peak": "highest peak power [W]", "spin": "lowest spin / pure rolling [1]",
+    "rollers": "rollers", "failed": "failed rollers",
+}  # fmt: skip
+#: Names in the JSON summary of what a rating has for the bearing as a whole.
+_RATED = {
+    "static_safety": "static safety [1]", "basic_life": "L10h [h]", "modified_life": "L10mh [h]",
+    "viscosity_ratio": "kappa [1]", "share_below_minimum_load": "share of time below the minimum load [1]",
+}  # fmt: skip
 
 
 def run(
@@ -30,43 +50,72 @@ def run(
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Show failures only, each error on one line.")] = False,
 ) -> None:
-    """Compute the slip of a case's rollers, as netCDF."""
-    from macroslip.case.case_file import files_named_in, read_case
+    """Compute the slip of a case's rollers, as netCDF; of both main bearings as OUTPUT-front.nc and OUTPUT-rear.nc."""
+    from macroslip.case.case_file import bearings_in, files_named_in
 
-    check_new_file(output, force=force, inputs=[case, *(laws or ()), *files_named_in(case)])
+    inputs = [case, *(laws or ()), *files_named_in(case)]
+    outputs = {
+        name: output.parent / f"{output.stem}-{name}{output.suffix}" if name else output for name in bearings_in(case)
+    }
+    for path in outputs.values():
+        check_new_file(path, force=force, inputs=inputs)
     for path in laws or ():
         from macroslip.plugins import load_laws
 
         load_laws(path)
-    checked = read_case(case)
-    from macroslip.integrate.ahead import compile_ahead
+    told, failed = {}, False
+    for name, path in outputs.items():
+        dataset = _computed(case, name, threads, quiet)
+        _write(dataset, path, force)
+        told[name] = _numbers(dataset) | {"written": str(path)}
+        if not (quiet or as_json):
+            _summary(dataset, name, path)
+        failed = _tell_doubts(dataset, quiet) or failed
+    if as_json:
+        print_json(told.get("", told))
+    elif len(outputs) > 1 and not quiet:
+        typer.echo(f"one page on both: macroslip report {' '.join(map(str, outputs.values()))}")
+    if failed:
+        raise typer.Exit(ROLLERS_FAILED)
 
-    compile_ahead(physical=checked.laws.microslip)
+
+def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.Dataset:
+    """The result of a case file, of one of its main bearings if there are two."""
+    from macroslip.case.case_file import names_key, read_case
+    from macroslip.result.plausibility import doubtful_loads
     from macroslip.result.rating import with_rating
     from macroslip.result.simulate import simulate
-    from macroslip.result.stored import to_netcdf
 
+    checked = read_case(case, bearing=bearing)
+    if not names_key(case, "traces"):
+        checked = with_motion(checked)
+    for sentence in [] if quiet else doubtful_loads(checked.loads, checked.bearing):
+        to_stderr(f"doubtful: {sentence}.")
     with command_progress(quiet=quiet) as report, _named(case, checked.loads.source):
         progress = report and (lambda done, total: report("rollers", done, total))
-        dataset = with_rating(simulate(checked, threads=threads, progress=progress), checked)
+        return with_rating(simulate(checked, threads=threads, progress=progress), checked)
+
+
+def _write(dataset: xr.Dataset, path: Path, force: bool) -> None:
+    from macroslip.result.stored import to_netcdf
+
     # In memory first: the HDF5 library may bring the whole process down when the disk is full.
     content = to_netcdf(dataset)
-    with new_file(output, force=force) as temporary:
+    with new_file(path, force=force) as temporary:
         temporary.write_bytes(content)
-    if as_json:
-        from macroslip.cli.printing import print_json
 
-        print_json(_numbers(dataset) | {"written": str(output)})
-    elif not quiet:
-        _summary(dataset)
-        typer.echo(f"written: {output}")
-    if _tell_failures(dataset):
-        raise typer.Exit(ROLLERS_FAILED)
+
+def with_motion(case: Case) -> Case:
+    """The case with traces of its first minute, from which its page shows the bearing in motion."""
+    from macroslip.case.parts import Traces
+
+    first, last = float(case.loads.time[0]), float(case.loads.time[-1])
+    return replace(case, traces=Traces(step=_STEP, end=min(first + _MINUTE, last)))
 
 
 @contextmanager
 def _named(case: Path, loads: str) -> Iterator[None]:
-    """Name the case file, and the key of its loads, in what is found wrong while it is computed."""
+    """Name the case file, and the key of its loads, in errors of the computation."""
     try:
         yield
     except InputError as problem:
@@ -75,40 +124,52 @@ def _named(case: Path, loads: str) -> Iterator[None]:
         raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
     except MemoryError:
         what = "the computer has not enough memory for this case"
-        remedy = "Use shorter loads, fewer rollers or no traces."
-        raise InputError(what, where=f"{case}, loads, rollers or traces", remedy=remedy) from None
+        raise InputError(what, where=f"{case}, loads, rollers or traces", remedy=MEMORY) from None
 
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
-    """The main results, by row."""
-    rows = {}
-    for name in dataset.row.values:
-        row = dataset.sel(row=name)
-        # Rollers that failed have no results; a window without a complete orbit has no peaks.
-        values = (row.energy.sum("interface", skipna=False).dropna("roller"), row.peak_power, row.min_spin_ratio)
-        energy, peak, spin = (value.values[~value.isnull().values] for value in values)
-        rows[str(name)] = {
-            "mean energy per roller [J]": energy.mean() if energy.size else float("nan"),
-            "highest peak power [W]": peak.max() if peak.size else float("nan"),
-            "lowest spin / pure rolling [1]": spin.min() if spin.size else float("nan"),
-            "rollers": row.sizes["roller"],
-            "failed rollers": int((row.status != 0).sum()),
-        }
-    return {
-        "title": dataset.attrs["title"],
-        "window": {
-            "start [s]": dataset.attrs["window_start"],
-            "end [s]": dataset.attrs["window_end"],
-            "complete orbits": dataset.sizes["orbit"],
-        },
-        "rows": rows,
+    """The main results, by row; NaN where a roller failed."""
+    from macroslip.report.result_numbers import row_numbers
+
+    rows = {
+        one["name"]: {words: math.nan if one[key] is None else one[key] for key, words in _OF_ROW.items()}
+        for one in row_numbers(dataset)
     }
+    window = {
+        "start [s]": dataset.attrs["window_start"],
+        "end [s]": dataset.attrs["window_end"],
+        "complete orbits": dataset.sizes["orbit"],
+    }
+    found = {name: dataset.attrs[name] for name in ("title", "model", "oil")} | {"window": window, "rows": rows}
+    if "inlet_temperature" in dataset:
+        found["inlet temperature [degC]"] = float(dataset.inlet_temperature) - ZERO_CELSIUS
+    if "static_safety" in dataset:
+        found["rating"] = {words: float(dataset[name]) for name, words in _RATED.items() if name in dataset}
+        found["rating"]["largest pressure [Pa]"] = float(dataset.largest_pressure.max())
+    if "rating_problem" in dataset.attrs:
+        found["not rated"] = dataset.attrs["rating_problem"]
+    if "books_warning" in dataset.attrs:
+        found["warning"] = dataset.attrs["books_warning"]
+    from macroslip.result.damage import lines
+
+    criteria, missing = lines(dataset)
+    return found | {"damage": {"criteria": criteria, "not kept": missing}}
 
 
-def _summary(dataset: xr.Dataset) -> None:
-    """Print the main results, row by row."""
-    from macroslip.cli.printing import number, print_table
+def _summary(dataset: xr.Dataset, bearing: str, path: Path) -> None:
+    """Print the main results, what they mean for damage, and the file."""
+    from macroslip.cli.damage import print_criteria
+    from macroslip.result.damage import lines
 
+    if bearing:
+        typer.echo(f"{bearing} main bearing")
+    _print_rows(dataset)
+    print_criteria(*lines(dataset), title="from slip to damage, the worst of either row and any place")
+    typer.echo(f"written: {path}")
+
+
+def _print_rows(dataset: xr.Dataset) -> None:
+    """Print the main results row by row, and the numbers beside slip in a line."""
     found = _numbers(dataset)
     rows = []
     for name, row in found["rows"].items():
@@ -116,39 +177,46 @@ def _summary(dataset: xr.Dataset) -> None:
         rows.append([name, *map(number, values), f"{failed} of {rollers}"])
     start, end, orbits = found["window"].values()
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
-    numbers = "mean energy per roller [J]", "highest peak power [W]", "lowest spin / pure rolling [1]", "failed rollers"
-    headings = [("row", False), *((heading, True) for heading in numbers)]
-    print_table(f"{found['title']}, {window}", headings, rows)
-    _beside(dataset)
-
-
-def _beside(dataset: xr.Dataset) -> None:
-    """Print the numbers beside slip in a line, or why there are none."""
-    from macroslip.cli.printing import number
-
+    numbers = [name for name in next(iter(found["rows"].values())) if name != "rollers"]
+    print_table(f"{found['title']}, {window}", [("row", False), *((heading, True) for heading in numbers)], rows)
     if "rating_problem" in dataset.attrs:
         typer.echo(f"not rated: {dataset.attrs['rating_problem']}")
     if "static_safety" not in dataset:
         return
-    life = float(dataset.modified_reference_life.sel(load_along_roller="hertz"))
+    safety, kappa = (number(float(dataset[name])) for name in ("static_safety", "viscosity_ratio"))
+    life = years(float(dataset.basic_life))
+    modified = years(float(dataset.modified_reference_life.sel(load_along_roller="hertz")))
+    below = number(100.0 * float(dataset.share_below_minimum_load))
     typer.echo(
-        f"beside slip: static safety {number(float(dataset.static_safety))}, L10h {number(float(dataset.basic_life))} h, "
-        f"modified reference life {number(life)} h, largest pressure {number(float(dataset.largest_pressure.max()) / 1e9)} "
-        f"GPa, kappa {number(float(dataset.viscosity_ratio))}, "
-        f"below the minimum load {number(100.0 * float(dataset.share_below_minimum_load))} % of the time"
+        f"beside slip: static safety {safety}, L10h {life}, modified reference life {modified}, largest pressure "
+        f"{number(float(dataset.largest_pressure.max()) / 1e9)} GPa, kappa {kappa}, below the minimum load {below} % of the "
+        f"time{_loaded(dataset)}"
     )
 
 
-def _tell_failures(dataset: xr.Dataset) -> bool:
-    """Print of every roller that failed when and how; returns whether there is one."""
-    from macroslip.integrate.status import Status
+def _loaded(dataset: xr.Dataset) -> str:
+    """How long rollers of a row carry load, beside the minimum load of the bearing as a whole."""
+    if "roller_load" not in dataset:
+        return ""
+    shares = (100.0 * (dataset.roller_load > 0.0)).mean(("roller", "time"))
+    return "; rollers carry load " + ", ".join(
+        f"{float(shares.sel(row=row)):.3g} % {row}" for row in dataset.row.values
+    )
 
-    failed = [roller for roller in dataset.status.stack(one=("row", "roller")) if roller != Status.COMPLETED]
-    for roller in failed:
-        row, index = str(roller.row.values), int(roller.roller)
-        ended = dataset.sel(row=row, roller=index)
+
+def _tell_doubts(dataset: xr.Dataset, quiet: bool) -> bool:
+    """Print what is doubtful, and of every roller that failed when and how; returns whether there is one."""
+    from macroslip.report.result_numbers import failures
+    from macroslip.result.plausibility import doubtful_result
+
+    for sentence in [] if quiet else doubtful_result(dataset):
+        to_stderr(f"doubtful: {sentence}.")
+    if "books_warning" in dataset.attrs:
+        to_stderr(f"warning: {dataset.attrs['books_warning']}")
+    failed = failures("", dataset)
+    for one in failed:
         to_stderr(
-            f"failed: roller {index} of the {row} row at t = {float(ended.end_time):.6g} s with a slip of "
-            f"{float(ended.end_slip):.4g} m/s: {Status(int(roller)).sentence}."
+            f"failed: roller {one['roller']} of the {one['row']} row at t = {one['time']:.6g} s with a slip of "
+            f"{one['slip']:.4g} m/s: {one['how']}."
         )
     return bool(failed)

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
-from macroslip.cli.needs import WORKERS, require
+from macroslip.cli.needs import SCHEDULER, require
+from macroslip.cli.printing import plain_console, print_json, print_table
 from macroslip.errors import InputError
 
 if TYPE_CHECKING:
-    from macroslip.study.progress import Progress
-    from macroslip.study.session import Ended
-    from macroslip.study.study import Study
+    from macroslip.study.run import Ended, Progress
+    from macroslip.study.study_file import Study
 
 #: Failures that are listed; the log and the summary have all.
 _LISTED = 30
@@ -49,7 +49,7 @@ def study(
     checked = read_study(study)
     for remark in checked.loads.remarks:
         to_stderr(f"note: {remark}")
-    require(*([WORKERS] if workers or scheduler else []))
+    require(*([SCHEDULER] if scheduler else []))
     if dry_run:
         _dry_run(checked, workers, threads, as_json)
         return
@@ -61,34 +61,25 @@ def study(
 
     try:
         with _shown(quiet=quiet) as report:
-            ended = run_study(
-                checked,
-                output,
-                workers=workers,
-                scheduler=scheduler,
-                threads=threads,
-                resume=resume,
-                strict=strict,
-                progress=report,
-            )
+            chosen = {"workers": workers, "scheduler": scheduler, "threads": threads}
+            ended = run_study(checked, output, **chosen, resume=resume, strict=strict, progress=report)
     except KeyboardInterrupt:
         to_stderr(f"interrupted; what is computed is kept in {output}. Go on with the same command and --resume.")
         raise typer.Exit(INTERRUPTED) from None
-    if as_json:
-        _summary_as_json(ended, output)
-    elif not quiet:
-        _summary(ended, output)
+    if as_json or not quiet:
+        _summary(ended, output, as_json)
     if ended.failures:
         _failures(ended, output)
         raise typer.Exit(CASES_FAILED)
 
 
 def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: bool) -> None:
-    from macroslip.cli.printing import print_json, print_table
+    from rich.filesize import decimal
+
     from macroslip.machine import usable_processors
-    from macroslip.study.estimate import estimate_study
-    from macroslip.study.progress import duration
-    from macroslip.study.safe_text import safe_text
+    from macroslip.study.loads_list import safe_text
+    from macroslip.study.run import duration
+    from macroslip.study.work import estimate_study
 
     found = estimate_study(checked)
     parts = [
@@ -114,7 +105,7 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
             ["length of a load history, mean", f"{found.simulated_seconds:.6g} s"],
             ["time on one processor", duration(found.seconds)],
             [f"time here, on {processors} processors", duration(found.seconds / processors)],
-            ["disk", size(found.bytes)],
+            ["disk", decimal(round(found.bytes))],
         ]
     print_table(safe_text(checked.title) or "study", [("", False), ("", True)], rows)
     typer.echo(
@@ -124,21 +115,6 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
     )
     for problem in found.problems:
         to_stderr(f"note: {safe_text(problem)}")
-
-
-def size(count: float) -> str:
-    """Write a number of bytes.
-
-    Examples
-    --------
-    >>> size(1234.0), size(2.5e11)
-    ('1.23 kB', '250 GB')
-    """
-    units = ["B", "kB", "MB", "GB", "TB", "PB"]
-    power = 0
-    while count >= 999.5 and power < len(units) - 1:
-        count, power = count / 1000.0, power + 1
-    return f"{count:.3g} {units[power]}"
 
 
 @contextmanager
@@ -170,11 +146,20 @@ def _shown(*, quiet: bool) -> Iterator[Callable[[Progress], None] | None]:
         )
 
 
-def _summary(ended: Ended, output: Path) -> None:
-    from macroslip.study.progress import duration
+def _summary(ended: Ended, output: Path, as_json: bool) -> None:
+    from macroslip.study.run import duration
 
     counts = ended.progress
     left = counts.total - counts.done
+    if as_json:
+        print_json(
+            {
+                "runs": counts.total, "computed": counts.computed, "unchanged": counts.unchanged,
+                "failed": counts.failed, "left": left, "seconds": counts.seconds, "folder": str(output),
+                "failures": [dict(zip(("labels", "outcome", "reason"), one, strict=True)) for one in ended.failures],
+            }
+        )  # fmt: skip
+        return
     typer.echo(
         f"{counts.total} runs: {counts.computed} computed, {counts.unchanged} unchanged, {counts.failed} failed"
         + (f", {left} left" if left else "")
@@ -183,29 +168,11 @@ def _summary(ended: Ended, output: Path) -> None:
     typer.echo(f"written: {output}")
 
 
-def _summary_as_json(ended: Ended, output: Path) -> None:
-    from macroslip.cli.printing import print_json
-
-    counts = ended.progress
-    print_json(
-        {
-            "runs": counts.total, "computed": counts.computed, "unchanged": counts.unchanged, "failed": counts.failed,
-            "left": counts.total - counts.done, "seconds": counts.seconds, "folder": str(output),
-            "failures": [
-                {"labels": labels, "outcome": str(outcome), "reason": reason}
-                for labels, outcome, reason in ended.failures
-            ],
-        }
-    )  # fmt: skip
-
-
 def _failures(ended: Ended, output: Path) -> None:
     """A table of failures on standard error, and how often each outcome came."""
-    from rich.console import Console
     from rich.table import Table
 
-    from macroslip.cli.printing import PIPE_WIDTH
-    from macroslip.study.safe_text import safe_text
+    from macroslip.study.loads_list import safe_text
 
     shown = Table(box=None, padding=(0, 2, 0, 0))
     for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):
@@ -214,8 +181,7 @@ def _failures(ended: Ended, output: Path) -> None:
         shown.add_row(
             *(safe_text(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split())))
         )
-    out = Console(stderr=True, markup=False, highlight=False)
-    (out if out.is_terminal else Console(stderr=True, markup=False, highlight=False, width=PIPE_WIDTH)).print(shown)
+    plain_console(stderr=True).print(shown)
     total = ended.progress.failed
     if total > _LISTED:
         to_stderr(f"... and {total - _LISTED} more, in {output}/summary.parquet and {output}/log.txt.")

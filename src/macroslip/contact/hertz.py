@@ -141,12 +141,10 @@ def elliptical_contact(rolling_curvature: float, lateral_curvature: float, modul
 
     for name, value in (("rolling", rolling_curvature), ("lateral", lateral_curvature)):
         if not (math.isfinite(value) and value > 0.0):
-            raise InputError(
-                f"the relative curvature in the {name} direction is {value:g} 1/m",
-                where="Hertz contact",
-                allowed="positive numbers (the concave radius must exceed the convex one)",
-                remedy="Check radii and osculation; osculation is roller contour radius over raceway radius, below 1",
-            )
+            what = f"the relative curvature in the {name} direction is {value:g} 1/m"
+            allowed = "positive numbers (the concave radius must exceed the convex one)"
+            remedy = "Check radii and osculation; osculation is roller contour radius over raceway radius, below 1"
+            raise InputError(what, where="Hertz contact", allowed=allowed, remedy=remedy)
     larger = max(rolling_curvature, lateral_curvature)
     ratio = axis_ratio(min(rolling_curvature, lateral_curvature) / larger)
     long_axis = float((2.0 * elliprd(0.0, 1.0, ratio**2) / (math.pi * modulus * larger)) ** (1.0 / 3.0))

@@ -21,8 +21,6 @@ import numpy as np
 from filelock import FileLock, Timeout
 from platformdirs import user_cache_path
 
-from macroslip.compiled import own_laws
-from macroslip.contact.spline import read_only
 from macroslip.files import UNFINISHED, write_durably
 from macroslip.fingerprint import KERNEL_PARTS, fingerprint
 
@@ -38,12 +36,14 @@ Made = TypeVar("Made")
 _in_memory: OrderedDict[str, Any] = OrderedDict()
 _locks: dict[str, threading.Lock] = {}
 _guard = threading.Lock()
+#: Bytes that this process has stored since it last looked at how many there are.
+_stored_since = [float(_MOST_BYTES)]
 
 
 def table_key(*parts: Any) -> str:
     """Name of a table by all it depends on: numbers, arrays and named tuples of them, and the sources of the laws."""
     digest = hashlib.sha256(fingerprint(*KERNEL_PARTS).encode())
-    for text in (*own_laws(), *(_described(part) for part in parts)):
+    for text in map(_described, parts):
         digest.update(text.encode() + b"\0")
     return digest.hexdigest()
 
@@ -70,7 +70,7 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
 
 
 def remembered(key: str, make: Callable[[], Made]) -> Made:
-    """What is called `key`, made only if this process has not made it or has forgotten it.
+    """The object called `key`, made only if this process has not made it or has forgotten it.
 
     Parameters
     ----------
@@ -93,6 +93,13 @@ def remembered(key: str, make: Callable[[], Made]) -> Made:
                 while len(_in_memory) > 1 and sum(map(_size, _in_memory.values())) > _MOST_IN_MEMORY:
                     _in_memory.popitem(last=False)
         return found
+
+
+def _read_only(values: np.ndarray) -> np.ndarray:
+    """An array that nobody changes, in C order."""
+    found = np.ascontiguousarray(values)
+    found.flags.writeable = False
+    return found
 
 
 def _size(value: Any) -> int:
@@ -129,20 +136,30 @@ def _from_disk_or_made(key: str, make: Callable[[], Sequence[np.ndarray]]) -> li
             held.enter_context(FileLock(path.parent / f"{key[:2]}.lock", timeout=_PATIENCE))
             if (found := _read(path)) is not None:
                 return found
-        made = [read_only(one) for one in make()]
+        made = [_read_only(one) for one in make()]
         if path is not None:
             with contextlib.suppress(OSError):
-                write_durably(path, _content(made))
-                _remove_oldest(path.parent)
+                content = _content(key, made)
+                write_durably(path, content)
+                # To look at all files takes as long as to make a table: once a process, and then now and then.
+                _stored_since[0] += len(content)
+                if _stored_since[0] > _MOST_BYTES / 50:
+                    _stored_since[0] = 0
+                    _remove_oldest(path.parent)
         return made
 
 
-def _content(arrays: Sequence[np.ndarray]) -> bytes:
+def _checksum(key: str, content: bytes) -> bytes:
+    """Checksum of a file: its name is in it, so that files that were exchanged are found."""
+    return hashlib.sha256(key.encode() + content).digest()
+
+
+def _content(key: str, arrays: Sequence[np.ndarray]) -> bytes:
     part = io.BytesIO()
     for one in arrays:
         np.save(part, one, allow_pickle=False)
     content = part.getvalue()
-    return hashlib.sha256(content).digest() + content
+    return _checksum(key, content) + content
 
 
 def _read(path: Path) -> list[np.ndarray] | None:
@@ -150,11 +167,11 @@ def _read(path: Path) -> list[np.ndarray] | None:
         content = path.read_bytes()
     except OSError:
         return None
-    if len(content) <= 32 or hashlib.sha256(content[32:]).digest() != content[:32]:
+    if len(content) <= 32 or _checksum(path.stem, content[32:]) != content[:32]:
         return None
     part, found = io.BytesIO(content[32:]), []
     while part.tell() < len(content) - 32:
-        found.append(read_only(np.load(part, allow_pickle=False)))
+        found.append(_read_only(np.load(part, allow_pickle=False)))
     with contextlib.suppress(OSError):
         os.utime(path)  # the files used last are removed last
     return found

@@ -61,12 +61,8 @@ class _Group(NamedTuple):
 def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
     """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Any file of the run may be named. Without a channel for it, `shaft_speed` is left out unless it is needed.
-
-    Raises
-    ------
-    InputError
-        A group is absent, cut off, or does not fit its header.
+    Any file of the run may be named. Without a channel for it, `shaft_speed` is left out unless it is needed. Raises
+    InputError if a group is absent, cut off, or does not fit its header.
     """
     groups = _groups(path)
     hub = _group_with(_LOADS, groups, path)
@@ -76,12 +72,9 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
     if speed_needed or any(_SPEED in group.names for group in groups):
         drive = _group_with((_SPEED,), groups, path)
         if drive.samples != hub.samples or not np.allclose(drive.time, hub.time, atol=1e-6 * drive.step, rtol=0.0):
-            raise InputError(
-                f"{drive.header.name} and {hub.header.name} have different time steps",
-                where=str(path),
-                allowed="the same samples in both groups",
-                remedy="Write both groups with the same output step, or give the speed: loads.shaft_speed.",
-            )
+            what = f"{drive.header.name} and {hub.header.name} have different time steps"
+            remedy = "Write both groups with the same output step, or give the speed: loads.shaft_speed."
+            raise InputError(what, where=str(path), allowed="the same samples in both groups", remedy=remedy)
         result["shaft_speed"] = _columns(drive, (_SPEED,))[:, 0]
         reading.append(f"shaft speed: {_SPEED} of {drive.header.name}")
     return result | {"reading": tuple(reading)}
@@ -96,12 +89,9 @@ def _groups(path: Path) -> list[_Group]:
         if one.is_file() and one.stem == stem and re.fullmatch(r"\.%\d+", one.suffix)
     )
     if not headers:
-        raise InputError(
-            f"there is no header {stem}.%nn beside it",
-            where=str(path),
-            allowed="the headers (.%nn) and the data (.$nn) of a run in one folder",
-            remedy="Copy the headers too: without them the data cannot be read.",
-        )
+        allowed = "the headers (.%nn) and the data (.$nn) of a run in one folder"
+        remedy = "Copy the headers too: without them the data cannot be read."
+        raise InputError(f"there is no header {stem}.%nn beside it", where=str(path), allowed=allowed, remedy=remedy)
     return [group for group in map(_header, headers) if group is not None]
 
 
@@ -159,12 +149,9 @@ def _header(path: Path) -> _Group | None:
         if not all(map(math.isfinite, mean)):
             raise ValueError("MEAN is not finite")
     except (KeyError, ValueError, IndexError) as error:
-        raise InputError(
-            f"not readable as a header of Bladed ({error})",
-            where=str(path),
-            allowed="the keys DIMENS, VARIAB, VARUNIT, FORM, FORMAT, AXISLAB, AXIMETH, MIN and STEP",
-            remedy=_AGAIN,
-        ) from error
+        what = f"not readable as a header of Bladed ({error})"
+        allowed = "the keys DIMENS, VARIAB, VARUNIT, FORM, FORMAT, AXISLAB, AXIMETH, MIN and STEP"
+        raise InputError(what, where=str(path), allowed=allowed, remedy=_AGAIN) from error
     if len(names) != variables or len(units) != variables:
         what = f"the header announces {variables} variables, and names {len(names)} with {len(units)} units"
         raise InputError(what, where=str(path), remedy=_AGAIN)
@@ -179,12 +166,9 @@ def _columns(group: _Group, names: tuple[str, ...]) -> NDArray[np.float64]:
     for name in names:
         unit = group.units[group.names.index(name)]
         if unit != _UNITS[name]:
-            raise InputError(
-                f"{name} has the unit code {unit}",
-                where=str(group.header),
-                allowed=f"{_UNITS[name]}, in SI units",
-                remedy="Run Bladed with SI output.",
-            )
+            what = f"{name} has the unit code {unit}"
+            allowed = f"{_UNITS[name]}, in SI units"
+            raise InputError(what, where=str(group.header), allowed=allowed, remedy="Run Bladed with SI output.")
     data = group.header.with_suffix(group.header.suffix.replace("%", "$"))
     if not data.is_file():
         what = f"there is no {data.name} beside the header"

@@ -7,7 +7,7 @@ own axes, and the bearing's angle and speed:
     mbdy momentvec shaft 4 2 shaft ;
     constraint bearing1 shaft_rot 2 ;
 
-with the number of the shaft's last element in place of 4. The speed may be that of the rotor (``aero omega``) instead,
+with the number of the shaft's last element in place of 4. The speed of the rotor (``aero omega``) serves instead,
 or may be given. Of several nodes that with the highest number is taken, the hub's end.
 
 The axes of the main body ``shaft`` turn with the rotor. At angle zero x' points to the left (looking downwind), y' down
@@ -57,13 +57,11 @@ class _Output(NamedTuple):
 def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
     """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Without a channel for it, `shaft_speed` is left out unless it is needed.
-
-    Raises
-    ------
-    InputError
-        The file is cut off or damaged, lacks a channel, or its forces do not show the rotor's weight.
+    Without a channel for it, `shaft_speed` is left out unless it is needed. Raises InputError if the file is cut off or
+    damaged, lacks a channel, or its forces do not show the rotor's weight.
     """
+    if path.suffix.lower() == ".dat":
+        path = _beside(path, ".sel", "A .dat file is read as HAWC2 output: copy the list of channels too.")
     output = _read_gtsdf(path) if path.suffix.lower() in (".hdf5", ".h5") else _read_sel(path)
     force, node = _vector(output, "force", FORCE)
     moment, _ = _vector(output, "moment", MOMENT, node)
@@ -76,12 +74,9 @@ def read_hawc2(path: Path, *, speed_needed: bool = True) -> dict:
     result = {"time": output.time, "force": force, "moment": moment}
     speed = _channel(output, r"omega|rotor speed|angle_?\s*speed", SPEED)
     if speed is None and speed_needed:
-        raise InputError(
-            "there is no speed of the shaft",
-            where=output.where,
-            allowed="constraint bearing1 of the shaft, or aero omega",
-            remedy="Add one of them to the output section, or give the speed: loads.shaft_speed.",
-        )
+        allowed = "constraint bearing1 of the shaft, or aero omega"
+        remedy = "Add one of them to the output section, or give the speed: loads.shaft_speed."
+        raise InputError("there is no speed of the shaft", where=output.where, allowed=allowed, remedy=remedy)
     if speed is not None:
         result["shaft_speed"] = np.abs(speed[0]) if np.all(speed[0] <= 0.0) else speed[0]
         reading.append(f"shaft speed: {speed[1]}")
@@ -102,12 +97,9 @@ def _vector(
     whole = [number for number, axes in found.items() if len(axes) == 3]
     if not whole or (node is not None and node not in whole):
         at = f" at node {node}, where the force is given" if node is not None and whole else ""
-        raise InputError(
-            f"there is no {kind} of the main body shaft in its own axes{at} ({len(output.names)} channels)",
-            where=output.where,
-            allowed=f"{letter}x, {letter}y and {letter}z with 'coo: shaft' and 'Mbdy:shaft' in the description",
-            remedy=_REMEDY,
-        )
+        what = f"there is no {kind} of the main body shaft in its own axes{at} ({len(output.names)} channels)"
+        allowed = f"{letter}x, {letter}y and {letter}z with 'coo: shaft' and 'Mbdy:shaft' in the description"
+        raise InputError(what, where=output.where, allowed=allowed, remedy=_REMEDY)
     node = max(whole) if node is None else node
     return np.column_stack([output.in_si(found[node][axis], factors) for axis in "xyz"]), node
 
@@ -168,10 +160,7 @@ def _read_sel(path: Path) -> _Output:
     except (StopIteration, ValueError, IndexError) as error:
         what = f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})"
         raise InputError(what, where=str(path), remedy=_AGAIN) from error
-    beside = (one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == ".dat")
-    data = next((one for one in beside if one.is_file()), None)
-    if data is None:
-        raise InputError(f"there is no {path.stem}.dat beside it", where=str(path), remedy="Copy the data file too.")
+    data = _beside(path, ".dat", "Copy the data file too.")
     count, header = scans * channels, "the list of channels"
     values = announced(data, None if scale is None else "<i2", count, header, _AGAIN)
     values = values.reshape(scans, channels) if scale is None else values.reshape(channels, scans).T * scale
@@ -182,12 +171,21 @@ def _read_sel(path: Path) -> _Output:
     return _Output(list(names), list(units), list(texts), values, time, str(path))
 
 
+def _beside(path: Path, extension: str, remedy: str) -> Path:
+    """The file of the same output with another extension, in whatever case it is written."""
+    found = (one for one in path.parent.iterdir() if one.stem == path.stem and one.suffix.lower() == extension)
+    for one in found:
+        if one.is_file():
+            return one
+    raise InputError(f"there is no {path.stem}{extension} beside it", where=str(path), remedy=remedy)
+
+
 def _announced_time(stamps: NDArray, duration: float, resolution: float, data: Path) -> NDArray[np.float64]:
     """Times of the samples, which have to last as long as the list of channels announces.
 
-    16 bits resolve the time of a long run to more than a step, so that binary times are those of equal steps.
+    16 bits resolve the time of a long run to more than a step, so that binary times are taken as equal steps.
     """
-    # Some programs announce the time of the last sample, others that of one step more than from first to last.
+    # Some programs announce the time from first to last sample, others one step more.
     near = 2.5 * duration / stamps.size + resolution + 1e-3
     if min(abs(stamps[-1] - stamps[0] - duration), abs(stamps[-1] - duration)) > near:
         what = (

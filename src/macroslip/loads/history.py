@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import importlib.resources
 import math
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from numbers import Real
 from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from macroslip.catalogue.entry import is_finite_number
 from macroslip.errors import InputError
 from macroslip.files import reading
+from macroslip.input.units import is_finite_number
 from macroslip.loads.bladed import read_bladed
+from macroslip.loads.bundled import bundled_case
 from macroslip.loads.hawc2 import read_hawc2
 from macroslip.loads.openfast import read_openfast
 from macroslip.loads.source_file import DAMAGED, RPM, source_file
@@ -46,26 +46,16 @@ _HUB_FILES = {
     ".%nn": "Bladed output, any file of the run",
     ".$nn": "the same",
     ".sel": "HAWC2 output",
+    ".dat": "HAWC2 output, with its .sel beside it",
     ".hdf5": "HAWC2 output in the format gtsdf",
 } | _TABLES
 #: Readers by extension; all others are Bladed's.
-_READERS = {".out": read_openfast, ".outb": read_openfast, ".sel": read_hawc2, ".hdf5": read_hawc2}
+_READERS = {".out": read_openfast, ".outb": read_openfast, ".sel": read_hawc2, ".dat": read_hawc2, ".hdf5": read_hawc2}
 _READERS |= dict.fromkeys(_TABLES, read_hub_table)
 
 
-def bundled_cases() -> list[str]:
-    """Names of the load cases that come with the package: mean wind speed [m/s] and IEC turbulence class.
-
-    Examples
-    --------
-    >>> bundled_cases()[:4], len(bundled_cases())
-    (['12A', '12B', '12C', '14A'], 21)
-    """
-    return [f"{speed}{turbulence}" for speed in range(12, 25, 2) for turbulence in "ABC"]
-
-
-class _History:
-    """What both kinds of loads share: checks, windows and their printed form."""
+class History:
+    """Checks, windows and printed form that both kinds of loads share."""
 
     __slots__ = ()
 
@@ -111,8 +101,9 @@ class _History:
 
     def window(self, start: float | None, end: float | None) -> Self:
         """The samples with ``start <= time <= end`` [s]; None keeps that end. Outside the record: InputError."""
-        columns = {name: getattr(self, name) for name in ("time", "shaft_speed", *self._VECTORS)}
         record: Any = self
+        columns = {one.name: getattr(self, one.name) for one in fields(record)}
+        columns = {name: values for name, values in columns.items() if isinstance(values, np.ndarray)}
         return replace(record, **cut(columns, start, end, self.source))
 
     def __repr__(self) -> str:
@@ -138,7 +129,7 @@ class _History:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class HubLoads(_History):
+class HubLoads(History):
     """Force and moment of the rotor **on** the shaft at the hub centre, in the non-rotating shaft axes.
 
     Axes, right-handed and turning with neither the rotor nor the shaft: x along the shaft, from the hub towards the
@@ -160,6 +151,8 @@ class HubLoads(_History):
         Where the loads come from, for errors and reports.
     reading : tuple of str
         Which channels of a file they were read from, and how; empty for loads that were not read.
+    event : bool
+        Whether they are of a start, a stop, idling or the like: the window then opens at the first sample.
 
     Raises
     ------
@@ -175,6 +168,7 @@ class HubLoads(_History):
     moment: NDArray[np.float64]
     source: str
     reading: tuple[str, ...] = ()
+    event: bool = False
 
     @classmethod
     def constant(
@@ -204,7 +198,7 @@ class HubLoads(_History):
         ----------
         path : path
             ``.outb`` and ``.out``: see `macroslip.loads.openfast` for the channels; ``.%nn`` or ``.$nn``, any file of a
-            run: `macroslip.loads.bladed`; ``.sel`` or ``.hdf5``: `macroslip.loads.hawc2`; ``.parquet`` and ``.csv``:
+            run: `macroslip.loads.bladed`; ``.sel``, ``.dat`` or ``.hdf5``: `macroslip.loads.hawc2`; ``.parquet`` and ``.csv``:
             `macroslip.loads.table` for the columns.
         start, end : float, optional
             Keep only this part of the file [s], on the file's own time axis. What lies outside is not validated.
@@ -228,7 +222,7 @@ class HubLoads(_History):
 
     @classmethod
     def bundled(cls, case: str) -> HubLoads:
-        """One of the load cases that come with the package, 600 s at 20 Hz; `bundled_cases` lists them.
+        """One of the load cases that come with the package, at 20 Hz, most of them 600 s; `bundled_cases` lists them.
 
         Simulated with OpenFAST for the WindPACT 1.5 MW turbine; ``cases/README.md`` beside this module describes how.
 
@@ -238,21 +232,14 @@ class HubLoads(_History):
         >>> print(f"{loads.shaft_speed.mean():.4f} rad/s, {loads.force[:, 0].mean() / 1e3:.1f} kN")
         2.1431 rad/s, 164.4 kN
         """
-        if case not in bundled_cases():
-            raise InputError(
-                f"there is no bundled case {case!r}",
-                allowed=", ".join(bundled_cases()),
-                remedy="Use HubLoads.read for a file of your own.",
-            )
-        folder = importlib.resources.files("macroslip.loads") / "cases"
-        with importlib.resources.as_file(folder / f"{case}.parquet") as path:
-            columns = read_hub_table(path)
+        known = bundled_case(case)
+        columns = read_hub_table(known.path)
         del columns["reading"]
-        return cls(**columns, source=f"bundled case {case}")
+        return cls(**columns, source=known.source, event=bool(known.event))
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class BearingLoads(_History):
+class BearingLoads(History):
     """Force on the inner ring of the main bearing, in the bearing frame.
 
     Bearing frame, right-handed and not rotating: Z0 along the shaft, downwind; Y0 up, in the plane of the shaft tilt;
@@ -262,12 +249,14 @@ class BearingLoads(_History):
     Parameters
     ----------
     time, shaft_speed : (n,) array [s], [rad/s]
-        As in `HubLoads`; the speed is that of the inner ring, positive about +Z0.
+        As in `HubLoads`; speed of the inner ring, positive about +Z0.
     force : (n, 3) array [N]
         F_X0, F_Y0, F_Z0, the load of the shaft **on** the inner ring: a hanging weight has F_Y0 < 0, thrust on an
         upwind rotor has F_Z0 > 0. At most 1e8 N each.
     source : str
         Where the loads come from, for errors and reports.
+    event : bool
+        As in `HubLoads`.
 
     Raises
     ------
@@ -280,6 +269,7 @@ class BearingLoads(_History):
     shaft_speed: NDArray[np.float64]
     force: NDArray[np.float64]
     source: str
+    event: bool = False
 
     @classmethod
     def constant(cls, force: ArrayLike, shaft_speed: float, duration: float, *, step: float = 0.05) -> BearingLoads:

@@ -14,16 +14,14 @@ coincide with the non-rotating ones when blade 1 is up, and the azimuth written 
 Turned forces whose mean does not point down are refused. The units written in the file are used. Text output holds
 four significant digits as a rule; prefer the binary one.
 
-The official reader, openfast_io, reads the file once it is sure that the file is whole.
+The official reader, openfast_io, reads a binary file once it is sure that the file is whole.
 """
 
 from __future__ import annotations
 
-import contextlib
 import io
 import struct
-import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -68,13 +66,9 @@ _INVALID = (
 def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
     """Read time (n,) [s], shaft_speed (n,) [rad/s], force (n, 3) [N], moment (n, 3) [N m] and `reading`, their channels.
 
-    Without a channel for it, `shaft_speed` is left out unless it is needed.
-
-    Raises
-    ------
-    InputError
-        The file is cut off or damaged, lacks a channel (the error gives the lines to add to the output list), or
-        declares a unit that is not known.
+    Without a channel for it, `shaft_speed` is left out unless it is needed. Raises InputError if the file is cut off or
+    damaged, lacks a channel (the error gives the lines to add to the output list), or declares a unit that is not
+    known.
     """
     channels = _Channels(*(_read_binary if path.suffix.lower() == ".outb" else _read_text)(path), str(path))
     found = {"time": channels.column(("Time",), _TIMES)}
@@ -95,7 +89,7 @@ def read_openfast(path: Path, *, speed_needed: bool = True) -> dict:
 
 
 class _Channels:
-    """Columns by name and unit; remembers what was not found, so that one error names it all."""
+    """Columns by name and unit; remembers missing channels, so that one error names them all."""
 
     def __init__(self, names: list[str], units: list[str], data: NDArray, where: str):
         self.names, self.units, self.data, self.where = names, units, data, where
@@ -225,72 +219,38 @@ def _binary_size(path: Path) -> int:
 
 def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
     """Names, units and columns of all channels, the time among them."""
-    from openfast_io.FAST_output_reader import load_ascii_output
-
-    with path.open("rb") as file:
-        if b"\0" in file.read(1024):
-            raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
+    content = path.read_bytes()
+    if b"\0" in content[:1024]:
+        raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")
     try:
-        with _plain_text(path) as plain:
-            data, info = load_ascii_output(str(plain))
-    except Exception as error:  # the reader raises any error of its parsing
+        text = content.decode("utf-8")
+    except UnicodeDecodeError:
+        text = content.decode("latin-1")  # older versions write units such as kN·m so
+    lines = text.splitlines()
+    names, units = (line.split() for line in [*lines, *[""] * 8][6:8])
+    data = np.empty((max(0, len(lines) - 8), len(names)))
+    if not names or len(units) != len(names) or not len(data):
         raise InputError(
-            f"not readable as OpenFAST text output ({_first_bad_line(path) or error})",
-            where=str(path),
-            remedy="If the run was stopped or the copy cut off, delete the incomplete last line; otherwise run OpenFAST "
-            "again.",
-        ) from error
-    names, units = info["attribute_names"], info["attribute_units"]
-    if not names or data.ndim != 2 or data.shape[1] != len(names) or len(units) != len(names):
-        raise InputError(
-            f"not an OpenFAST text output: {len(names)} channel names, {len(units)} units, data of shape {data.shape}",
+            f"not an OpenFAST text output: {len(names)} channel names, {len(units)} units, {len(data)} lines of data",
             where=str(path),
             allowed="6 lines of description, a line of names, a line of units, then the data",
             remedy=_AGAIN,
         )
-    _check_last_line(path)
-    return names, units, data
-
-
-@contextlib.contextmanager
-def _plain_text(path: Path) -> Iterator[Path]:
-    """The file itself, or a copy in ASCII: the official reader takes the encoding of the system it runs on.
-
-    Older versions write units such as kN·m in Latin-1.
-    """
-    content = path.read_bytes()
-    if content.isascii():
-        yield path
-        return
-    try:
-        text = content.decode("utf-8")
-    except UnicodeDecodeError:
-        text = content.decode("latin-1")
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / path.name
-        copy.write_bytes(text.replace("·", "-").encode("ascii", "replace"))
-        yield copy
-
-
-def _check_last_line(path: Path) -> None:
+    for number, line in enumerate(lines[8:]):
+        values, fault = line.split(), ""
+        if len(values) != len(names):
+            fault = f"has {len(values)} values for {len(names)} channels"
+        else:
+            try:
+                data[number] = values
+            except ValueError as error:
+                fault = f"holds {str(error).rpartition(': ')[2]} instead of a number"
+        if fault:
+            what = f"not readable as OpenFAST text output (line {number + 9} {fault})"
+            remedy = "If the run was stopped or the copy cut off, delete the incomplete last line"
+            raise InputError(what, where=str(path), remedy=f"{remedy}; otherwise run OpenFAST again.")
     # A line cut within its last number still parses. OpenFAST ends every line, and all data lines are equally long.
-    lines = path.read_bytes().splitlines(keepends=True)[-2:]
-    if not lines[-1].endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip(b"\r\n")):
+    if not content.endswith((b"\n", b"\r")) and len(lines[-1]) < len(lines[-2].rstrip()):
         remedy = "Copy the file again, run OpenFAST again, or delete that line."
         raise InputError("the last line is cut off", where=str(path), remedy=remedy)
-
-
-def _first_bad_line(path: Path) -> str:
-    """Which line of a text output is at fault, or an empty string when none is (the file is not text at all)."""
-    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    width = len(lines[6].split()) if len(lines) > 6 else 0
-    for number, line in enumerate(lines[8:], start=9):
-        values = line.split()
-        if len(values) != width:
-            return f"line {number} has {len(values)} values for {width} channels"
-        for value in values:
-            try:
-                float(value)
-            except ValueError:
-                return f"line {number} holds {value!r} instead of a number"
-    return ""
+    return names, [unit[1:-1] for unit in units], data

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from macroslip.errors import InputError
 from macroslip.files import check_regular
 
-#: What to do about a file that no reader understands.
+#: Advice for a file that no reader understands.
 DAMAGED = "Write or copy the file again; macroslip loads inspect shows what it holds."
 #: Values that a header may announce; more must be damage.
 MOST_VALUES = 500_000_000
@@ -28,7 +28,7 @@ ANGLE = {"deg": math.pi / 180.0, "rad": 1.0}
 
 
 def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: str = "") -> tuple[Path, str]:
-    """Return the path and its lower-case extension, which has to be among `kinds`; they say what a file holds.
+    """Return the path and its lower-case extension, which has to be among `kinds`; they name the content of a file.
 
     `remedy` is what to do about another extension.
     """
@@ -41,12 +41,8 @@ def source_file(path: str | os.PathLike[str], kinds: Mapping[str, str], remedy: 
     # Bladed numbers its groups of results: run.%23 and run.$23.
     numbered = re.fullmatch(r"\.[%$](\d{1,4}|pj)", extension)
     if extension not in kinds and not (numbered and ".%nn" in kinds):
-        raise InputError(
-            f"the extension {path.suffix!r} is not known",
-            where=str(path),
-            allowed=", ".join(f"{ext} ({meaning})" for ext, meaning in kinds.items()),
-            remedy=remedy,
-        )
+        allowed = ", ".join(f"{ext} ({meaning})" for ext, meaning in kinds.items())
+        raise InputError(f"the extension {path.suffix!r} is not known", where=str(path), allowed=allowed, remedy=remedy)
     if path.stat().st_size == 0:
         raise InputError("the file is empty", where=str(path), remedy="Write or copy the file again.")
     return path, extension

@@ -9,16 +9,18 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from macroslip.catalogue.forms import Choice
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import ANGLE, LENGTH, MASS
 from macroslip.constants import GRAVITY
 from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Positive, Quantity
+from macroslip.input.section import input_section
+from macroslip.input.units import ANGLE, LENGTH, MASS
 from macroslip.loads.history import BearingLoads, HubLoads
 
 MOUNTS = ("three-point", "four-point")
 BEARINGS = ("front", "rear")
+#: Default distance from the main bearing to the gearbox's support [m].
+_TO_GEARBOX = 2.2
+_BOTH = "A case file for macroslip run may also have both. A study varies drivetrain.bearing: [front, rear]."
 _FOUR_POINT_KEYS = ("front_to_rear", "locating", "bearing")
 
 
@@ -31,7 +33,7 @@ def _end_of_shaft(given: Mapping[str, Any]) -> float:
 
 @input_section("drivetrain", "supports and mass of the shaft")
 class Drivetrain:
-    """Where the shaft is supported and what it weighs.
+    """Supports and weight of the shaft.
 
     Lengths are measured along the shaft, positive downwind. Valid for an upwind rotor. On a three-point mount one main
     bearing and the gearbox carry the shaft. On a four-point mount two main bearings carry it, and the gearbox takes
@@ -48,7 +50,7 @@ class Drivetrain:
         Three-point mount: main-bearing centre to the plane of the gearbox's support, above 0 up to 20 m. Default 2.2 m,
         an estimate as well.
     front_to_rear : float [m]
-        Four-point mount: centre of the front main bearing to that of the rear one, above 0 up to 20 m.
+        Four-point mount: centre of the front to centre of the rear main bearing, above 0 up to 20 m.
     locating : str
         Four-point mount: which bearing carries all thrust, `front` or `rear`; the other one floats along the shaft.
     bearing : str
@@ -57,7 +59,7 @@ class Drivetrain:
         Shaft tilt, positive when the hub end is up, at most 0.3 rad (17°) either way. OpenFAST's ShftTilt has the
         opposite sign. Directs the weight of the shaft and of the rollers.
     shaft_mass : float [kg]
-        Mass of the shaft with what is fixed to it, except the rotor, whose weight is in the hub loads. 0 to 1e6 kg.
+        Mass of the shaft with all that is fixed to it, except the rotor, whose weight is in the hub loads. 0 to 1e6 kg.
     shaft_mass_station : float [m]
         Distance of that mass behind the hub centre: on a three-point mount up to the gearbox's support, on a four-point
         mount up to 10 m behind the rear bearing.
@@ -70,14 +72,12 @@ class Drivetrain:
 
     mount: Annotated[str, Choice("what carries the shaft", lambda: MOUNTS)] = "three-point"
     hub_to_bearing: Annotated[float, Quantity("distance from hub centre to main bearing", LENGTH, 0.0, 20.0)] = 1.26
-    bearing_to_gearbox: Annotated[
-        float, Quantity("distance from main bearing to gearbox support", LENGTH, 0.0, 20.0, above=True)
-    ] = 2.2
-    front_to_rear: Annotated[
-        float | None, Quantity("distance from front to rear main bearing", LENGTH, 0.0, 20.0, above=True)
-    ] = None
+    bearing_to_gearbox: Annotated[float, Positive("distance from main bearing to gearbox support", LENGTH, 20.0)] = (
+        _TO_GEARBOX
+    )
+    front_to_rear: Annotated[float | None, Positive("distance from front to rear main bearing", LENGTH, 20.0)] = None
     locating: Annotated[str | None, Choice("main bearing that carries thrust", lambda: BEARINGS)] = None
-    bearing: Annotated[str | None, Choice("main bearing that is simulated", lambda: BEARINGS)] = None
+    bearing: Annotated[str | None, Choice("main bearing that is simulated", lambda: BEARINGS, _BOTH)] = None
     tilt: Annotated[float, Quantity("shaft tilt, positive with the hub end up", ANGLE, -0.3, 0.3)] = math.radians(5.0)
     shaft_mass: Annotated[float, Quantity("mass of the shaft without rotor", MASS, 0.0, 1e6)] = 0.0
     shaft_mass_station: Annotated[
@@ -103,6 +103,9 @@ class Drivetrain:
         if self.mount == "three-point" and given:
             what = f"the mount is three-point, which has no {' and no '.join(given)}"
             raise InputError(what, remedy="Write mount: four-point, or remove what belongs to it.")
+        if self.mount == "four-point" and self.bearing_to_gearbox != _TO_GEARBOX:
+            what = "the mount is four-point, on which bearing_to_gearbox does not count"
+            raise InputError(what, remedy="Remove it, or write mount: three-point.")
 
 
 def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDArray[np.float64]]:
@@ -128,20 +131,13 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 
     and what the forces across the shaft leave goes to the second one. Thrust is F_Z0 = fx + W sin tilt.
 
-    Returns
-    -------
-    dict
-        (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing` and `gearbox` on a three-point
-        mount, `front` and `rear` on a four-point mount.
-
-    Notes
-    -----
-    Valid while the frequency content lies below the first bending mode of the shaft. Seats that give way or are out of
+    The result is (n, 3) [N], n the samples of `hub_loads`, by the name of the support: `bearing` and `gearbox` on a
+    three-point mount, `front` and `rear` on a four-point mount. Valid while the frequency content lies below the first bending mode of the shaft. Seats that give way or are out of
     line change nothing: two supports without moment are statically determinate.
 
     Examples
     --------
-    A rotor of 263 kN on two main bearings, 1.5 m apart, of which the rear one is locating:
+    A rotor of 263 kN on two main bearings, 1.5 m apart, the rear one locating:
 
     >>> rotor = HubLoads.constant([164.4e3, 0.0, -263.0e3], [0.0, 0.0, 0.0], 2.143, 1.0)
     >>> two = Drivetrain(mount="four-point", hub_to_bearing=1.2, front_to_rear=1.5, locating="rear", bearing="front")
@@ -185,4 +181,6 @@ def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoa
     name = drivetrain.bearing or "bearing"
     force = support_loads(hub_loads, drivetrain)[name]
     which = f"{name} main bearing" if drivetrain.bearing else "main bearing"
-    return BearingLoads(hub_loads.time, hub_loads.shaft_speed, force, f"{which} under {hub_loads.source}")
+    return BearingLoads(
+        hub_loads.time, hub_loads.shaft_speed, force, f"{which} under {hub_loads.source}", hub_loads.event
+    )

@@ -11,7 +11,8 @@ main-bearing force ``F_X0``, ``F_Y0``, ``F_Z0``       ``…_N``, ``…_kN``
 ====================================================  =========================================================
 
 A hub-load table holds time, speed and the six hub loads; a bearing-load table holds time, speed and the three
-main-bearing forces. CSV: comma-separated, decimal point, one header line.
+main-bearing forces. CSV: one header line; commas between columns and decimal points, or semicolons or tabs between columns and
+either decimal mark.
 """
 
 from __future__ import annotations
@@ -60,15 +61,8 @@ def _read(
     optional: tuple[str, ...] = (),
 ) -> dict:
     """Arrays in SI units, and `reading`: the names of the columns they are from."""
-    table = _open(path)
+    table = open_table(path)
     names = [name.strip() for name in table.column_names]
-    if len(names) == 1 and (";" in names[0] or "\t" in names[0]):
-        raise InputError(
-            "the columns are separated by semicolons or tabs",
-            where=str(path),
-            allowed="commas between columns and points as decimal marks",
-            remedy="Write the file again so.",
-        )
     units = {"force": FORCE, "moment": MOMENT}
     quantities = dict(_BASE)
     for field, components in vectors.items():
@@ -132,7 +126,7 @@ def _values(table, index: int, factor: float, is_time: bool, where: str) -> NDAr
         raise InputError(
             f"column {table.column_names[index].strip()} holds {kind}, not numbers",
             where=where,
-            allowed="numbers with a decimal point",
+            allowed="numbers, all with the same decimal mark",
             remedy="Look for text among the values, such as a second header line or a unit line.",
         )
     # Empty cells become NaN here and are reported with their time.
@@ -140,14 +134,13 @@ def _values(table, index: int, factor: float, is_time: bool, where: str) -> NDAr
     return _rebuild_uniform(values) if is_time and kind == pa.float32() else values
 
 
-def _open(path: Path):
+def open_table(path: Path):
+    """The table of a Parquet or CSV file, of pyarrow; refuses what is none."""
     import pyarrow as pa
 
     try:
         if path.suffix.lower() == ".csv":
-            from pyarrow import csv
-
-            return csv.read_csv(path)
+            return _csv(path)
         import pyarrow.parquet as pq
 
         with pq.ParquetFile(path) as file:
@@ -156,6 +149,24 @@ def _open(path: Path):
         kind = "CSV" if path.suffix.lower() == ".csv" else "Parquet"
         what = f"not readable as a {kind} table ({error})"
         raise InputError(what, where=str(path), remedy="Write or copy the file again, if it was cut off.") from error
+
+
+def _csv(path: Path):
+    """A table of text. The header tells what separates columns; where that is no comma, decimals may have one."""
+    import pyarrow as pa
+    from pyarrow import csv
+
+    with path.open("rb") as file:
+        header = file.readline(100_000)
+    separator = max(",;\t", key=lambda one: header.count(one.encode()))
+    table, *others = (
+        csv.read_csv(
+            path, parse_options=csv.ParseOptions(delimiter=separator),
+            convert_options=csv.ConvertOptions(decimal_point=mark),
+        )
+        for mark in (".," if separator != "," else ".")
+    )  # fmt: skip
+    return min((table, *others), key=lambda one: sum(map(pa.types.is_string, one.schema.types)))
 
 
 def _rebuild_uniform(time: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
-from macroslip.catalogue.problems import shown
 from macroslip.errors import InputError
+from macroslip.input.messages import shown
 from macroslip.lubricant.base_oil import BASE_OILS
-from macroslip.lubricant.eyring import eyring_stress
-from macroslip.lubricant.gold import gold
 from macroslip.lubricant.inlet import T15, T40, T100, viscosities
 from macroslip.lubricant.lubricant import Lubricant
-from macroslip.lubricant.pressure_viscosity import mean_pressure_viscosity, pressure_viscosity_at
-from macroslip.lubricant.roelands_index import roelands_index
-from macroslip.lubricant.thermal_density import density_at
-from macroslip.lubricant.walther import walther_line_through
-
-PRESSURE_VISCOSITY_SCATTER = 0.2
-"""Share by which single oils of a family differ from the mean pressure-viscosity coefficient; the same oil differs by as
-much between a viscometer and a measured film."""
+from macroslip.lubricant.temperature import (
+    density_at,
+    eyring_stress,
+    gold,
+    mean_pressure_viscosity,
+    pressure_viscosity_at,
+    roelands_index,
+    walther_line_through,
+)
 
 INLET = 308.15
-"""Inlet temperature [K] of an estimated lubricant: that of the base case, 35 degC."""
+"""Inlet temperature [K] of an estimated lubricant: 35 degC, as in the base case."""
 
 _CONTACT_PRESSURE = 1e9
 
@@ -29,24 +28,19 @@ _CONTACT_PRESSURE = 1e9
 def estimate_lubricant(
     kinematic_viscosity_40: float, kinematic_viscosity_100: float, base_oil: str, name: str
 ) -> Lubricant:
-    """Estimate a lubricant from kinematic viscosities and base oil.
+    """Estimate a lubricant at 35 degC from kinematic viscosities and base oil.
 
     The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil family by Gold et al.,
-    and the Eyring stress 2 gamma/alpha at 1 GPa. What the family leaves open has the tag E and a range.
+    for esters and polyglycols raised within its scatter by the friction of thrust bearings, and the Eyring stress 2 gamma/alpha at 1 GPa. Values that the family leaves open have the tag E and a range.
 
     Parameters
     ----------
     kinematic_viscosity_40, kinematic_viscosity_100 : float
         At 40 and 100 degC [m2/s].
     base_oil : str
-        A family of `macroslip.lubricant.base_oil.BASE_OILS`. For a grease, that of its base oil.
+        A family of `macroslip.lubricant.base_oil.BASE_OILS`. For a grease, the family of its base oil.
     name : str
         Short name of the lubricant.
-
-    Returns
-    -------
-    Lubricant
-        At 35 degC; `Lubricant.at` gives it at another temperature.
 
     Raises
     ------
@@ -65,9 +59,22 @@ def estimate_lubricant(
             allowed=", ".join(f"{key} ({family.title})" for key, family in BASE_OILS.items()),
             remedy="Choose the one closest to the data sheet.",
         )
+    for kelvin, viscosity in ((T40, kinematic_viscosity_40), (T100, kinematic_viscosity_100)):
+        if not 1e-6 <= viscosity <= 0.1:
+            raise InputError(
+                f"the kinematic viscosity at {kelvin - 273.15:g} degC is {viscosity * 1e6:g} mm2/s",
+                allowed="1 to 100000 mm2/s",
+                remedy="Check value and unit; lubricating oils have 2 to 5000 mm2/s.",
+            )
     family = BASE_OILS[base_oil]
     line = walther_line_through(T40, kinematic_viscosity_40, T100, kinematic_viscosity_100)
-    alpha = gold(kinematic_viscosity_40, family.gold_factor, family.gold_exponent)
+    low, usual, high = family.over_gold
+    alpha = usual * gold(kinematic_viscosity_40, family.gold_factor, family.gold_exponent)
+    times = (
+        "; oils of a family scatter by 20 %"
+        if usual == 1.0
+        else f", times {usual:g} by the friction of thrust bearings"
+    )
     entries = {
         "name": name,
         "title": f"estimated from two viscosities, base oil {family.title}",
@@ -78,8 +85,8 @@ def estimate_lubricant(
         "reference_pressure_viscosity": _entry(
             alpha * 1e9,
             "1/GPa",
-            f"Gold et al. (2001), {family.gold_factor:g} nu^{family.gold_exponent:g}; oils of a family scatter by 20 %",
-            spread=(1.0 - PRESSURE_VISCOSITY_SCATTER, 1.0 + PRESSURE_VISCOSITY_SCATTER),
+            f"Gold et al. (2001), {family.gold_factor:g} nu^{family.gold_exponent:g}{times}",
+            spread=(low / usual, high / usual),
         ),
         "reference_temperature": _entry(40, "degC", "of the viscosity in Gold's law"),
         "thermal_conductivity": _entry(family.thermal_conductivity, "W/(m K)", "usual for the family"),
@@ -87,7 +94,10 @@ def estimate_lubricant(
         | {"range": [family.density_15 - family.density_scatter, family.density_15 + family.density_scatter]},
         "fill_factor": _entry(0.7, "1", "as in the base case"),
         "drag_coefficient": _entry(1, "1", "as in the base case"),
-        "boundary_friction": _entry(0.1, "1", "0.08 to 0.12 is usual") | {"range": [0.08, 0.12]},
+        "boundary_friction": _entry(
+            0.06, "1", "thrust bearings with five gear oils: 0.034 to 0.09, docs/measurements.md"
+        )
+        | {"range": [0.034, 0.1]},
         "starvation": _entry(0.7, "1", "as in the base case; 1 is a flooded inlet") | {"range": [0.5, 1.0]},
         "fullness": _entry(0.3, "1", "as in the base case; 1 is flooded") | {"range": [0.03, 1.0]},
         "inlet_film": _entry(30.0, "1", "as in the base case; 1000 is flooded") | {"range": [5.0, 1000.0]},
@@ -100,7 +110,7 @@ def estimate_lubricant(
     viscosity, _ = viscosities(line, INLET, density_at(family.density_15, T15, INLET))
     at_inlet = pressure_viscosity_at(index, viscosity)
     stress = eyring_stress(mean, mean_pressure_viscosity(viscosity, at_inlet, _CONTACT_PRESSURE))
-    entries["eyring_stress"] = _entry(stress * 1e-6, "MPa", "2 gamma/alpha at 1 GPa; half of it is reported too",
+    entries["eyring_stress"] = _entry(stress * 1e-6, "MPa", "2 gamma/alpha at 1 GPa; half of it is reported too; docs/measurements.md",
                                       spread=(0.5, 1.3))  # fmt: skip
     return Lubricant.from_dict(entries)
 

@@ -1,16 +1,17 @@
-"""From what a lubricant file gives to the values at the inlet of the contacts."""
+"""From the values of a lubricant file to the values at the inlet of the contacts."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from macroslip.catalogue import Provenance
-from macroslip.lubricant.pressure_viscosity import pressure_viscosity_at
-from macroslip.lubricant.roelands_index import roelands_index
-from macroslip.lubricant.thermal_density import THERMAL_EXPANSION, density_at
-from macroslip.lubricant.walther import (
+from macroslip.input.record import Provenance
+from macroslip.lubricant.temperature import (
+    THERMAL_EXPANSION,
     WaltherLine,
+    density_at,
+    pressure_viscosity_at,
+    roelands_index,
     walther_coefficient,
     walther_line_through,
     walther_line_with_slope,
@@ -22,47 +23,20 @@ T15, T40, T100 = 288.15, 313.15, 373.15
 
 
 class Inlet(NamedTuple):
-    """Values of a lubricant that depend on the temperature at the inlet of the contacts.
+    """Values of a lubricant that depend on the temperature at the inlet of the contacts."""
 
-    Parameters
-    ----------
-    temperature : float
-        [K].
-    density : float
-        [kg/m3].
-    viscosity : float
-        eta0 [Pa s].
-    temperature_viscosity : float
-        beta = -d ln eta0/dT [1/K].
-    pressure_viscosity : float
-        alpha_p [1/Pa].
-    """
-
-    temperature: float
-    density: float
-    viscosity: float
-    temperature_viscosity: float
-    pressure_viscosity: float
+    temperature: float  #: [K]
+    density: float  #: [kg/m3]
+    viscosity: float  #: eta0 [Pa s]
+    temperature_viscosity: float  #: beta = -d ln eta0/dT [1/K]
+    pressure_viscosity: float  #: alpha_p [1/Pa]
 
 
 def viscosities(line: WaltherLine, temperature: float, density: float) -> tuple[float, float]:
     """Dynamic viscosity and its relative fall with temperature, from Walther's line and the density.
 
-    eta0 = nu rho and beta = -d ln eta0/dT = -d ln nu/dT + 0.65 kg/(m3 K)/rho.
-
-    Parameters
-    ----------
-    line : WaltherLine
-        Kinematic viscosity over temperature.
-    temperature : float
-        T [K].
-    density : float
-        rho at that temperature [kg/m3].
-
-    Returns
-    -------
-    tuple[float, float]
-        eta0 [Pa s] and beta [1/K].
+    eta0 = nu rho [Pa s] and beta = -d ln eta0/dT = -d ln nu/dT + 0.65 kg/(m3 K)/rho [1/K], at T [K] with the density rho
+    there [kg/m3].
 
     Examples
     --------
@@ -76,23 +50,9 @@ def viscosities(line: WaltherLine, temperature: float, density: float) -> tuple[
 
 
 def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
-    """The values at another temperature: Walther's line through viscosity and slope, linear density, constant Z.
+    """The values at another temperature [K]: Walther's line through viscosity and slope, linear density, constant Z.
 
-    Parameters
-    ----------
-    inlet : Inlet
-        Values at their temperature; they define the line.
-    temperature : float
-        The other temperature [K].
-
-    Returns
-    -------
-    Inlet
-
-    Raises
-    ------
-    InputError
-        If the viscosity does not fall with temperature, or is too low for a law.
+    Raises InputError if the viscosity does not fall with temperature, or is too low for a law.
 
     Examples
     --------
@@ -110,20 +70,10 @@ def moved_inlet(inlet: Inlet, temperature: float) -> Inlet:
 
 
 def derive(given: Mapping[str, float], origins: Mapping[str, Provenance]) -> dict[str, Provenance]:
-    """What follows, at the inlet, from the figures of a data sheet.
+    """Values at the inlet that follow from the figures of a data sheet, in SI.
 
-    Parameters
-    ----------
-    given : Mapping[str, float]
-        Values of a lubricant file by key [SI], those that it gives.
-    origins : Mapping[str, Provenance]
-        Their provenance; a range is handed on in proportion.
-
-    Returns
-    -------
-    dict[str, Provenance]
-        Of density, viscosity, temperature_viscosity and pressure_viscosity those that the file does not give and that
-        follow from others; values in SI.
+    Of density, viscosity, temperature_viscosity and pressure_viscosity those that are not `given` [SI] and that follow
+    from others, whose ranges in `origins` are handed on in proportion.
     """
     found: dict[str, Provenance] = {}
 

@@ -5,38 +5,38 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field
-
-from macroslip.catalogue import Provenance, Record
-from macroslip.catalogue.entry import is_finite_number
-from macroslip.catalogue.problems import shown
-from macroslip.catalogue.quantity import parse_quantity
-from macroslip.catalogue.source import Source
-from macroslip.catalogue.units import (
+from macroslip.errors import InputError
+from macroslip.input.fields import Positive, Quantity, Text
+from macroslip.input.files import Source
+from macroslip.input.messages import shown
+from macroslip.input.record import Provenance, Record, dimensions, fields_of
+from macroslip.input.units import (
     CONDUCTIVITY,
     DENSITY,
     INVERSE_PRESSURE,
     INVERSE_TEMPERATURE,
     KINEMATIC_VISCOSITY,
+    LENGTH,
     NUMBER,
     PRESSURE,
     TEMPERATURE,
     VISCOSITY,
+    is_finite_number,
+    parse_quantity,
 )
-from macroslip.errors import InputError
 from macroslip.lubricant.base_oil import BASE_OILS
 from macroslip.lubricant.inlet import Inlet, derive, moved_inlet, scaled_range
 
+#: Inlet temperatures [K] over which `Lubricant.at` uses Walther's line: -20 to 150 degC.
 COLDEST, HOTTEST = 253.15, 423.15
-"""Inlet temperatures [K] over which `Lubricant.at` uses Walther's line: -20 to 150 degC."""
-
+_Optional = float | None
+#: Keys that a file may give instead of a value at the inlet.
 _SOURCES: Mapping[str, tuple[str, ...]] = {
     "density": ("density_15",),
     "viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),
     "temperature_viscosity": ("kinematic_viscosity_40", "kinematic_viscosity_100"),
     "pressure_viscosity": ("roelands_index", "reference_pressure_viscosity", "reference_temperature"),
 }
-"""What a file may give instead of a value at the inlet."""
 
 
 class Lubricant(Record):
@@ -62,79 +62,68 @@ class Lubricant(Record):
     """
 
     noun: ClassVar[str] = "lubricant"
-    derivable: ClassVar[frozenset[str]] = frozenset(_SOURCES)
+    sections: ClassVar[Mapping[str, str]] = {"grease": "a grease's own behaviour, beside that of its base oil"}
+    #: Gap where the inlets of contacts begin to be full [m]; None: as starvation, inlet_film and fullness say.
+    oil_gap = None
+    sources: ClassVar[Mapping[str, tuple[str, ...]]] = _SOURCES
 
-    name: str = Field(min_length=1, description="short name of the lubricant, used in results")
-    title: str = Field(default="", description="one line that describes the lubricant")
-    base_oil: str = Field(default="", description=f"family of the base oil: {', '.join(BASE_OILS)}")
-    thickener: str = Field(default="", description="thickener of a grease; only the base oil enters the contacts here")
+    name: Annotated[str, Text("short name of the lubricant, used in results", line=True)]
+    title: Annotated[str, Text("one line that describes the lubricant", may_be_empty=True, line=True)] = ""
+    base_oil: Annotated[str, Text(f"family of the base oil: {', '.join(BASE_OILS)}", may_be_empty=True, line=True)] = ""
+    thickener: Annotated[
+        str, Text("thickener of a grease; only the base oil enters the contacts here", may_be_empty=True, line=True)
+    ] = ""
 
-    inlet_temperature: Annotated[
-        float, TEMPERATURE, Field(ge=200, le=500, description="temperature at the inlet of the contacts")
-    ]
+    inlet_temperature: Annotated[float, Quantity("temperature at the inlet of the contacts", TEMPERATURE, 200, 500)]
     kinematic_viscosity_40: Annotated[
-        float | None, KINEMATIC_VISCOSITY, Field(ge=2e-6, le=0.1, description="kinematic viscosity at 40 degC")
+        _Optional, Quantity("kinematic viscosity at 40 degC", KINEMATIC_VISCOSITY, 2e-6, 0.1)
     ] = None
     kinematic_viscosity_100: Annotated[
-        float | None, KINEMATIC_VISCOSITY, Field(ge=1e-6, le=0.1, description="kinematic viscosity at 100 degC")
+        _Optional, Quantity("kinematic viscosity at 100 degC", KINEMATIC_VISCOSITY, 1e-6, 0.1)
     ] = None
-    viscosity: Annotated[
-        float, VISCOSITY, Field(gt=0, le=1000, description="dynamic viscosity at inlet temperature, ambient pressure")
-    ]
-    roelands_index: Annotated[
-        float | None, NUMBER, Field(gt=0, le=2, description="Roelands' pressure-viscosity index Z")
-    ] = None
+    viscosity: Annotated[float, Positive("dynamic viscosity at inlet temperature, ambient pressure", VISCOSITY, 1000)]
+    roelands_index: Annotated[_Optional, Positive("Roelands' pressure-viscosity index Z", NUMBER, 2)] = None
     reference_pressure_viscosity: Annotated[
-        float | None,
-        INVERSE_PRESSURE,
-        Field(gt=0, le=1e-7, description="pressure-viscosity coefficient at the reference temperature"),
+        _Optional, Positive("pressure-viscosity coefficient at the reference temperature", INVERSE_PRESSURE, 1e-7)
     ] = None
     reference_temperature: Annotated[
-        float | None,
-        TEMPERATURE,
-        Field(ge=200, le=500, description="temperature of the reference pressure-viscosity coefficient"),
+        _Optional, Quantity("temperature of the reference pressure-viscosity coefficient", TEMPERATURE, 200, 500)
     ] = None
     pressure_viscosity: Annotated[
-        float, INVERSE_PRESSURE, Field(gt=0, le=1e-7, description="pressure-viscosity coefficient at inlet temperature")
+        float, Positive("pressure-viscosity coefficient at inlet temperature", INVERSE_PRESSURE, 1e-7)
     ]
     temperature_viscosity: Annotated[
         float,
-        INVERSE_TEMPERATURE,
-        Field(gt=0, le=1, description="temperature-viscosity coefficient beta in exp(-beta * temperature rise)"),
+        Positive("temperature-viscosity coefficient beta in exp(-beta * temperature rise)", INVERSE_TEMPERATURE, 1),
     ]
-    thermal_conductivity: Annotated[float, CONDUCTIVITY, Field(gt=0, le=10, description="thermal conductivity")]
-    density_15: Annotated[float | None, DENSITY, Field(ge=100, le=5000, description="density at 15 degC")] = None
-    density: Annotated[float, DENSITY, Field(ge=100, le=5000, description="density at inlet temperature")]
+    thermal_conductivity: Annotated[float, Positive("thermal conductivity", CONDUCTIVITY, 10)]
+    density_15: Annotated[_Optional, Quantity("density at 15 degC", DENSITY, 100, 5000)] = None
+    density: Annotated[float, Quantity("density at inlet temperature", DENSITY, 100, 5000)]
     fill_factor: Annotated[
-        float, NUMBER, Field(ge=0, le=1, description="share of the space between the rollers that is filled, for drag")
+        float, Quantity("share of the space between the rollers that is filled, for drag", NUMBER, 0, 1)
     ]
     drag_coefficient: Annotated[
-        float, NUMBER, Field(ge=0, le=100, description="drag coefficient of a roller moving through the lubricant")
+        float, Quantity("drag coefficient of a roller moving through the lubricant", NUMBER, 0, 100)
     ]
 
-    limiting_shear: Annotated[
-        float | None, NUMBER, Field(gt=0, le=0.5, description="limiting shear stress / pressure of the film")
-    ] = None
+    limiting_shear: Annotated[_Optional, Positive("limiting shear stress / pressure of the film", NUMBER, 0.5)] = None
     eyring_stress: Annotated[
-        float | None,
-        PRESSURE,
-        Field(ge=1e4, le=1e9, description="Eyring stress at inlet temperature, at which shear thinning sets in"),
+        _Optional, Quantity("Eyring stress at inlet temperature, at which shear thinning sets in", PRESSURE, 1e4, 1e9)
     ] = None
     boundary_friction: Annotated[
-        float | None, NUMBER, Field(ge=0, le=1, description="friction coefficient where asperities carry the load")
+        _Optional, Quantity("friction coefficient where asperities carry the load", NUMBER, 0, 1)
     ] = None
-    starvation: Annotated[
-        float | None, NUMBER, Field(gt=0, le=1, description="film thickness / film thickness of a flooded contact")
-    ] = None
+    starvation: Annotated[_Optional, Positive("film thickness / film thickness of a flooded contact", NUMBER, 1)] = None
     fullness: Annotated[
-        float | None,
-        NUMBER,
-        Field(ge=0.01, le=1, description="share of a roller's length over which the gap of a light contact holds oil"),
+        _Optional,
+        Quantity("share of a roller's length over which the gap of a light contact holds oil", NUMBER, 0.01, 1),
     ] = None
     inlet_film: Annotated[
-        float | None,
-        NUMBER,
-        Field(gt=1, le=1e6, description="gap where an inlet begins to be full / film, for rolling resistance"),
+        _Optional,
+        Quantity("gap where an inlet begins to be full / film, for rolling resistance", NUMBER, 1, 1e6, above=True),
+    ] = None
+    grease_yield_stress: Annotated[
+        _Optional, Quantity("yield stress, which acts on idle rollers and in pockets", PRESSURE, 0, 1e5)
     ] = None
 
     def _fill(
@@ -144,7 +133,7 @@ class Lubricant(Record):
         source: Source,
         derived: frozenset[str] = frozenset(),
     ) -> None:
-        """Add what follows from the figures of a data sheet, as far as they are positive numbers; then check all."""
+        """Add values that follow from the figures of a data sheet, if these are positive numbers; then check all."""
         usable = {key: float(value) for key, value in values.items() if is_finite_number(value) and value > 0}
         try:
             found = derive(usable, provenance)
@@ -153,15 +142,6 @@ class Lubricant(Record):
             raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
         follows = {key: origin.value for key, origin in found.items()}
         super()._fill({**values, **follows}, {**provenance, **found}, source, frozenset(found))
-
-    @classmethod
-    def _missing(cls, keys: list[str], source: Source) -> InputError:
-        problem = super()._missing(keys, source)
-        others = [f"for {key} {' and '.join(_SOURCES[key])}" for key in keys if key in _SOURCES]
-        if not others:
-            return problem
-        instead = f"{problem.remedy}. Data sheets have other figures, which do as well: {'; '.join(others)}"
-        return InputError(problem.what, where=problem.where, remedy=instead)
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         for key in _SOURCES.keys() - self._derived:
@@ -189,18 +169,9 @@ class Lubricant(Record):
             )
 
     def replace(self, **values: Any) -> Self:
-        """Copy the lubricant with other values, checked as any other input.
+        """Copy the lubricant with other values [SI], checked as any other input; they get the tag U.
 
-        Parameters
-        ----------
-        **values : Any
-            New values [SI] by key. They get the tag U; the others keep their provenance. A value at the inlet, such as
-            viscosity, takes the place of the figures from which it followed.
-
-        Raises
-        ------
-        InputError
-            As the constructor.
+        A value at the inlet, such as viscosity, takes the place of the figures from which it followed.
         """
         stated = self._stated() if self._derived & values.keys() else self
         return super(Lubricant, stated).replace(**values)
@@ -209,7 +180,7 @@ class Lubricant(Record):
         """The lubricant by its values at the inlet alone, some of them changed; their origins are in SI."""
         sources = {source for those in _SOURCES.values() for source in those}
         kept = {key: origin for key, origin in self.provenance.items() if key not in sources}
-        values = {key: getattr(self, key) for key in type(self).model_fields if key not in sources}
+        values = {key: getattr(self, key) for key in fields_of(type(self)) if key not in sources}
         record = type(self).__new__(type(self))
         record._fill(values | {key: origin.value for key, origin in changes.items()}, kept | changes, Source())
         return record
@@ -247,49 +218,49 @@ class Lubricant(Record):
         if isinstance(temperature, str):
             temperature = TEMPERATURE.to_si(*parse_quantity(temperature, TEMPERATURE, "the inlet temperature", where))
         if not is_finite_number(temperature) or not COLDEST <= temperature <= HOTTEST:
-            raise InputError(
-                f"the inlet temperature is {shown(temperature)} K",
-                where=where,
-                allowed=f"{COLDEST:g} K to {HOTTEST:g} K, -20 to 150 degC, where Walther's line holds",
-                remedy="Give kelvin, or text such as '50 degC'.",
-            )
+            what = f"the inlet temperature is {shown(temperature)} K"
+            allowed = f"{COLDEST:g} K to {HOTTEST:g} K, -20 to 150 degC, where Walther's line holds"
+            raise InputError(what, where=where, allowed=allowed, remedy="Give kelvin, or text such as '50 degC'.")
         temperature = float(temperature)
         if temperature == self.inlet_temperature:
             return self
         here = Inlet(
-            self.inlet_temperature,
-            self.density,
-            self.viscosity,
-            self.temperature_viscosity,
-            self.pressure_viscosity,
+            self.inlet_temperature, self.density, self.viscosity, self.temperature_viscosity, self.pressure_viscosity
         )
         try:
             there = moved_inlet(here, temperature)
         except InputError as problem:
             raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
         given = f"at {self.inlet_temperature:g} K"
-        changes = {
-            "inlet_temperature": Provenance(temperature, "K"),
-            "density": self._moved("density", there.density, "kg/m3", f"0.65 kg/(m3 K) from {self.density:g} {given}"),
-            "viscosity": self._moved(
-                "viscosity", there.viscosity, "Pa s", f"Walther line from {self.viscosity:g} Pa s {given}"
-            ),
-            "temperature_viscosity": self._moved(
-                "temperature_viscosity", there.temperature_viscosity, "1/K", "slope of the Walther line"
-            ),
-            "pressure_viscosity": self._moved(
-                "pressure_viscosity",
-                there.pressure_viscosity,
-                "1/Pa",
-                f"Roelands' index constant, from {self.pressure_viscosity:g} 1/Pa {given}",
-            ),
+        notes = {
+            "density": f"0.65 kg/(m3 K) from {self.density:g} {given}",
+            "viscosity": f"Walther line from {self.viscosity:g} Pa s {given}",
+            "temperature_viscosity": "slope of the Walther line",
+            "pressure_viscosity": f"Roelands' index constant, from {self.pressure_viscosity:g} 1/Pa {given}",
         }
+        values = there._asdict()
         if self.eyring_stress is not None:
-            stress = self.eyring_stress * self.pressure_viscosity / there.pressure_viscosity
-            note = f"2 gamma/alpha, from {self.eyring_stress:g} Pa {given}"
-            changes["eyring_stress"] = self._moved("eyring_stress", stress, "Pa", note)
+            notes["eyring_stress"] = f"2 gamma/alpha, from {self.eyring_stress:g} Pa {given}"
+            values["eyring_stress"] = self.eyring_stress * self.pressure_viscosity / there.pressure_viscosity
+        kinds, origins = dimensions(type(self)), self.provenance
+        changes = {"inlet_temperature": Provenance(temperature, "K")} | {
+            key: Provenance(values[key], kinds[key].si_unit, "D", note, scaled_range(origins[key], values[key]))
+            for key, note in notes.items()
+        }
         return self._stated(**changes)
 
-    def _moved(self, key: str, value: float, unit: str, note: str) -> Provenance:
-        """Origin of a value that follows from the one at another temperature; its range moves in proportion."""
-        return Provenance(value, unit, "D", note, scaled_range(self.provenance[key], value))
+    def supplied(self, oil_gap: float) -> Lubricant:
+        """The lubricant with inlets of contacts that are full from a gap [m] on, whatever its file says of that.
+
+        From 1 m on they are flooded.
+        """
+        made = SuppliedLubricant.__new__(SuppliedLubricant)
+        values = {key: getattr(self, key) for key in fields_of(Lubricant) if key not in self._derived}
+        made._fill(values | {"oil_gap": oil_gap}, dict(self._provenance), Source())
+        return made
+
+
+class SuppliedLubricant(Lubricant):
+    """A lubricant and the inlets that it fills, as `Lubricant.supplied` gives it."""
+
+    oil_gap: Annotated[float, Quantity("gap where the inlets of contacts begin to be full", LENGTH, 1e-9, 1e3)]

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from macroslip.compiled import jit_lawless
+from macroslip.compiled import jit
 
 LIFE_EXPONENT = 10.0 / 3.0
 """p in L = (C/P)^p of roller bearings."""
@@ -35,18 +35,9 @@ MINIMUM_SHARE = 0.01
 
 
 def static_equivalent_load(radial_load: ArrayLike, axial_load: ArrayLike, factor_y0: float) -> NDArray[np.float64]:
-    """Static equivalent radial load P0 = Fr + Y0 |Fa| [N] of a double-row bearing.
+    """Static equivalent radial load P0 = Fr + Y0 |Fa| [N] of a double-row bearing, ISO 76:2006, section 6.2, X0 = 1.
 
-    Parameters
-    ----------
-    radial_load, axial_load : array_like
-        Fr, not negative, and Fa, either sign [N].
-    factor_y0 : float
-        Y0 [-] of the catalogue; 0.44 cot(alpha) in the standard.
-
-    References
-    ----------
-    ISO 76:2006, section 6.2, with X0 = 1 for double-row bearings.
+    Of Fr, not negative, and Fa, either sign [N], with the catalogue's Y0 [-]; 0.44 cot(alpha) in the standard.
 
     Examples
     --------
@@ -71,11 +62,8 @@ def static_safety(static_load_rating: float, equivalent_load: ArrayLike) -> NDAr
 def minimum_load(static_load_rating: float) -> float:
     """Least dynamic equivalent load of a spherical roller bearing so that rollers do not skid, P_min = 0.01 C0 [N].
 
-    A rule of thumb: it depends on neither speed nor lubricant.
-
-    References
-    ----------
-    SKF, Rolling bearings, catalogue 17000 EN (2018), chapter on spherical roller bearings, "Minimum load".
+    A rule of thumb, which depends on neither speed nor lubricant: SKF, Rolling bearings, catalogue 17000 EN (2018),
+    chapter on spherical roller bearings, "Minimum load".
 
     Examples
     --------
@@ -88,21 +76,11 @@ def minimum_load(static_load_rating: float) -> float:
 def dynamic_equivalent_load(
     radial_load: ArrayLike, axial_load: ArrayLike, e: float, y1: float, y2: float
 ) -> NDArray[np.float64]:
-    """Dynamic equivalent radial load [N] of a double-row bearing.
+    """Dynamic equivalent radial load [N], P = Fr + Y1 |Fa| where |Fa| <= e Fr, else 0.67 Fr + Y2 |Fa|.
 
-    P = Fr + Y1 |Fa| where |Fa| <= e Fr, else 0.67 Fr + Y2 |Fa|.
-
-    Parameters
-    ----------
-    radial_load, axial_load : array_like
-        Fr, not negative, and Fa, either sign [N].
-    e, y1, y2 : float
-        Factors of the catalogue [-]; 1.5 tan(alpha), 0.45 cot(alpha) and 0.67 cot(alpha) in the standard. As catalogues
-        round them, P has a step of up to a few per cent at |Fa| = e Fr.
-
-    References
-    ----------
-    ISO 281:2007, table 8.
+    ISO 281:2007, table 8. Of Fr, not negative, and Fa, either sign [N], with the catalogue's e, Y1 and Y2 [-]; 1.5
+    tan(alpha), 0.45 cot(alpha) and 0.67 cot(alpha) in the standard. As catalogues round them, P has a step of up to a
+    few per cent at |Fa| = e Fr.
 
     Examples
     --------
@@ -116,11 +94,7 @@ def dynamic_equivalent_load(
 def basic_life(load_rating: float, equivalent_load: ArrayLike) -> NDArray[np.float64]:
     """Basic rating life with 90 % reliability, L10 = 1e6 (C/P)^(10/3) revolutions of loads [N]; infinite without load.
 
-    Valid to P = C/2; no range is stated below.
-
-    References
-    ----------
-    ISO 281:2007, section 8.
+    ISO 281:2007, section 8; valid to P = C/2, no range is stated below.
 
     Examples
     --------
@@ -134,12 +108,7 @@ def basic_life(load_rating: float, equivalent_load: ArrayLike) -> NDArray[np.flo
 def mean_equivalent_load(equivalent_load: ArrayLike, revolutions: ArrayLike) -> float:
     """Constant load [N] with the life of a varying one, P_m = (sum P^p n / sum n)^(1/p), p = 10/3; NaN at rest.
 
-    Parameters
-    ----------
-    equivalent_load : array_like, shape (n,)
-        P [N].
-    revolutions : array_like, shape (n,)
-        Revolutions made under each load, not negative; any unit.
+    Of loads P [N] and the revolutions n made under each, not negative, in any unit.
 
     Examples
     --------
@@ -155,11 +124,8 @@ def mean_equivalent_load(equivalent_load: ArrayLike, revolutions: ArrayLike) -> 
 def reference_viscosity(speed: float, pitch: float) -> float:
     """Kinematic viscosity [m2/s] that the standard requires at a speed [rad/s], not zero, and pitch diameter [m].
 
-    nu1 = 45000 n^-0.83 Dpw^-0.5 mm2/s (n in rpm, Dpw in mm); from 1000 rpm on 4500 n^-0.5 Dpw^-0.5.
-
-    References
-    ----------
-    ISO 281:2007, section 9.3.3.2, equations (26) and (27).
+    nu1 = 45000 n^-0.83 Dpw^-0.5 mm2/s (n in rpm, Dpw in mm); from 1000 rpm on 4500 n^-0.5 Dpw^-0.5. ISO 281:2007,
+    section 9.3.3.2, equations (26) and (27).
 
     Examples
     --------
@@ -226,18 +192,8 @@ def ring_ratings(
 
     Q_ci = C/(0.378 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 - gamma)/(1 + gamma))^(143/108)]^(9/2)}^(2/9),
     Q_ce = C/(0.364 Z cos(alpha) i^(7/9)) {1 + [1.038 ((1 - gamma)/(1 + gamma))^(143/108)]^(-9/2)}^(2/9),
-    without the division by lambda nu = 0.83, which goes with laminae.
-
-    Parameters
-    ----------
-    dynamic_load_rating : float
-        C of the bearing [N].
-    rows, rollers_per_row : int
-        i and Z [-].
-    contact_angle : float
-        alpha [rad].
-    gamma : float
-        Dw cos(alpha)/Dpw [-].
+    without the division by lambda nu = 0.83, which goes with laminae. Of C [N], i rows, Z rollers in each, alpha [rad]
+    and gamma = Dw cos(alpha)/Dpw [-].
 
     References
     ----------
@@ -255,7 +211,7 @@ def ring_ratings(
     return RingRatings(share / 0.378 * (1.0 + ratio**4.5) ** (2 / 9), share / 0.364 * (1.0 + ratio**-4.5) ** (2 / 9))
 
 
-@jit_lawless
+@jit
 def damage_series(load, semi_axis, roller_length, rating, stationary):
     """Damage of one ring of one row over a history, (Q_e/Q_c)^(9/2), from the loads of all its rollers.
 
@@ -268,10 +224,8 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     ----------
     load : ndarray, shape (Z, n)
         Loads of the row's rollers [N].
-    semi_axis : float
-        Semi-axis of the contact ellipse along the roller, per Q^(1/3) [m/N^(1/3)].
-    roller_length : float
-        Length L [m].
+    semi_axis, roller_length : float
+        Semi-axis of the contact ellipse along the roller, per Q^(1/3) [m/N^(1/3)], and length L [m].
     rating : float
         Q_c of the ring [N], without the division by `REDUCTION`.
     stationary : bool
@@ -335,16 +289,8 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
 def reference_life(damage: NDArray[np.float64], axis: int | tuple[int, ...] | None = None) -> NDArray[np.float64]:
     """Basic reference rating life of rings together, L10r = 1e6 (sum (Q_c/Q_e)^(-9/2))^(-8/9) revolutions.
 
-    Parameters
-    ----------
-    damage : ndarray
-        From `damage_series`. Without load the life is infinite.
-    axis : int, tuple of int or None
-        Axes of rings and rows to take together; None for all.
-
-    References
-    ----------
-    ISO/TS 16281:2008, section 6.3.2.
+    ISO/TS 16281:2008, section 6.3.2; of `damage_series`, over the axes of the rings and rows to take together, None for
+    all. Without load the life is infinite.
 
     Examples
     --------

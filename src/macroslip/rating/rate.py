@@ -8,19 +8,17 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.bearing.load_ratings import fatigue_load_limit
-from macroslip.compiled import jit
+from macroslip.contact.interface import highest_load, interfaces
+from macroslip.contact.mechanisms import Laws
+from macroslip.contact.registry import FILM_LAWS
 from macroslip.errors import InputError
-from macroslip.film.correction import prepare_film
-from macroslip.film.film_law import film_thickness
-from macroslip.loads import BearingLoads
-from macroslip.mechanisms import Laws
+from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.rating import iso
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
-from macroslip.ring.balance import roller_loads
-from macroslip.ring.motion import ring_motion
-from macroslip.roller.model import highest_load, interfaces, ring_geometry, roller_model
+from macroslip.ring.motion import elastic_loads, ring_motion
+from macroslip.roller.model import ring_geometry, roller_model
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,17 +40,9 @@ _HOUR = 3600.0
 
 
 def roller_load_history(
-    bearing: Bearing, lubricant: Lubricant, loads: BearingLoads
+    bearing: Bearing, lubricant: Lubricant, loads: BearingLoads | RollerLoads
 ) -> tuple[BearingLoads, NDArray[np.float64]]:
-    """Elastic load of every roller at every sample.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    lubricant : Lubricant
-        No roller load depends on it.
-    loads : BearingLoads
-        Load on the inner ring.
+    """Elastic load of every roller at every sample; it does not depend on the lubricant.
 
     Returns
     -------
@@ -77,10 +67,10 @@ def roller_load_history(
     model = roller_model(bearing, lubricant, AXIAL_SIGNS["downwind"], tilt=0.0)
     ring = ring_geometry(bearing, model)
     motion, _ = ring_motion(loads, bearing, ring, highest_load(bearing, lubricant, Laws.physical()))
-    found = np.empty((motion.time.size, len(ROWS) * bearing.rollers_per_row))
-    for line, angle, place in zip(found, motion.shaft_angle, motion.displacement, strict=True):
-        roller_loads(ring, angle, place, line)
-    force = np.column_stack([np.interp(motion.time, loads.time, component) for component in loads.force.T])
+    found = elastic_loads(loads, ring, motion)
+    given = isinstance(loads, RollerLoads)
+    known = loads.resultant(bearing.contact_angle, bearing.rollers_per_row) if given else loads
+    force = np.column_stack([np.interp(motion.time, known.time, component) for component in known.force.T])
     finer = BearingLoads(motion.time, motion.shaft_speed, force, loads.source)
     return finer, np.moveaxis(found, 0, -1).reshape(len(ROWS), bearing.rollers_per_row, -1)
 
@@ -99,9 +89,9 @@ def rate(
     Parameters
     ----------
     bearing : Bearing
-        With load ratings and axial factors.
+        With load ratings and axial factors; InputError without.
     lubricant : Lubricant
-        Its viscosity and density are those at the inlet temperature.
+        At the inlet temperature.
     loads : BearingLoads
         Load on the inner ring and shaft speed, n samples.
     roller_load : ndarray, shape (2, Z, n)
@@ -117,11 +107,6 @@ def rate(
         Variables with `units` and `long_name`. Lives are hours at the history's mean speed, as if it repeated for ever;
         they weigh loads by revolutions. NaN where the shaft does not turn or the standard defines no value.
 
-    Raises
-    ------
-    InputError
-        If the bearing lacks a rating or a factor, or an argument has another shape or is out of range.
-
     Examples
     --------
     >>> from macroslip import Bearing, BearingLoads, Lubricant
@@ -135,10 +120,10 @@ def rate(
     import xarray as xr
 
     history = _history(bearing, lubricant, loads, roller_load, contamination)
-    edges = _class_edges(history)
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
-             _spectra(history, edges, wohler_exponents))  # fmt: skip
+             _spectra(history, wohler_exponents))  # fmt: skip
     variables = {name: value for part in parts for name, value in part.items()}
+    edges = _class_edges(history)
     coordinates = {
         "row": list(ROWS),
         "raceway": list(RACEWAYS),
@@ -147,8 +132,8 @@ def rate(
         "wohler_exponent": list(wohler_exponents),
         "load_class": _variable(0.5 * (edges[1:] + edges[:-1]), "N", "middle of the class of load", "load_class"),
     }
-    return xr.Dataset(variables, coordinates, {"bearing": bearing.name, "lubricant": lubricant.name,
-                                               "contamination": contamination, "film_law": FILM_LAW})  # fmt: skip
+    about = {"bearing": bearing.name, "lubricant": lubricant.name, "inlet_temperature": lubricant.inlet_temperature}
+    return xr.Dataset(variables, coordinates, about | {"contamination": contamination, "film_law": FILM_LAW})
 
 
 class _History(NamedTuple):
@@ -232,13 +217,10 @@ def _share(condition: NDArray[np.bool_], weight: NDArray[np.float64]) -> float:
 
 
 def _static(history: _History) -> dict[str, tuple]:
-    least = iso.minimum_load(history.static)
-    below = _share(history.equivalent < least, history.duration)
-    safety = iso.static_safety(history.static, history.static_equivalent.max())
+    least, largest = iso.minimum_load(history.static), float(history.static_equivalent.max())
+    below, safety = _share(history.equivalent < least, history.duration), iso.static_safety(history.static, largest)
     return {
-        "static_equivalent_load": _variable(
-            float(history.static_equivalent.max()), "N", "largest static equivalent load P0"
-        ),
+        "static_equivalent_load": _variable(largest, "N", "largest static equivalent load P0"),
         "static_safety": _variable(float(safety), "1", "static safety factor C0/P0, the least"),
         "minimum_load": _variable(least, "N", "least load P that the maker requires, 0.01 C0"),
         "share_below_minimum_load": _variable(below, "1", "share of time in which P is below the minimum load"),
@@ -246,17 +228,16 @@ def _static(history: _History) -> dict[str, tuple]:
 
 
 def _iso281(history: _History) -> dict[str, tuple]:
-    mean = iso.mean_equivalent_load(history.equivalent, history.revolutions)
-    limit = history.fatigue_limit
-    kappa = history.viscosity_ratio
+    mean, limit = iso.mean_equivalent_load(history.equivalent, history.revolutions), history.fatigue_limit
     life = iso.basic_life(history.dynamic, mean) * history.hours_a_revolution
-    factor = float(iso.life_modification(kappa, history.contamination, limit / mean if mean else math.inf))
+    ratio = limit / mean if mean else math.inf
+    factor = float(iso.life_modification(history.viscosity_ratio, history.contamination, ratio))
     below = _share(history.equivalent < limit, history.duration)
     return {
         "equivalent_load": _variable(mean, "N", "mean dynamic equivalent load P_m"),
         "fatigue_load_limit": _variable(limit, "N", "fatigue load limit C_u"),
         "share_below_fatigue_load_limit": _variable(below, "1", "share of time in which P is below C_u"),
-        "viscosity_ratio": _variable(kappa, "1", "viscosity ratio kappa at the mean speed"),
+        "viscosity_ratio": _variable(history.viscosity_ratio, "1", "viscosity ratio kappa at the mean speed"),
         "basic_life": _variable(float(life), "h", "basic rating life L10h, ISO 281"),
         "life_modification": _variable(factor, "1", "life modification factor a_ISO"),
         "modified_life": _variable(float(life * factor), "h", "modified rating life, ISO 281"),
@@ -292,16 +273,12 @@ def _reference(history: _History) -> dict[str, tuple]:
     load = history.dynamic * (1e6 / together) ** (1.0 / iso.LIFE_EXPONENT)
     with np.errstate(divide="ignore"):
         factor = iso.life_modification(history.viscosity_ratio, history.contamination, history.fatigue_limit / load)
-    by_raceway = hours(iso.reference_life(damages, axis=()))
-    name = "basic reference rating life, ISO/TS 16281"
+    by_raceway, modified = hours(iso.reference_life(damages, axis=())), hours(together * factor)
+    name, along = "basic reference rating life, ISO/TS 16281", "load_along_roller"
     return {
-        "reference_life": _variable(hours(together), "h", name, "load_along_roller"),
-        "raceway_reference_life": _variable(
-            by_raceway, "h", f"{name}, one raceway", "load_along_roller", "row", "raceway"
-        ),
-        "modified_reference_life": _variable(
-            hours(together * factor), "h", "modified reference rating life", "load_along_roller"
-        ),
+        "reference_life": _variable(hours(together), "h", name, along),
+        "raceway_reference_life": _variable(by_raceway, "h", f"{name}, one raceway", along, "row", "raceway"),
+        "modified_reference_life": _variable(modified, "h", "modified reference rating life", along),
     }
 
 
@@ -316,15 +293,14 @@ def _contacts(history: _History) -> dict[str, tuple]:
     entrainment = np.abs(history.loads.shaft_speed) * inner * outer / (inner + outer)
     low, middle = np.full((2, len(ROWS), len(RACEWAYS)), np.nan)
     weights = np.broadcast_to(history.duration, load.shape[1:])
-    for k, raceway in enumerate(raceways):
-        law = prepare_film(FILM_LAW, raceway)
-        for row in range(len(ROWS)):
-            carried = (load[row] > 0.0) & (entrainment > 0.0)
-            if carried.any():
-                speed = np.broadcast_to(entrainment, carried.shape)[carried]
-                ratio = _films(law, load[row][carried], speed) / bearing.composite_roughness
-                quantiles = _quantiles(ratio, weights[carried], (0.05, 0.5))
-                low[row, k], middle[row, k] = quantiles
+    film = FILM_LAWS.named(FILM_LAW)
+    for row, k in np.ndindex(low.shape):
+        carried = (load[row] > 0.0) & (entrainment > 0.0)
+        if carried.any():
+            speed = np.broadcast_to(entrainment, carried.shape)[carried]
+            ratio = film(raceways[k], load[row][carried], speed) / bearing.composite_roughness
+            quantiles = np.quantile(ratio, (0.05, 0.5), weights=weights[carried], method="inverted_cdf")
+            low[row, k], middle[row, k] = quantiles
     return {
         "largest_roller_load": _variable(largest, "N", "largest roller load", "row"),
         "largest_pressure": _variable(pressure, "Pa", "largest Hertz pressure", "row", "raceway"),
@@ -333,37 +309,22 @@ def _contacts(history: _History) -> dict[str, tuple]:
     }
 
 
-@jit
-def _films(law, load, speed):
-    """Film thickness [m] at every pair of load [N] and entrainment speed [m/s]."""
-    found = np.empty(load.size)
-    for k in range(load.size):
-        found[k] = film_thickness(law, load[k], speed[k])[0]
-    return found
-
-
-def _quantiles(values: NDArray, weights: NDArray, shares: tuple[float, ...]) -> NDArray[np.float64]:
-    order = np.argsort(values)
-    reached = np.cumsum(weights[order])
-    return values[order][np.searchsorted(reached, np.array(shares) * reached[-1]).clip(max=values.size - 1)]
-
-
 def _class_edges(history: _History) -> NDArray[np.float64]:
     reach = [history.radial, history.axial, history.equivalent]
     low, high = min(one.min() for one in reach), max(one.max() for one in reach)
     return np.linspace(min(low, 0.0), high if high > 0.0 else 1.0, LOAD_CLASSES + 1)
 
 
-def _spectra(history: _History, edges: NDArray[np.float64], exponents: tuple[float, ...]) -> dict[str, tuple]:
+def _spectra(history: _History, exponents: tuple[float, ...]) -> dict[str, tuple]:
+    edges = _class_edges(history)
     by_name = dict(zip(LOADS, (history.radial, history.axial, history.equivalent), strict=True))
     times = [load_duration(load, history.duration, edges) for load in by_name.values()]
     turns = [load_duration(load, history.revolutions, edges) for load in by_name.values()]
     total = history.duration.sum()
     ranges = [[damage_equivalent_load(load, total, one) for one in exponents] for load in by_name.values()]
+    about = "range of the damage-equivalent load at 1 Hz"
     return {
         "time_share": _variable(times, "1", "share of time in the class of load", "load", "load_class"),
         "revolution_share": _variable(turns, "1", "share of revolutions in the class", "load", "load_class"),
-        "damage_equivalent_load": _variable(
-            ranges, "N", "range of the damage-equivalent load at 1 Hz", "load", "wohler_exponent"
-        ),
+        "damage_equivalent_load": _variable(ranges, "N", about, "load", "wohler_exponent"),
     }

@@ -22,21 +22,10 @@ def sample_durations(time: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def load_duration(load: NDArray[np.float64], weight: NDArray[np.float64], edges: NDArray[np.float64]) -> NDArray:
-    """Load duration distribution: share of time, or of revolutions, that the load spends in each class.
+    """Shares [-] of time, or of revolutions, that n loads [N] spend in each of k classes; their sum is 1.
 
-    Parameters
-    ----------
-    load : ndarray, shape (n,)
-        Load [N].
-    weight : ndarray, shape (n,)
-        Time or revolutions that each sample represents.
-    edges : ndarray, shape (k + 1,)
-        Rising edges of the classes [N] that contain all loads.
-
-    Returns
-    -------
-    ndarray, shape (k,)
-        Shares [-], whose sum is 1; NaN if the weights are all zero.
+    `weight` is the time, or the revolutions, that each sample represents, `edges` the k + 1 rising edges of the classes
+    [N], which contain all loads. NaN if the weights are all zero.
 
     Examples
     --------
@@ -49,17 +38,9 @@ def load_duration(load: NDArray[np.float64], weight: NDArray[np.float64], edges:
 
 
 def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Ranges of the cycles of a load history, which is taken as repeating, so that every cycle closes.
+    """Ranges [N] of the cycles of a load history [N], taken as repeating, so that every cycle closes.
 
-    Parameters
-    ----------
-    load : ndarray, shape (n,)
-        Load [N], at least two samples.
-
-    Returns
-    -------
-    ndarray
-        One range [N] a cycle; empty for a constant load. Ripples of less than 1/256 of the largest range do not count.
+    Of two samples or more. Empty for a constant load. Ripples of less than 1/256 of the largest range do not count.
 
     References
     ----------
@@ -81,29 +62,10 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def damage_equivalent_load(load: ArrayLike, duration: float, exponent: float, *, frequency: float = 1.0) -> float:
-    """Range of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
+    """Range [N] of a sinusoidal load of one frequency that does the same damage, (sum S_i^m/(f T))^(1/m).
 
-    Cycles are those of `rainflow_ranges`.
-
-    Parameters
-    ----------
-    load : array_like, shape (n,)
-        Load history [N], at least two samples.
-    duration : float
-        Its duration T [s], positive.
-    exponent : float
-        Slope m of the Wöhler line [-], at least 1.
-    frequency : float
-        f [Hz].
-
-    Returns
-    -------
-    float
-        Range (twice the amplitude) [N]; 0 for a constant load.
-
-    References
-    ----------
-    IEC 61400-13, annex on damage-equivalent loads.
+    Twice its amplitude; 0 for a constant load. S_i are the `rainflow_ranges` of the load [N], T > 0 its duration [s], m
+    >= 1 the slope of the Wöhler line [-], f the frequency [Hz]. IEC 61400-13, annex on damage-equivalent loads.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a result can draw in a notebook: `result.macroslip.plot.load_zone()`.
+"""Plots of a result in a notebook: `result.macroslip.plot.load_zone()`.
 
 Importing this module registers the accessor with xarray; `macroslip.simulate` and `macroslip.open_result` bring it.
 Pictures need matplotlib, which is imported when the first one is drawn.
@@ -12,43 +12,67 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
+from macroslip.errors import InputError, MacroslipError
+from macroslip.files import check_regular
+from macroslip.hdf5_file import check_hdf5
 from macroslip.overview import html_overview
+from macroslip.report import bearing_figures as draw
+from macroslip.report.page import number
+from macroslip.report.result_numbers import row_numbers
+from macroslip.report.style import SMALL
+from macroslip.result.run_input import run_input
+from macroslip.result.stored import REMEDY, check_result
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.axes import Axes
     from matplotlib.projections.polar import PolarAxes
 
 
 def open_result(path: str | Path) -> xr.Dataset:
-    """Read what `macroslip run` wrote; the result has `result.macroslip.plot`.
+    """Read a netCDF file that `macroslip run` wrote into memory; the result has `result.macroslip.plot`.
 
-    Parameters
-    ----------
-    path : path
-        A netCDF file.
-
-    Returns
-    -------
-    xarray.Dataset
-        In memory.
-
-    Raises
-    ------
-    InputError
-        If there is no such file, or it cannot be read.
+    Raises InputError if there is no such file, or it cannot be read.
     """
-    from macroslip.errors import InputError
-    from macroslip.report.read import read_results
-
     if Path(path).is_dir():
         raise InputError("this is a folder", where=str(path), allowed="one netCDF file that macroslip run wrote")
     (result,) = read_results(Path(path)).values()
     return result
 
 
+def read_results(path: Path) -> dict[str, xr.Dataset]:
+    """The datasets of a netCDF file, or of all netCDF files in a folder, by the name of the file.
+
+    Subfolders are not searched. Raises InputError if there is no such path, the folder holds no netCDF file, or a file
+    cannot be read or holds no result.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError("there is no such file or folder", where=str(path), remedy="Name what macroslip run wrote.")
+    files = sorted(path.glob("*.nc")) if path.is_dir() else [path]
+    if not files:
+        raise InputError(
+            "the folder holds no netCDF file", where=str(path), allowed="files that macroslip run wrote (*.nc)"
+        )
+    for file in files:
+        check_regular(file, REMEDY)
+    check_hdf5(files, REMEDY)
+    return {file.stem: _read(file) for file in files}
+
+
+def _read(file: Path) -> xr.Dataset:
+    try:
+        # Units of seconds are units, not times of day.
+        found = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY) from None
+    check_result(found, str(file))
+    return found
+
+
 @xr.register_dataset_accessor("macroslip")
 class Macroslip:
-    """What macroslip adds to a result: `plot`, and a summary for its display."""
+    """Accessor `macroslip` of a result: `plot`, and a summary for its display."""
 
     def __init__(self, result: xr.Dataset):
         self._result = result
@@ -58,22 +82,59 @@ class Macroslip:
         """Pictures of the result."""
         return Plot(self._result)
 
+    def summary(self) -> pd.DataFrame:
+        """The headline values of the result, with units in the names; rows of the bearing are columns.
+
+        The model, oil and temperature stand in `attrs`.
+        """
+        import pandas as pd
+
+        result, found = self._result, {}
+        for numbers in row_numbers(result):
+            one = result.sel(row=numbers["name"])
+            by_interface = one.energy.mean("roller", skipna=False)
+            found[numbers["name"]] = {
+                "mean energy per roller [J]": numbers["energy"],
+                "largest energy of a roller [J]": numbers["most"],
+                "energy at the inner raceway [J]": by_interface.sel(interface="inner").item(),
+                "energy at the outer raceway [J]": by_interface.sel(interface="outer").item(),
+                "energy at the cage [J]": by_interface.sel(interface="cage").item(),
+                "rolling energy per roller [J]": one.rolling_energy.sum("interface")
+                .mean("roller", skipna=False)
+                .item(),
+                "highest peak power [W]": numbers["peak"],
+                "lowest spin / pure rolling [1]": numbers["spin"],
+                "largest flash temperature [K]": one["flash_temperature"].max().item()
+                if "flash_temperature" in one
+                else None,
+                "least film ratio [1]": one["min_film_ratio"].min().item() if "min_film_ratio" in one else None,
+                "failed rollers [1]": numbers["failed"],
+            }
+        table = pd.DataFrame(found, dtype=float)
+        table.attrs = {name: result.attrs[name] for name in ("title", "model", "oil") if name in result.attrs}
+        return table
+
+    @property
+    def damage(self) -> xr.Dataset:
+        """Criteria of damage by slip, as `macroslip.result.damage.damage` gives them with its own coefficients."""
+        from macroslip.result.damage import damage
+
+        return damage(self._result)
+
     def _rows(self) -> list[list[str]]:
         """Of each row its name, mean energy of a roller, lowest spin over pure rolling, and how many rollers failed."""
-        found = []
-        for name in self._result.row.values:
-            row = self._result.sel(row=name)
-            energy, spin = row.energy.sum("interface", skipna=False).mean("roller"), row.min_spin_ratio.min()
-            failed = f"{int((row.status != 0).sum())} of {row.status.size}"
-            found.append([str(name), f"{float(energy):.4g}", f"{float(spin):.3g}", failed])
-        return found
+        return [
+            [one["name"], number(one["energy"]), number(one["spin"], 3), f"{one['failed']} of {one['rollers']}"]
+            for one in row_numbers(self._result)
+        ]
 
     def __repr__(self) -> str:
         rows = "; ".join(
             f"{name} {energy} J a roller, lowest spin {spin} of pure rolling, {failed} rollers failed"
             for name, energy, spin, failed in self._rows()
         )
-        return f"<{self._result.attrs.get('title', 'result')}: {rows}>"
+        warning = f"; warning: {self._result.attrs['books_warning']}" if "books_warning" in self._result.attrs else ""
+        return f"<{self._result.attrs.get('title', 'result')}: {rows}{warning}>"
 
     def _repr_html_(self) -> str:
         headings = ["row", "mean energy of a roller [J]", "lowest spin / pure rolling [1]", "failed rollers"]
@@ -86,57 +147,71 @@ class Plot:
     def __init__(self, result: xr.Dataset):
         self._result = result
 
+    def _new_axes(self, projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any) -> Any:
+        """Axes in a new figure, which a notebook shows by itself, under the model, oil and temperature."""
+        try:
+            from matplotlib import pyplot
+        except ModuleNotFoundError:
+            raise MacroslipError("a picture needs matplotlib: pip install 'macroslip[figures]'") from None
+        options |= {"layout": "constrained", "subplot_kw": {"projection": projection}}
+        figure, axes = pyplot.subplots(rows, columns, **options)
+        if "oil" in self._result.attrs:
+            figure.suptitle(f"model {self._result.attrs['model']}, {self._result.attrs['oil']}", fontsize=SMALL)
+        return axes
+
     def energy(self, *, axes: Axes | None = None) -> Axes:
         """Energy of a mean roller of each row, by interface."""
-        from macroslip.report.bearing_figures import plot_energy_by_interface
-
-        return _legend(plot_energy_by_interface(axes or _new_axes(), self._result.energy))
+        return _legend(draw.plot_energy_by_interface(axes or self._new_axes(), self._result.energy))
 
     def rollers(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
         """Energy of every roller of a row, over the mean of the row."""
-        from macroslip.report.bearing_figures import plot_roller_spread
-
-        return plot_roller_spread(axes or _new_axes(), self._result.energy, row)
+        return draw.plot_roller_spread(axes or self._new_axes(), self._result.energy, row)
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
         """Share of orbits whose largest power exceeds a value, for both rows."""
-        from macroslip.report.bearing_figures import plot_peak_exceedance
-
-        return _legend(plot_peak_exceedance(axes or _new_axes(), self._result))
+        return _legend(draw.plot_peak_exceedance(axes or self._new_axes(), self._result))
 
     def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
-        """Spin of a roller over time, with that of pure rolling; the first roller if none is named. Needs traces."""
-        from macroslip.report.trace_figures import plot_spin_over_time
-
+        """Spin of a roller over time, with its spin in pure rolling; by default the first roller. Needs traces."""
         number = int(self._result.roller[0]) if roller is None else roller
-        return plot_spin_over_time(axes or _new_axes(), self._result, row, number)
+        return draw.plot_spin_over_time(axes or self._new_axes(), self._result, row, number)
 
     def load_zone(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
         """Roller load over angle and time. Needs traces that begin with the loads."""
-        from macroslip.report.bearing_figures import plot_load_zone
-        from macroslip.result.orbit_profile import load_zone
+        from macroslip.result.orbit import load_zone
 
-        return plot_load_zone(axes or _new_axes(), load_zone(self._result), row)
+        return draw.plot_load_zone(axes or self._new_axes(), load_zone(self._result), row)
 
     def orbit(self, row: str = "downwind", *, axes: PolarAxes | None = None) -> PolarAxes:
         """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
 
         Needs traces that begin with the loads.
         """
-        from macroslip.report.bearing_figures import plot_energy_over_orbit
-        from macroslip.result.orbit_profile import energy_over_orbit
+        from macroslip.result.orbit import energy_over_orbit
 
-        drawn = plot_energy_over_orbit(axes or _new_axes("polar"), energy_over_orbit(self._result), row)
-        drawn.legend(frameon=False, fontsize=9, loc="upper left", bbox_to_anchor=(1.05, 1.0))
+        drawn = draw.plot_energy_over_orbit(axes or self._new_axes("polar"), energy_over_orbit(self._result), row)
+        drawn.legend(frameon=False, fontsize=SMALL, loc="upper left", bbox_to_anchor=(1.05, 1.0))
         return drawn
+
+    def bearing(self, *, axes: Axes | None = None) -> Axes:
+        """Both rows to scale, coloured by slip, at the moment of the largest power. Needs traces as `load_zone`."""
+        from macroslip.result.orbit import still
+
+        return draw.plot_bearing(axes or self._new_axes(), still(self._result), run_input(self._result).bearing)
+
+    def damage(self, *, axes: Axes | None = None) -> Axes:
+        """Criteria of damage side by side, each over what it is compared with. Needs details of the contacts."""
+        return draw.plot_criteria(axes or self._new_axes(), self._result.macroslip.damage)
+
+    def wear(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
+        """Worn profile of the inner raceway, the outer raceway and the rollers of a row over the years."""
+        return _legend(draw.plot_worn_profile(axes or self._new_axes(), self._result.macroslip.damage, row))
 
     def maps(self, quantity: str = "energy", *, axes: Sequence[Axes] | None = None) -> list[Axes]:
         """Where the raceways suffer: energy, or with "power" the largest power, per area on each of the four.
 
         Needs a result of a model with microslip. Axes of your own are four: outer and inner raceway of each row.
         """
-        from macroslip.errors import InputError
-        from macroslip.report.surface_section import plot_map, raceways
         from macroslip.result.surface_maps import energy_density
 
         if quantity not in ("energy", "power"):
@@ -145,24 +220,14 @@ class Plot:
         units = "J/mm²"
         if quantity == "power":
             density, units = self._result.surface_power_density, "W/mm²"
-        shown = raceways(density)
+        shown = draw.raceways(density)
         if axes is None:
-            axes = _new_axes(rows=len(shown) // 2, columns=2, figsize=(9.0, 6.0)).ravel()
-        return [plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)]
-
-
-def _new_axes(projection: str | None = None, *, rows: int = 1, columns: int = 1, **options: Any) -> Any:
-    """Axes in a new figure, which a notebook shows by itself."""
-    from macroslip.errors import MacroslipError
-
-    try:
-        from matplotlib import pyplot
-    except ModuleNotFoundError:
-        raise MacroslipError("a picture needs matplotlib: pip install 'macroslip[figures]'") from None
-    _, axes = pyplot.subplots(rows, columns, layout="constrained", subplot_kw={"projection": projection}, **options)
-    return axes
+            axes = self._new_axes(rows=len(shown) // 2, columns=2, figsize=(9.0, 6.0)).ravel()
+        return [
+            draw.plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)
+        ]
 
 
 def _legend(axes: Axes) -> Axes:
-    axes.legend(frameon=False, fontsize=9)
+    axes.legend(frameon=False, fontsize=SMALL)
     return axes

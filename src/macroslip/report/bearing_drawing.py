@@ -21,17 +21,9 @@ _MILLI = 1e3
 
 
 def draw_bearing(bearing: Bearing) -> Figure:
-    """Draw the section of a bearing above its axis.
+    """Draw the section of a bearing above its axis, all lengths in proportion, without the flanges of the inner ring.
 
-    Parameters
-    ----------
-    bearing : Bearing
-        Rings are drawn where bore, outside diameter and width are given.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        All lengths in proportion; the flanges of the inner ring are left out.
+    Rings are drawn where bore, outside diameter and width are given.
     """
     from matplotlib.figure import Figure
 
@@ -45,9 +37,9 @@ def draw_bearing(bearing: Bearing) -> Figure:
         axes.fill(*_roller(bearing, side), fc=ROLLER, ec="black", lw=1.0, zorder=3)
     _dimensions(axes, bearing, half)
     axes.plot([-1.15 * half, 1.15 * half], [0, 0], color="black", lw=0.8, ls="-.")
-    _words(axes, -1.17 * half, 0, "bearing axis", ha="right")
+    axes.text(-1.17 * half, 0, "bearing axis", ha="right", va="center", fontsize=9)
     axes.set(xlim=(-3.0 * half, 3.0 * half), ylim=(-0.08 * _outside(bearing), 1.2 * _outside(bearing)))
-    _words(axes, 0, 1.14 * _outside(bearing), bearing.name, ha="center", size=12)
+    axes.text(0, 1.14 * _outside(bearing), bearing.name, ha="center", va="center", fontsize=12)
     return figure
 
 
@@ -95,69 +87,51 @@ def _roller(bearing: Bearing, side: int) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def _dimensions(axes: Axes, bearing: Bearing, half: float) -> None:
+    """Arrows for lengths; name and value of every dimension beside the drawing, with a line to its place."""
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     z, y = _MILLI * bearing.row_offset, _MILLI * bearing.pitch_radius
     sphere, outside = _MILLI * bearing.outer_raceway_radius, _outside(bearing)
+    r, length = 0.5 * _MILLI * bearing.roller_diameter, 0.5 * _MILLI * bearing.roller_length
+    middle, contact = 0.5 * bearing.contact_angle, math.sqrt(sphere**2 - z**2)
+    inner = float(_inner_raceway(bearing, np.array([z]))[0])
+    arrows = [
+        ((0, 0), (sphere * sine, sphere * cosine), SPHERE),
+        ((0, 0.72 * y), (z, 0.72 * y), LINE),
+        ((-1.08 * half, 0), (-1.08 * half, y), LINE),
+        ((-z - r * sine, y + r * cosine), (-z + r * sine, y - r * cosine), LINE),
+        ((-z + length * cosine, y + length * sine), (-z - length * cosine, y - length * sine), LINE),
+    ]
+    # Key, side and height of the words, and the place they belong to.
+    labels = [
+        ("outer_raceway_radius", 1, 0.42 * y, (0.45 * sphere * sine, 0.45 * sphere * cosine)),
+        ("row_offset", 1, 0.66 * y, (0.8 * z, 0.72 * y)),
+        ("contact_angle", 1, 0.2 * y, (0.3 * sphere * math.sin(middle), 0.3 * sphere)),
+        ("osculation_outer", 1, 1.08 * outside, (1.05 * z, contact)),
+        ("osculation_inner", 1, 0.8 * y, (z, inner)),
+        ("rollers_per_row", 1, y, (z + 0.5 * length, y)),
+        ("pitch_radius", -1, 0.5 * y, (-1.08 * half, 0.5 * y)),
+        ("roller_diameter", -1, y + 1.1 * r, (-z - 0.5 * r * sine, y + 0.5 * r)),
+        ("roller_length", -1, y - 1.1 * r, (-z - 0.6 * length, y - 0.6 * length * sine)),
+        ("diametral_clearance", -1, 1.1 * outside, (-0.7 * z, contact)),
+    ]
+    if bearing.width is not None:
+        arrows.append(((-half, 1.03 * outside), (half, 1.03 * outside), "black"))
+        labels.append(("width", -1, 1.03 * outside, (-half, 1.03 * outside)))
+    for key, share in (("bore_diameter", 0.75), ("outside_diameter", 0.95)):
+        if getattr(bearing, key) is not None:
+            end, place = 0.5 * _MILLI * getattr(bearing, key), share * half
+            arrows.append(((-place, 0), (-place, end), "black"))
+            labels.append((key, -1, (1.0 - share) * end + 0.02 * outside, (-place, (1.1 - share) * end)))
     axes.plot([0, 0], [0, 1.04 * outside], color="black", lw=0.6, ls="-.")
-    # The right row: where its rollers are.
-    _measure(axes, (0, 0), (sphere * sine, sphere * cosine), SPHERE)
-    _label(
-        axes, bearing, "outer_raceway_radius", (1.25 * half, 0.42 * y), (0.45 * sphere * sine, 0.45 * sphere * cosine)
-    )
-    _measure(axes, (0, 0.72 * y), (z, 0.72 * y), LINE)
     axes.plot([z, z], [0.70 * y, y], color=LINE, lw=0.6)
-    _label(axes, bearing, "row_offset", (1.25 * half, 0.66 * y), (0.8 * z, 0.72 * y))
+    axes.plot([-1.1 * half, -z], [y, y], color=LINE, lw=0.6)
     turn = np.linspace(0, bearing.contact_angle, 30)
     axes.plot(0.3 * sphere * np.sin(turn), 0.3 * sphere * np.cos(turn), color=SPHERE, lw=1.2)
-    middle = 0.5 * bearing.contact_angle
-    _label(axes, bearing, "contact_angle", (1.25 * half, 0.2 * y), (0.3 * sphere * math.sin(middle), 0.3 * sphere))
-    _label(axes, bearing, "osculation_outer", (1.25 * half, 1.08 * outside), (1.05 * z, math.sqrt(sphere**2 - z**2)))
-    _label(
-        axes, bearing, "osculation_inner", (1.25 * half, 0.8 * y), (z, float(_inner_raceway(bearing, np.array([z]))[0]))
-    )
-    # The left row: its size.
-    _measure(axes, (-1.08 * half, 0), (-1.08 * half, y), LINE)
-    axes.plot([-1.1 * half, -z], [y, y], color=LINE, lw=0.6)
-    _label(axes, bearing, "pitch_radius", (-1.25 * half, 0.5 * y), (-1.08 * half, 0.5 * y))
-    r, length = 0.5 * _MILLI * bearing.roller_diameter, 0.5 * _MILLI * bearing.roller_length
-    _measure(axes, (-z - r * sine, y + r * cosine), (-z + r * sine, y - r * cosine), LINE)
-    _measure(axes, (-z + length * cosine, y + length * sine), (-z - length * cosine, y - length * sine), LINE)
-    _label(axes, bearing, "roller_diameter", (-1.25 * half, y + 1.1 * r), (-z - 0.5 * r * sine, y + 0.5 * r))
-    _label(axes, bearing, "roller_length", (-1.25 * half, y - 1.1 * r), (-z - 0.6 * length, y - 0.6 * length * sine))
-    contact = math.sqrt(sphere**2 - z**2)
-    _label(axes, bearing, "diametral_clearance", (-1.25 * half, 1.1 * outside), (-0.7 * z, contact))
-    _label(axes, bearing, "rollers_per_row", (1.25 * half, y), (z + 0.5 * length, y))
-    _boundary(axes, bearing, half, outside)
-
-
-def _boundary(axes: Axes, bearing: Bearing, half: float, outside: float) -> None:
-    if bearing.width is not None:
-        _measure(axes, (-half, 1.03 * outside), (half, 1.03 * outside), "black")
-        _label(axes, bearing, "width", (-1.25 * half, 1.03 * outside), (-half, 1.03 * outside))
-    for key, value, share in (
-        ("bore_diameter", bearing.bore_diameter, 0.75),
-        ("outside_diameter", bearing.outside_diameter, 0.95),
-    ):
-        if value is not None:
-            end, place = 0.5 * _MILLI * value, share * half
-            _measure(axes, (-place, 0), (-place, end), "black")
-            _label(
-                axes, bearing, key, (-1.25 * half, (1.0 - share) * end + 0.02 * outside), (-place, (1.1 - share) * end)
-            )
-
-
-def _measure(axes: Axes, start: tuple[float, float], end: tuple[float, float], colour: str) -> None:
-    axes.annotate("", end, start, arrowprops={"arrowstyle": "<->", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0},
-                  zorder=5)  # fmt: skip
-
-
-def _label(axes: Axes, bearing: Bearing, key: str, at: tuple[float, float], to: tuple[float, float]) -> None:
-    """Name and value beside the drawing, with a line to what they measure."""
-    words = f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})"
-    right = at[0] > 0
-    axes.annotate(words, to, at, ha="left" if right else "right", va="center", fontsize=9,
-                  arrowprops={"arrowstyle": "-", "color": "#777777", "lw": 0.6}, zorder=6)  # fmt: skip
-
-
-def _words(axes: Axes, x: float, y: float, words: str, *, ha: str = "left", size: int = 9) -> None:
-    axes.text(x, y, words, ha=ha, va="center", fontsize=size)
+    for start, end, colour in arrows:
+        style = {"arrowstyle": "<->", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", end, start, arrowprops=style, zorder=5)
+    for key, side, height, to in labels:
+        text = f"{key} = {bearing.written(key)} ({bearing.provenance[key].tag})"
+        style = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": 9}
+        line = {"arrowstyle": "-", "color": "#777777", "lw": 0.6}
+        axes.annotate(text, to, (1.25 * side * half, height), arrowprops=line, zorder=6, **style)

@@ -1,49 +1,85 @@
-"""The whole bearing: where on the orbit energy goes, films, the load zone over time, and how rollers differ.
+"""Figures of a result: where on the orbit energy goes, films, load zone, spread of the rollers, raceways, pockets.
 
-Angles count from the bottom along the orbit; polar axes look downwind, so that rollers rise on the left.
+Every function draws on the axes that it takes, and returns them. Angles count from the bottom along the orbit; polar
+axes look downwind, so that rollers rise on the left.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.report.style import BLACK, GREY, INTERFACE, ROW, finish, log_ticks
-from macroslip.report.wording import three_digits
+from macroslip.bearing import geometry
+from macroslip.errors import InputError
+from macroslip.report.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    INTERFACE,
+    LABEL,
+    ORANGE,
+    ROW,
+    SMALL,
+    decade_ticks,
+    finish,
+    log_ticks,
+    three_digits,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.projections.polar import PolarAxes
 
+    from macroslip.bearing import Bearing
+
 _ANGLE = "angle from the bottom, top at 180 [°]"
+_QUARTERS = [0, 90, 180, 270, 360]
+_SPLIT = ("slip_sign", "film_regime")
+_PARTS = {
+    "slip < 0": ({"slip_sign": "negative"}, {"color": BLUE, "linestyle": "--"}),
+    "slip > 0": ({"slip_sign": "positive"}, {"color": ORANGE, "linestyle": "-."}),
+    "Λ < 1": ({"film_regime": "below 1"}, {"color": GREEN, "linestyle": ":"}),
+}
+_LOADS = {
+    "radial": {"color": BLUE, "linestyle": "-"},
+    "axial": {"color": ORANGE, "linestyle": "--"},
+    "equivalent": {"color": BLACK, "linestyle": "-."},
+}
 
 
 def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> PolarAxes:
     """Energy per orbit and degree of a row at each interface, on polar axes that look downwind.
 
-    Takes the array of `macroslip.result.orbit_profile.energy_over_orbit` [J/degree]; drawn in mJ/degree. An interface
-    that never reaches a hundredth of the largest is left to the legend, which gives the energy per orbit of each.
+    Takes the array of `macroslip.result.orbit.energy_over_orbit` [J/degree]; drawn in mJ/degree. The legend
+    gives the energy per orbit of each interface.
     """
-    one = energy.sel(row=row)
+    from matplotlib.ticker import MaxNLocator
+
+    one = 1e3 * energy.sel(row=row)
     width = 360.0 / one.sizes["angle"]
-    theta = np.radians(np.concatenate([one.angle.values, one.angle.values[:1] + 360.0]))
+    theta = np.radians(np.append(one.angle.values, one.angle.values[0] + 360.0))
     for interface in one.interface.values.tolist():
-        values = 1e3 * one.sel(interface=interface).values
+        values = one.sel(interface=interface).values
         label = f"{interface}: {three_digits(width * values.sum())} mJ per orbit"
         axes.plot(theta, np.append(values, values[0]), label=label, linewidth=1.6, **INTERFACE[interface])
-    axes.set_theta_zero_location("S")
-    axes.set_theta_direction(-1)
-    axes.set_xticks(np.radians([0.0, 90.0, 180.0, 270.0]), ["bottom", "left", "top", "right"])
-    axes.tick_params(axis="x", pad=1)
     axes.set_ylim(bottom=0.0)
-    axes.tick_params(labelsize=9)
-    axes.set_rlabel_position(45.0)
-    largest = float(axes.get_ylim()[1])
-    ticks = [largest * part for part in (0.25, 0.5, 0.75)]
-    axes.set_yticks(ticks, [f"{value:.2g}" for value in ticks])
-    axes.set_title(f"{row} row [mJ/°]", fontsize=10, loc="left", pad=12)
+    axes.yaxis.set_major_locator(MaxNLocator(3, prune="lower"))
+    return _round(axes, "S", ["bottom", "left", "top", "right"], f"{row} row [mJ/°]")
+
+
+def _round(axes: PolarAxes, zero: str, quarters: Sequence[str], title: str) -> PolarAxes:
+    """Name the quarters of polar axes that look downwind, with the radial scale between two of them."""
+    axes.set_theta_zero_location(zero)
+    axes.set_theta_direction(-1)
+    axes.set_xticks(np.radians(_QUARTERS[:4]), quarters)
+    axes.tick_params(labelsize=SMALL)
+    axes.tick_params(axis="x", pad=1)
+    axes.set_rlabel_position(22.5)
+    axes.set_title(title, fontsize=LABEL, loc="left", pad=12)
     return axes
 
 
@@ -53,59 +89,71 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
     Takes `film_thickness` [m] and `film_parameter` [1] over (row, interface, quantile, angle). The right axis shows the
     film parameter Λ, film thickness over composite roughness.
     """
-    from matplotlib.ticker import LogLocator, NullFormatter
-
-    one = orbit.film_thickness.sel(row=row)
+    one = 1e6 * orbit.film_thickness.sel(row=row)
+    angle = one.angle.values
     for interface in one.interface.values.tolist():
-        values = 1e6 * one.sel(interface=interface)
+        low, middle, high = one.sel(interface=interface).transpose("quantile", "angle").values
         style = INTERFACE[interface]
-        axes.fill_between(
-            one.angle.values,
-            values.isel(quantile=0),
-            values.isel(quantile=-1),
-            color=style["color"],
-            alpha=0.18,
-            linewidth=0.0,
-        )
-        axes.plot(one.angle.values, values.isel(quantile=1), label=interface, linewidth=1.6, **style)
+        axes.fill_between(angle, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
+        axes.plot(angle, middle, label=interface, linewidth=1.6, **style)
     log_ticks(axes)
     axes.set_xlim(0.0, 360.0)
-    axes.set_xticks([0, 90, 180, 270, 360])
-    per_micrometre = 1e-6 * float((orbit.film_parameter / orbit.film_thickness).median())
-    there_and_back = (lambda h: np.multiply(h, per_micrometre), lambda x: np.divide(x, per_micrometre))
-    right = axes.secondary_yaxis("right", functions=there_and_back)
-    right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    right.yaxis.set_major_formatter("{x:g}")
-    right.yaxis.set_minor_formatter(NullFormatter())
-    right.set_ylabel("film parameter Λ [–]")
-    right.tick_params(labelsize=9)
+    axes.set_xticks(_QUARTERS)
+    scale = 1e-6 * float((orbit.film_parameter / orbit.film_thickness).median())
+    right = axes.secondary_yaxis(
+        "right", functions=(lambda h: np.multiply(h, scale), lambda ratio: np.divide(ratio, scale))
+    )
+    decade_ticks(right.yaxis)
+    right.set_ylabel("film parameter Λ [–]", fontsize=LABEL)
+    right.tick_params(labelsize=SMALL)
     return finish(axes, _ANGLE, "film thickness [µm]", f"{row} row")
 
 
 def plot_load_zone(axes: Axes, load: xr.DataArray, row: str) -> Axes:
-    """Roller load of a row over angle and time as a heat map, darkest where there is no load, with the row's own scale.
+    """Roller load of a row over angle and time as a heat map, darkest where there is no load.
 
-    Takes the array of `macroslip.result.orbit_profile.load_zone` [N].
+    Takes the array of `macroslip.result.orbit.load_zone` [N].
     """
-    one = load.sel(row=row)
-    largest = max(float(one.max()), 1.0)
-    image = axes.imshow(
-        1e-3 * one.values.T,
-        origin="lower",
-        aspect="auto",
-        cmap="cividis",
-        vmin=0.0,
-        vmax=1e-3 * largest,
-        extent=(float(one.time[0]), float(one.time[-1]), 0.0, 360.0),
-        interpolation="nearest",
-        rasterized=True,
-    )
-    axes.set_yticks([0, 90, 180, 270, 360])
-    scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
-    scale.set_label("roller load [kN]")
-    scale.ax.tick_params(labelsize=9)
+    one = 1e-3 * load.sel(row=row)
+    extent = (float(one.time[0]), float(one.time[-1]), 0.0, 360.0)
+    _heat_map(axes, one.values.T, extent, "roller load [kN]", least=1e-3)
+    axes.set_yticks(_QUARTERS)
     finish(axes, "time [s]", "angle from the bottom [°]", f"{row} row")
     axes.spines[["top", "right"]].set_visible(True)
+    return axes
+
+
+def plot_bearing(axes: Axes, still: xr.Dataset, bearing: Bearing) -> Axes:
+    """Both rows to scale, looking downwind: rollers coloured by slip, with spokes for their loads.
+
+    Takes the dataset of `macroslip.result.orbit.still`.
+    """
+    from matplotlib.collections import PatchCollection
+    from matplotlib.patches import Circle
+
+    radius, pitch = geometry.roller_radius(bearing), bearing.pitch_radius
+    outer, most = geometry.outer_contact_radius(bearing), max(float(still.roller_load.max()), 1.0)
+    reach, rollers = 1.4 * outer, []
+    for k, row in enumerate(still.row.values.tolist()):
+        one, centre = still.sel(row=row), 2.0 * k * reach
+        for ring in (outer, geometry.inner_contact_radius(bearing)):
+            axes.add_patch(Circle((centre, 0.0), ring, fill=False, edgecolor=GREY, linewidth=1.2))
+        place = np.array([-np.sin(np.radians(one.angle)), -np.cos(np.radians(one.angle))])
+        ends = np.multiply.outer([1.06 * outer, 1.06 * outer], np.ones(place.shape[1]))
+        ends[1] += 0.3 * outer * one.roller_load.values / most
+        axes.plot(centre + ends * place[0], ends * place[1], color=GREY, linewidth=3.0, solid_capstyle="butt")
+        rollers += [Circle((centre + pitch * x, pitch * y), radius) for x, y in place.T]
+        axes.text(centre, 0.0, row, ha="center", va="center", fontsize=LABEL)
+    shown = PatchCollection(rollers, cmap="cividis", edgecolor=BLACK, linewidth=0.6)
+    shown.set_array(100.0 * still.slip.transpose("row", "roller").values.ravel())
+    shown.set_clim(0.0, 100.0)
+    axes.add_collection(shown)
+    axes.set(xlim=(-reach, (2.0 * still.sizes["row"] - 1.0) * reach), ylim=(-reach, reach), aspect="equal")
+    axes.axis("off")
+    scale = axes.figure.colorbar(shown, ax=axes, orientation="horizontal", pad=0.02, shrink=0.7, aspect=30)
+    scale.set_label("slip / speed [%]", fontsize=LABEL)
+    scale.ax.tick_params(labelsize=SMALL)
+    axes.set_title(f"{float(still.time):.2f} s; spokes: load, to {1e-3 * most:.3g} kN", fontsize=LABEL, loc="left")
     return axes
 
 
@@ -122,9 +170,8 @@ def plot_roller_spread(axes: Axes, energy: xr.DataArray, row: str) -> Axes:
     axes.set_xticks(numbers[:: max(1, numbers.size // 7)])
     axes.margins(y=0.25)
     axes.ticklabel_format(axis="y", useOffset=False)
-    return finish(
-        axes, "number of the roller [–]", "energy / mean of the row [–]", f"{row} row, mean {three_digits(mean)} J"
-    )
+    title = f"{row} row, mean {three_digits(mean)} J"
+    return finish(axes, "number of the roller [–]", "energy / mean of the row [–]", title)
 
 
 def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
@@ -132,61 +179,35 @@ def plot_outside_film_range(axes: Axes, share: xr.DataArray) -> Axes:
 
     Takes `outside_film_range` of a result [–]; bars are means over the rollers, whiskers smallest and largest.
     """
-    rows = share.row.values.tolist()
-    width = 0.8 / len(rows)
-    places = np.arange(share.sizes["interface"])
-    for k, row in enumerate(rows):
-        one = share.sel(row=row)
-        x = places + width * (k - 0.5 * (len(rows) - 1))
+    for x, width, row, style in _row_bars(share):
+        one = 1e2 * share.sel(row=row)
         # An interface that never carries load has no share.
         known = one.notnull().any("roller").values
-        one = 1e2 * one.isel(interface=known)
+        one, x = one.isel(interface=known), x[known]
         mean, low, high = (getattr(one, name)("roller").values for name in ("mean", "min", "max"))
-        hatch = {"hatch": "///"} if k else {}
-        axes.bar(x[known], mean, 0.9 * width, color=ROW[row]["color"], edgecolor="white", label=f"{row} row", **hatch)
-        axes.errorbar(x[known], mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3)
-        for place, value in zip(x[known], mean, strict=True):
-            axes.annotate(
-                f"{value:.3g}",
-                (place, max(value, 0.0)),
-                xytext=(0, 5),
-                textcoords="offset points",
-                ha="center",
-                fontsize=9,
-            )
-    axes.set_xticks(places, share.interface.values.tolist())
+        axes.bar(x, mean, width, **style)
+        axes.errorbar(x, mean, yerr=[mean - low, high - mean], color=BLACK, linestyle="none", capsize=3)
+        _values_above(axes, x, mean, [f"{value:.3g}" for value in mean], 5)
+    axes.set_xticks(np.arange(share.sizes["interface"]), share.interface.values.tolist())
     axes.set_ylim(0.0, 118.0)
     return finish(axes, "interface", "share of loaded time [%]")
 
 
 def plot_energy_by_interface(axes: Axes, energy: xr.DataArray, title: str = "") -> Axes:
-    """Energy of a mean roller of each row, stacked by interface, on a logarithmic axis of one bar an interface.
+    """Energy of a mean roller of each row by interface, on a logarithmic axis.
 
     Takes `energy` [J] of a result, over (row, roller, interface).
     """
-    rows = energy.row.values.tolist()
-    places = np.arange(energy.sizes["interface"])
-    width = 0.8 / len(rows)
-    for k, row in enumerate(rows):
+    for x, width, row, style in _row_bars(energy):
         values = energy.sel(row=row).mean("roller").values
-        x = places + width * (k - 0.5 * (len(rows) - 1))
-        hatch = {"hatch": "///"} if k else {}
-        axes.bar(x, values, 0.9 * width, color=ROW[row]["color"], edgecolor="white", label=f"{row} row", **hatch)
-        for place, value in zip(x, values, strict=True):
-            if value > 0.0:
-                axes.annotate(
-                    three_digits(value),
-                    (place, value),
-                    xytext=(0, 2),
-                    textcoords="offset points",
-                    ha="center",
-                    fontsize=9,
-                )
+        axes.bar(x, values, width, **style)
+        some = values > 0.0
+        _values_above(axes, x[some], values[some], [three_digits(value) for value in values[some]], 2)
     if np.nanmax(energy.values, initial=0.0) > 0.0:
         axes.set_yscale("log")
         axes.margins(y=0.12)
-    axes.set_xticks(places, energy.interface.values.tolist())
-    axes.set_xlim(-0.6, places.size - 0.4)
+    axes.set_xticks(np.arange(energy.sizes["interface"]), energy.interface.values.tolist())
+    axes.set_xlim(-0.6, energy.sizes["interface"] - 0.4)
     return finish(axes, "interface", "energy of a roller [J]", title)
 
 
@@ -199,84 +220,212 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
         peak = np.sort(result.peak_power.sel(row=row).max("interface", skipna=False).values.ravel())
         peak = peak[np.isfinite(peak)]
         if peak.size:
+            share = np.append(1.0, 1.0 - np.arange(peak.size) / peak.size)
             style = {key: ROW[row][key] for key in ("color", "linestyle")}
-            share = 1.0 - np.arange(peak.size) / peak.size
-            axes.step(
-                np.concatenate([[0.5 * peak[0]], peak]),
-                np.concatenate([[1.0], share]),
-                where="pre",
-                label=f"{row} row",
-                linewidth=1.6,
-                **style,
-            )
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+            power = np.append(0.5 * peak[0], peak)
+            axes.step(power, share, where="pre", label=f"{row} row", linewidth=1.6, **style)
+    axes.set(xscale="log", yscale="log")
     return finish(axes, r"$P_\mathrm{max}$ of an orbit [W]", "share of orbits above [–]")
 
 
-def plot_case_energies(axes: Axes, study: xr.Dataset) -> Axes:
-    """Energy of each case of a study, mean over the rollers of both rows, with the range of the rollers.
-
-    Takes a dataset with `energy` [J] over (case, row, roller, interface).
-    """
-    total = study.energy.sum("interface", skipna=False)
-    places = np.arange(study.sizes["case"])
-    for k, row in enumerate(study.row.values.tolist()):
-        one = total.sel(row=row)
-        mean = one.mean("roller", skipna=False).values
-        bars = [mean - one.min("roller").values, one.max("roller").values - mean]
-        axes.errorbar(
-            places + 0.16 * (k - 0.5),
-            mean,
-            yerr=bars,
-            linewidth=0.0,
-            elinewidth=1.0,
-            capsize=2.5,
-            markersize=5,
-            label=f"{row} row",
-            color=ROW[row]["color"],
-            marker=ROW[row]["marker"],
-        )
-    axes.set_xticks(places, [str(name) for name in study.case.values], rotation=90 if study.sizes["case"] > 8 else 0)
-    axes.set_ylim(0.0, 1.08 * max(axes.get_ylim()[1], 1e-12))
-    return finish(axes, "case", "energy of a roller [J]")
-
-
 def plot_by_mechanism(axes: Axes, energy: xr.DataArray) -> Axes:
-    """Energy of a mean roller of each row by mechanism.
+    """Energy of a mean roller of each row by mechanism; takes `mechanism_energy` [J] of a result."""
+    mean = energy.mean("roller").sum("interface")
+    for x, width, row, style in _row_bars(mean, "mechanism"):
+        axes.barh(x, mean.sel(row=row).values, width, **style)
+    axes.set_yticks(np.arange(mean.sizes["mechanism"]), [str(name) for name in mean.mechanism.values])
+    return finish(axes, "energy of a roller [J]", "mechanism")
 
-    Takes an energy [J] over mechanism, row and anything else, which is averaged over rollers and cases and summed over
-    the rest.
+
+def plot_spin_over_time(axes: Axes, result: xr.Dataset, row: str, roller: int) -> Axes:
+    """Spin speed of a roller [rad/s] over time, with its spin in pure rolling; where they part, the roller slips.
+
+    Takes a result with traces.
     """
-    mean = energy.mean([name for name in ("roller", "case", "orbit") if name in energy.dims])
-    mean = mean.sum([name for name in mean.dims if name not in ("row", "mechanism")])
-    places = np.arange(mean.sizes["mechanism"])
-    rows = mean.row.values.tolist()
+    if "time" not in result.dims:
+        raise InputError("the result has no traces", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
+    one = result.sel(row=row, roller=roller)
+    time = one.time.values
+    axes.plot(time, abs(one.spin_pure.values), color=BLACK, linestyle="--", linewidth=1.2, label="pure rolling")
+    axes.plot(time, abs(one.spin.values), color=BLUE, linewidth=1.6, label="roller")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False, fontsize=SMALL)
+    return finish(axes, "time [s]", "spin speed |ω| [rad/s]", f"roller {roller} of the {row} row")
+
+
+def raceways(values: xr.DataArray) -> dict[str, xr.DataArray]:
+    """The maps of every raceway by title; from values per m² to values per mm²."""
+    return {
+        f"{row} row, {raceway} raceway": 1e-6 * values.sel(row=row, raceway=raceway)
+        for row in values.row.values.tolist()
+        for raceway in ("outer", "inner")
+    }
+
+
+def plot_map(axes: Axes, values: xr.DataArray, units: str, title: str, *, difference: bool = False) -> Axes:
+    """A raceway unrolled: place along the roller over the angle from the bottom, one map over (angle, station).
+
+    The colours of a difference have their middle at zero.
+    """
+    # Angles count from +X0, which is a quarter of a turn past the bottom; the bottom is in the middle of the map.
+    order = np.argsort((np.degrees(values.angle.values) + 270.0) % 360.0)
+    place = 1e3 * values.station.values
+    half = 0.5 * (place[1] - place[0])
+    extent = (-180.0, 180.0, place[0] - half, place[-1] + half)
+    shown = values.transpose("station", "angle").values[:, order]
+    _heat_map(axes, shown, extent, units, least=1e-30, difference=difference)
+    axes.set_xticks([-180, -90, 0, 90, 180])
+    finish(axes, "angle from the bottom [°]", "place along the roller [mm]", title)
+    axes.spines[["top", "right"]].set_visible(True)
+    return axes
+
+
+def plot_along_roller(axes: Axes, density: xr.DataArray, row: str) -> Axes:
+    """Energy per area along a roller: all of it, by the sign of slip, and in thin films.
+
+    Takes the array of `macroslip.result.surface_maps.roller_energy_density` [J/m²].
+    """
+    density, place = 1e-6 * density.sel(row=row), 1e3 * density.station.values
+    axes.plot(place, density.sum(_SPLIT).values, color=BLACK, label="all", linewidth=1.8)
+    for name, (part, style) in _PARTS.items():
+        one = density.sel(part)
+        values = one.sum([dim for dim in _SPLIT if dim in one.dims]).values
+        axes.plot(place, values, label=name, linewidth=1.5, **style)
+    axes.set_ylim(bottom=0.0)
+    return finish(axes, "place along the roller [mm]", "energy per area [J/mm²]", f"{row} row")
+
+
+def plot_load_duration(axes: Axes, result: xr.Dataset) -> Axes:
+    """Share of time in which each load of the bearing exceeds a value. Takes a result with a rating."""
+    middle = 1e-3 * result.load_class_middle.values
+    for load in result["load"].values.tolist():
+        exceeded = np.cumsum(result.time_share.sel(load=load).values[::-1])[::-1]
+        axes.plot(100.0 * exceeded, middle, label=load, linewidth=1.6, **_LOADS[load])
+    axes.set_xlim(0.0, 101.0)
+    return finish(axes, "share of time above [%]", "load of the bearing [kN]")
+
+
+def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> PolarAxes:
+    """Largest force of a spar [N] by place on the orbit, on a logarithmic radius; polar axes, looking downwind.
+
+    Takes a result of a whole bearing.
+    """
+    place = result.position.values
+    values = np.maximum(result.largest_force_by_position.sel(row=row).values, 1e-1)
+    # A full turn later, not back across the picture.
+    axes.plot(np.append(place, place[0] + 2.0 * np.pi), np.append(values, values[0]), drawstyle="steps-mid")
+    axes.set_rscale("log")
+    axes.set_rlim(1e-1, max(10.0, 2.0 * float(values.max())))
+    # Looking downwind +X0 is on the left, and φ runs clockwise.
+    return _round(axes, "W", ["+X0", "top", "−X0", "bottom"], f"{row} row [N]")
+
+
+def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:
+    """Residuals of the balances of a whole bearing over time, each over all that has passed through by the end."""
+    impulse = float(abs(result.book_inner_impulse).max()) or 1.0
+    spent = float(abs(result.book_raceway_loss[-1])) + float(abs(result.pocket_loss[-1])) or 1.0
+    for values, label, style in (
+        (result.momentum_residual / impulse, "angular momentum", {"color": BLUE, "linestyle": "-"}),
+        (result.energy_residual / spent, "energy", {"color": ORANGE, "linestyle": "--"}),
+    ):
+        axes.plot(result.book_time.values, np.maximum(np.abs(values.values), 1e-17), label=label, **style)
+    axes.set_yscale("log")
+    return finish(axes, "time [s]", "residual / passed through [–]")
+
+
+def plot_slip_over_orbit(axes: Axes, slip: xr.DataArray) -> Axes:
+    """Slip over the orbit, a line a row: the median of its rollers, and shaded from 5 to 95 %.
+
+    Takes `slip` [1] over (row, quantile, angle): 1 for a roller that does not spin.
+    """
+    for row in slip.row.values.tolist():
+        low, middle, high = 100.0 * slip.sel(row=row).transpose("quantile", "angle").values
+        style = {key: ROW[row][key] for key in ("color", "linestyle")}
+        axes.fill_between(slip.angle.values, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
+        axes.plot(slip.angle.values, middle, label=f"{row} row", linewidth=1.6, **style)
+    axes.set_xlim(0.0, 360.0)
+    axes.set_xticks(_QUARTERS)
+    return finish(axes, _ANGLE, "slip / speed [%]")
+
+
+def plot_criteria(axes: Axes, damage: xr.Dataset) -> Axes:
+    """Criteria of damage side by side: value over what it is compared with, and how sure that is; logarithmic.
+
+    Takes the dataset of `macroslip.result.damage.damage`. A criterion that is passed lies right of 1.
+    """
+    some = damage.isel(criterion=np.flatnonzero(np.isfinite(damage.ratio.values) & (damage.ratio.values > 0.0)))
+    ratio, factor = some.ratio.values, some.factor.values
+    place = np.arange(ratio.size)[::-1]
+    axes.axvline(1.0, color=GREY, linewidth=0.8)
+    axes.errorbar(
+        ratio,
+        place,
+        xerr=[ratio - ratio / factor, ratio * factor - ratio],
+        color=BLUE,
+        marker="o",
+        linestyle="none",
+        capsize=3,
+    )
+    axes.set_xscale("log")
+    axes.set_yticks(place, [str(one).replace(": ", ":\n") for one in some.title.values], fontsize=SMALL)
+    axes.margins(y=0.15)
+    return finish(axes, "value / reference [–]", "")
+
+
+def plot_worn_profile(axes: Axes, damage: xr.Dataset, row: str) -> Axes:
+    """Depth of wear along the roller, of either raceway and the roller, over the years; a dataset of `damage` with wear."""
+    if "worn_depth" not in damage:
+        raise InputError("there is no wear", remedy=damage.attrs["not_kept"])
+    depth = 1e6 * damage.worn_depth.sel(row=row)
+    for name in depth.place.values.tolist():
+        style = INTERFACE.get(name, {"color": GREEN, "linestyle": "-."})
+        for k, age in enumerate(depth.age.values):
+            label = name if k == depth.age.size - 1 else None
+            axes.plot(
+                1e3 * depth.station, depth.sel(place=name, age=age), linewidth=0.7 + 0.5 * k, label=label, **style
+            )
+    years = ", ".join(f"{age / (365.25 * 86400.0):g}" for age in depth.age.values)
+    return finish(axes, "place along the roller [mm]", "depth of wear [µm]", f"{row} row, after {years} years")
+
+
+def _row_bars(values: xr.DataArray, over: str = "interface") -> list[tuple[np.ndarray, float, str, dict[str, Any]]]:
+    """Of each row the places of its bars over a dimension, their width, its name, and a style that differs in grey."""
+    rows = values.row.values.tolist()
     width = 0.8 / len(rows)
-    for k, row in enumerate(rows):
-        hatch = {"hatch": "///"} if k else {}
-        axes.barh(
-            places + width * k,
-            mean.sel(row=row).values,
+    places = np.arange(values.sizes[over])
+    return [
+        (
+            places + width * (k - 0.5 * (len(rows) - 1)),
             0.9 * width,
-            color=ROW[row]["color"],
-            edgecolor="white",
-            label=f"{row} row",
-            **hatch,
+            row,
+            {"color": ROW[row]["color"], "edgecolor": "white", "label": f"{row} row", "hatch": "///" if k else None},
         )
-    axes.set_yticks(places + 0.5 * width * (len(rows) - 1), [str(name) for name in mean.mechanism.values])
-    return finish(axes, f"energy of a roller [{energy.attrs.get('units', 'J')}]", "mechanism")
+        for k, row in enumerate(rows)
+    ]
 
 
-def plot_over_station(axes: Axes, values: xr.DataArray, title: str = "") -> Axes:
-    """A quantity along the roller, mean over rollers and cases, summed over mechanisms and raceways, a line a row.
+def _values_above(axes: Axes, x: np.ndarray, y: np.ndarray, labels: Sequence[str], points: float) -> None:
+    for place, value, label in zip(x, y, labels, strict=True):
+        at = (place, max(value, 0.0))
+        axes.annotate(label, at, xytext=(0, points), textcoords="offset points", ha="center", fontsize=SMALL)
 
-    Takes values over station and row.
-    """
-    mean = values.mean([name for name in ("roller", "case", "orbit", "time") if name in values.dims])
-    mean = mean.sum([name for name in mean.dims if name not in ("row", "station")])
-    for row in mean.row.values.tolist():
-        axes.plot(mean.station.values, mean.sel(row=row).values, markersize=4, label=f"{row} row", **ROW[row])
-    units = mean.station.attrs.get("units", "m")
-    name = f"{values.name} [{values.attrs.get('units', '–')}]"
-    return finish(axes, f"station along the roller [{units}]", name, title)
+
+def _heat_map(
+    axes: Axes, values: np.ndarray, extent: tuple[float, ...], label: str, *, least: float, difference: bool = False
+) -> None:
+    """Values from zero to the largest as colours, with a scale beside them; those of a difference to either side of zero."""
+    most = max(float(np.nanmax(abs(values), initial=0.0)), least)
+    image = axes.imshow(
+        values,
+        origin="lower",
+        aspect="auto",
+        cmap="RdBu_r" if difference else "cividis",
+        vmin=-most if difference else 0.0,
+        vmax=most,
+        extent=extent,
+        interpolation="nearest",
+        rasterized=True,
+    )
+    scale = axes.figure.colorbar(image, ax=axes, pad=0.02)
+    scale.set_label(label, fontsize=LABEL)
+    scale.ax.tick_params(labelsize=SMALL)

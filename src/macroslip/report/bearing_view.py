@@ -36,7 +36,7 @@ _COLOURS = 16
 def quantise(values: NDArray, low: float, high: float) -> bytes:
     """Values between `low` and `high` as little-endian numbers of 16 bits, 0 to 65534; 65535 for NaN.
 
-    Only what is not above `low` becomes 0, so that a load of zero differs from a small one.
+    Only values that are not above `low` become 0, so that a load of zero differs from a small one.
 
     Examples
     --------
@@ -50,19 +50,9 @@ def quantise(values: NDArray, low: float, high: float) -> bytes:
 
 
 def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
-    """What the page's script needs of one scene.
+    """Plain data of a `macroslip.result.orbit.scene` for the page's script, which draws the bearing to scale.
 
-    Parameters
-    ----------
-    scene : xarray.Dataset
-        From `macroslip.result.orbit_scene.scene`.
-    bearing : Bearing
-        Of which the drawing is made, to scale.
-
-    Returns
-    -------
-    dict
-        Plain data: geometry [mm], times [s], angles [degrees], and for each quantity its unit, range and codes.
+    Geometry [mm], times [s], angles [degrees], and for each quantity its unit, range and codes.
     """
     from matplotlib import colormaps
 
@@ -82,17 +72,8 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
             low = -high
         else:
             low, high = 0.0, max(1e-6, finite.max(initial=0.0))
-        codes = base64.b64encode(quantise(values, low, high)).decode("ascii")
-        quantities.append(
-            {
-                "heading": heading,
-                "unit": unit,
-                "logarithmic": logarithmic,
-                "low": float(low),
-                "high": float(high),
-                "codes": codes,
-            }
-        )
+        about = {"heading": heading, "unit": unit, "logarithmic": logarithmic, "low": float(low), "high": float(high)}
+        quantities.append(about | {"codes": _text(quantise(values, low, high))})
     ramp = colormaps["cividis"](np.linspace(0.0, 1.0, _COLOURS))[:, :3]
     return {
         "rows": scene.row.values.tolist(),
@@ -102,7 +83,7 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         "count": int(time.size),
         "first": _opening(scene),
         "angle": np.round(scene.angle.values, 3).tolist(),
-        "travelled": base64.b64encode(scene.travelled.values.astype("<f4").tobytes()).decode("ascii"),
+        "travelled": _text(scene.travelled.values.astype("<f4").tobytes()),
         "radii": {
             "roller": 1e3 * geometry.roller_radius(bearing),
             "pitch": 1e3 * bearing.pitch_radius,
@@ -115,6 +96,10 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     }
 
 
+def _text(content: bytes) -> str:
+    return base64.b64encode(content).decode("ascii")
+
+
 def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     """Places of the rollers in their pockets, drawn enlarged so that neighbouring pockets do not meet."""
     offsets = 1e3 * scene.pocket_offset.transpose("row", "roller", "time").values.astype(float)
@@ -123,8 +108,8 @@ def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     return {
         "reach": reach,
         "enlarged": float(min(_ENLARGED, 0.35 * free / reach)),
-        "codes": base64.b64encode(quantise(offsets, -reach, reach)).decode("ascii"),
-        "lead": base64.b64encode(scene.cage_lead.values.astype("<f4").tobytes()).decode("ascii"),
+        "codes": _text(quantise(offsets, -reach, reach)),
+        "lead": _text(scene.cage_lead.values.astype("<f4").tobytes()),
         "force": [name for name, *_ in QUANTITIES if name in scene].index("cage_force"),
     }
 

@@ -76,14 +76,7 @@ def plot_empty_row(axes: Axes, time: NDArray, carried: NDArray, share: float) ->
 
 
 def load_figure(loads: BearingLoads, time: NDArray, carried: NDArray) -> Figure:
-    """All of it on one page.
-
-    Parameters
-    ----------
-    loads : BearingLoads
-    time, carried : ndarray, shape (m,)
-        Times [s] and the load that the upwind row's rollers carry together then [N].
-    """
+    """All of it on one page; with times [s] and the load that the upwind row's rollers carry together then [N]."""
     figure, axes = new_figure(9.6, 9.6, 3, 2)
     plot_bearing_load(axes[0], loads)
     plot_shaft_speed(axes[1], loads)

@@ -3,51 +3,48 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
+from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from macroslip.catalogue.entry import TAGS
-from macroslip.catalogue.units import with_unit
-from macroslip.integrate.status import Status
+import macroslip
+from macroslip.imposed.status import Status
+from macroslip.input.record import TAGS
+from macroslip.input.units import with_unit
 from macroslip.machine import machine
-from macroslip.report.bibliography import bibtex
-from macroslip.report.page import Paragraph, Section, Table, Verbatim
+from macroslip.report.page import Section, Table, sections, words
+from macroslip.result.run_input import stored_settings
 
 if TYPE_CHECKING:
     import xarray as xr
+
+_DOI = re.compile(r"doi:\s*(10\.\S+?)[.;,)]?(?=\s|$)")
 
 
 def provenance_section(
     datasets: Mapping[str, xr.Dataset], *, seconds: Mapping[str, float] | None = None, reused: tuple[str, ...] = ()
 ) -> Section:
-    """The section on the origin of every number of a page.
+    """The section on the origin of every number of a page, of results or studies by name.
 
-    Parameters
-    ----------
-    datasets : mapping
-        Results or studies by name, with the attributes that `macroslip.simulate` gives them.
-    seconds : mapping, optional
-        Wall time by stage [s].
-    reused : tuple of str
-        Parts that an earlier run had computed.
+    With the wall time by stage [s], and the parts that an earlier run had computed, where they are known.
     """
-    blocks: list[Any] = [_program(datasets, seconds, reused), _statuses(datasets)]
+    given = {name: stored_settings(one) for name, one in datasets.items()}
+    tables = [_program(datasets, seconds, reused), _statuses(datasets)]
     for part in ("bearing", "lubricant", ""):
-        blocks += _input_tables(datasets, part)
-    loads = _loads(datasets)
-    if loads.rows:
-        blocks.append(loads)
-    notes = sorted({line for one in datasets.values() for line in one.attrs.get("film_range_notes", "").splitlines()})
-    if notes:
-        blocks.append(Paragraph(f"Outside the film formula's range whatever the load: {'; '.join(notes)}."))
-    cited = dict.fromkeys(line for one in datasets.values() for line in one.attrs.get("citations", "").splitlines())
-    blocks.append(Verbatim(bibtex(cited), "Works this rests on, as BibTeX"))
-    return Section(
-        "provenance",
-        "Where the numbers come from",
-        tuple(blocks),
-        "program, machine, every input with its source, how the integrations ended, works cited",
+        tables += _input_tables(given, part)
+    if (loads := _loads(given)).rows:
+        tables.append(loads)
+    notes = sorted(set(_lines(datasets, "film_range_notes")))
+    supply = sorted(set(_lines(datasets, "oil_supply_note")))
+    body = words("provenance.html").provenance(
+        tables, notes, supply, bibtex(dict.fromkeys(_lines(datasets, "citations")))
     )
+    return sections("provenance.html", {"provenance": body})[0]
+
+
+def _lines(datasets: Mapping[str, xr.Dataset], attribute: str) -> list[str]:
+    return [line for one in datasets.values() for line in one.attrs.get(attribute, "").splitlines()]
 
 
 def _program(datasets: Mapping[str, xr.Dataset], seconds: Mapping[str, float] | None, reused: tuple[str, ...]) -> Table:
@@ -58,69 +55,101 @@ def _program(datasets: Mapping[str, xr.Dataset], seconds: Mapping[str, float] | 
         rows.append(("time taken", ", ".join(f"{stage} {value:.1f} s" for stage, value in seconds.items())))
     if reused:
         rows.append(("taken from an earlier run with the same inputs", ", ".join(reused)))
-    return Table(("", ""), tuple(rows), "Program and machine")
+    return Table(("", ""), rows, "Program and machine")
 
 
 def _statuses(datasets: Mapping[str, xr.Dataset]) -> Table:
-    rows = []
-    for name, dataset in datasets.items():
-        for status in Status:
-            count = int((dataset.status == status).sum())
-            if count:
-                rows.append((name, str(count), status.sentence))
-    return Table(("", "integrations of rollers", "how they ended"), tuple(rows), "Status of the integrations")
+    counts = [
+        (name, int((dataset.status == status).sum()), status.sentence)
+        for name, dataset in datasets.items()
+        for status in Status
+    ]
+    rows = [(name, str(count), sentence) for name, count, sentence in counts if count]
+    return Table(("", "integrations of rollers", "how they ended"), rows, "Status of the integrations")
 
 
-def _input_tables(datasets: Mapping[str, xr.Dataset], part: str) -> list[Table]:
+def _input_tables(given: Mapping[str, Mapping[str, Any]], part: str) -> list[Table]:
     """A table of each different bearing or lubricant, or of each different rest of the input, and whose it is."""
     found: dict[str, list[str]] = {}
-    for name, dataset in datasets.items():
-        given = _input(dataset)
-        rest = {key: one for key, one in given.items() if key not in ("bearing", "lubricant", "loads")}
-        value = given.get(part) if part else rest
+    for name, settings in given.items():
+        rest = {key: one for key, one in settings.items() if key not in ("bearing", "lubricant", "loads")}
+        value = settings.get(part) if part else rest
         if isinstance(value, dict) and value:
             found.setdefault(json.dumps(value, ensure_ascii=False), []).append(name)
     tables = []
     for text, names in found.items():
-        of = f" ({', '.join(names)})" if len(found) > 1 else ""
+        title = (part.capitalize() or "Further input") + (f" ({', '.join(names)})" if len(found) > 1 else "")
         value = json.loads(text)
-        rows = tuple((key, _input_text(one)) for key, one in value.items())
-        further = Table(("input", "value (SI units)"), rows, f"Further input{of}")
-        tables.append(_record(value, f"{part}{of}") if part else further)
+        if part:
+            tables.append(Table(("quantity", "value", "from", "note"), [_entry(*one) for one in value.items()], title))
+        else:
+            tables.append(
+                Table(("input", "value (SI units)"), [(key, _text(one)) for key, one in value.items()], title)
+            )
     return tables
 
 
-def _input(dataset: xr.Dataset) -> dict[str, Any]:
-    try:
-        given = json.loads(dataset.attrs["input"])
-    except (KeyError, TypeError, ValueError):
-        return {}
-    return given if isinstance(given, dict) else {}
+def _entry(key: str, entry: Any) -> tuple[str, str, str, str]:
+    """A value of a bearing or lubricant with its origin."""
+    if not isinstance(entry, dict):
+        return key, str(entry), "", ""
+    tag = str(entry.get("tag", ""))
+    value = with_unit(entry.get("value"), str(entry.get("unit", "")))
+    return key, value, TAGS.get(tag, tag), str(entry.get("note", ""))
 
 
-def _record(entries: Mapping[str, Any], title: str) -> Table:
+def _loads(given: Mapping[str, Mapping[str, Any]]) -> Table:
     rows = []
-    for key, entry in entries.items():
-        if isinstance(entry, dict):
-            tag = str(entry.get("tag", ""))
-            value = with_unit(entry.get("value"), str(entry.get("unit", "")))
-            rows.append((key, value, TAGS.get(tag, tag), str(entry.get("note", ""))))
-        else:
-            rows.append((key, str(entry), "", ""))
-    return Table(("quantity", "value", "from", "note"), tuple(rows), title[:1].upper() + title[1:])
+    for name, settings in given.items():
+        loads = settings.get("loads", [])
+        for one in loads if isinstance(loads, list) else [loads]:
+            *values, checksum = (str(one.get(key, "")) for key in ("source", "samples", "start", "end", "sha256"))
+            rows.append((name, *values, checksum[:16]))
+    return Table(("", "loads", "samples", "from [s]", "to [s]", "SHA-256 begins"), list(dict.fromkeys(rows)), "Loads")
 
 
-def _loads(datasets: Mapping[str, xr.Dataset]) -> Table:
-    rows = []
-    for name, dataset in datasets.items():
-        given = _input(dataset).get("loads", [])
-        for one in given if isinstance(given, list) else [given]:
-            values = [str(one.get(key, "")) for key in ("source", "samples", "start", "end", "sha256")]
-            rows.append((name, *values[:4], values[4][:16]))
-    return Table(("", "loads", "samples", "from [s]", "to [s]", "SHA-256 begins"), tuple(dict.fromkeys(rows)), "Loads")
-
-
-def _input_text(value: Any) -> str:
+def _text(value: Any) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{key} {_input_text(one)}" for key, one in value.items())
+        return ", ".join(f"{key} {_text(one)}" for key, one in value.items())
     return "none" if value is None else str(value)
+
+
+def bibtex(citations: Iterable[str]) -> str:
+    """BibTeX entries of the program and of the works cited, one each, as a result's attribute `citations` lists them.
+
+    A work that is not known by its DOI or title becomes an entry of type `misc` with the citation as its note, and its
+    DOI if it has one.
+
+    Examples
+    --------
+    >>> print(bibtex(["A. Author, A title, doi:10.1000/182"]).split("@")[2].strip())
+    misc{author_a_title,
+      note = {A. Author, A title, doi:10.1000/182},
+      doi = {10.1000/182}
+    }
+    """
+    works = (resources.files("macroslip.report") / "templates" / "works.bib").read_text(encoding="utf-8")
+    known = {re.findall(r"(?:doi|title) = {(.*)}", work)[-1]: work for work in works.strip().split("\n\n")}
+    title = "macroslip: slip of the rollers of a wind turbine's main bearing"
+    entries = [_bibtex_entry("software", "macroslip", {"title": title, "version": macroslip.__version__})]
+    keys = {""}
+    for citation in filter(str.strip, citations):
+        entry = next((work for mark, work in known.items() if mark in citation), None)
+        if entry is None:
+            doi = _DOI.search(citation)
+            fields = {"note": citation.strip()} | ({"doi": doi.group(1)} if doi else {})
+            key = "_".join(re.findall(r"[A-Za-z]{2,}|a(?= )", citation.lower())[:3]) or "work"
+            key = key if key not in keys else f"{key}_{len(keys)}"
+            keys.add(key)
+            entry = _bibtex_entry("misc", key, fields)
+        entries.append(entry)
+    return "\n\n".join(dict.fromkeys(entries))
+
+
+def _bibtex_entry(kind: str, key: str, fields: dict[str, str]) -> str:
+    # Braces of an unknown text would end the field.
+    lines = [
+        f"  {name} = {{{value if value.count('{') == value.count('}') else re.sub('[{}]', '', value)}}}"
+        for name, value in fields.items()
+    ]
+    return f"@{kind}{{{key},\n" + ",\n".join(lines) + "\n}"

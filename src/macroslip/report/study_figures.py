@@ -1,81 +1,113 @@
-"""A study over a lifetime: energy by wind speed, and how often an orbit exceeds an energy or a power."""
+"""Figures of several results: energy by wind speed, orbits above an energy or a power, effects, values by result.
+
+Every function draws on the axes that it takes, and returns them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.report.style import ROW, finish
+from macroslip.report.style import BLUE, GREY, ORANGE, ROW, finish
+from macroslip.study.year import design_names
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-#: Curves of `macroslip.study.exceedance.exceedance`, and what is exceeded.
+#: Curves of `macroslip.study.exceedance.exceedance`, and the quantity that is exceeded.
 EXCEEDED: Mapping[str, str] = MappingProxyType(
     {"energy_orbits": "energy of an orbit [J]", "power_orbits": "peak power of an orbit [W]"}
 )
-_MOST_GROUPS = 4
+#: Designs whose curves fit into one figure.
+MOST_CURVES = 6
+#: Letters of a result's name that fit under a figure.
+_NAME_LENGTH = 16
 
 
-def plot_lifetime(axes: Axes, life: xr.Dataset, group: int) -> Axes:
-    """What each wind speed adds to the energy of a roller over the lifetime.
+def _curves(values: xr.DataArray, shown: Sequence[int]) -> Iterator[tuple[xr.DataArray, dict[str, Any]]]:
+    """The curve of each row and design with its style: one design has a colour a row, several a colour each.
 
-    Takes the dataset of `macroslip.study.lifetime.lifetime_energy` and one of its groups.
+    Names that are too long for a legend are numbers in the order of the designs.
     """
-    for row in life.row.values.tolist():
-        one = life.bin_energy.isel(group=group).sel(row=row)
-        axes.plot(one.bin.values, 1e-6 * one.values, label=row, **{key: ROW[row][key] for key in ("color", "marker")})
+    names = design_names(values)
+    if any(len(names[group]) > _NAME_LENGTH for group in shown):
+        names = {group: f"design {k + 1}" for k, group in enumerate(shown)}
+    for k, group in enumerate(shown):
+        for row in values.row.values.tolist():
+            style = dict(ROW[row])
+            if len(shown) > 1:
+                style |= {"color": f"C{k}", "label": names[group] if row == values.row.values[0] else None}
+            yield values.isel(group=group).sel(row=row), {"label": row, "markersize": 4, **style}
+
+
+def _rows(values: xr.DataArray, shown: Sequence[int]) -> str:
+    """Which line is which row, where colours are designs."""
+    return "lines downwind, dashes upwind" if len(shown) > 1 and values.sizes["row"] > 1 else ""
+
+
+def plot_lifetime(axes: Axes, life: xr.Dataset, shown: Sequence[int]) -> Axes:
+    """Energy of a roller over the lifetime by wind speed, the designs overlaid.
+
+    Takes the dataset of `macroslip.study.lifetime.lifetime_energy` and some of its groups.
+    """
+    life = life.isel(bin=np.isfinite(life.bin.values))
+    for one, style in _curves(life.bin_energy, shown):
+        axes.plot(one.bin.values, 1e-6 * one.values, **style)
     axes.set_ylim(bottom=0.0)
-    return finish(axes, "wind speed [m/s]", "energy in the lifetime [MJ]", _group_title(life, group))
+    return finish(axes, "wind speed [m/s]", "energy in the lifetime [MJ]", _rows(life.bin_energy, shown))
 
 
-def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, group: int) -> Axes:
-    """How many orbits a year of a roller exceed what `EXCEEDED` names.
+def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[int]) -> Axes:
+    """How many orbits a year of a roller exceed what `EXCEEDED` names, the designs overlaid.
 
-    Takes the dataset of `macroslip.study.exceedance.exceedance` and one of its groups.
+    Takes the dataset of `macroslip.study.exceedance.exceedance` and some of its groups.
     """
-    for row in curves.row.values.tolist():
-        one = curves[name].isel(group=group).sel(row=row)
-        some = one.values > 0.0
-        axes.plot(one.threshold.values[some], one.values[some], label=row, color=ROW[row]["color"])
+    for one, style in _curves(curves[name], shown):
+        one = one[one.values > 0.0]
+        axes.plot(one.threshold.values, one.values, **style | {"marker": ""})
     axes.set_yscale("log")
-    drawn = curves.threshold.values[(curves[name].isel(group=group) > 0.0).any("row").values]
+    drawn = curves.threshold.values[(curves[name].isel(group=list(shown)) > 0.0).any(["group", "row"]).values]
     if drawn.size and drawn.max() > 50.0 * drawn.min():
         axes.set_xscale("log")
-    return finish(axes, EXCEEDED[name], "orbits a year above it", _group_title(curves, group))
+    return finish(axes, EXCEEDED[name], "orbits a year above it", _rows(curves[name], shown))
 
 
-def groups(values: xr.DataArray) -> list[int]:
-    """The first groups that have something to draw."""
-    positive = (values > 0.0).any([name for name in values.dims if name != "group"])
-    return np.flatnonzero(positive.values)[:_MOST_GROUPS].tolist()
+def plot_effects(axes: Axes, found: xr.Dataset, quantity: str) -> Axes:
+    """Main effects of sampled parameters on a quantity, with twice their standard error, the largest on top.
+
+    Takes the dataset of `macroslip.study.effects.effects`.
+    """
+    one = found.sel(quantity=quantity)
+    one = one.isel(parameter=np.argsort(np.abs(np.nan_to_num(one.main_effect.values)))[-10:])
+    names = [str(name).replace(".", "\n").replace("_", " ") for name in one.parameter.values]
+    effect, error = 100.0 * one.main_effect.values, 200.0 * one.main_effect_error.values
+    axes.barh(names, effect, xerr=error, color=[BLUE if value < 0.0 else ORANGE for value in effect], capsize=3)
+    axes.axvline(0.0, color=GREY, linewidth=0.8)
+    return finish(axes, "change from lower to upper half [%]", "", quantity.replace("_", " "))
 
 
-def group_labels(dataset: xr.Dataset, group: int) -> list[str]:
-    """What distinguishes a group from the others; nothing if there is one."""
-    if dataset.sizes["group"] < 2:
-        return []
-    found = []
-    for name, one in dataset.coords.items():
-        value = str(one.values[group]) if one.dims == ("group",) and np.unique(one.values).size > 1 else ""
-        # A parameter that only other models set has no value.
-        if value not in ("", "nan"):
-            # The names of parameters have a dot; those of bearings, lubricants and models need no name.
-            found.append(f"{str(name).rpartition('.')[2]} {_short(value)}" if "." in str(name) else value)
-    return found
+def plot_by_result(axes: Axes, names: Sequence[str], rows: Sequence[str], values: np.ndarray, label: str) -> Axes:
+    """A value of every result and row, over the results.
+
+    Takes values over (result, row); one that is missing is left out.
+    """
+    places = np.arange(len(names))
+    for k, row in enumerate(rows):
+        style = {**ROW.get(row, {}), "linestyle": "none"}
+        axes.plot(places + 0.16 * (k - 0.5), values[:, k], markersize=5, label=f"{row} row", **style)
+    shown = [name if len(name) <= _NAME_LENGTH else f"{name[: _NAME_LENGTH - 1]}…" for name in names]
+    upright = len(names) > 4 or sum(map(len, shown)) > 32
+    axes.set_xticks(places, shown, rotation=90 if upright else 0)
+    axes.set_xlim(-0.5, len(names) - 0.5)
+    axes.set_ylim(0.0, 1.08 * max(float(np.nanmax(values, initial=0.0)), 1e-12))
+    return finish(axes, "", label)
 
 
-def _short(value: str) -> str:
-    """A number with three digits; other text as it is."""
-    try:
-        return f"{float(value):.3g}"
-    except ValueError:
-        return value
-
-
-def _group_title(dataset: xr.Dataset, group: int) -> str:
-    return "\n".join(group_labels(dataset, group))
+def drawable(values: xr.DataArray, order: Sequence[int]) -> list[int]:
+    """The first groups in this order that have something to draw."""
+    positive = (values > 0.0).any([name for name in values.dims if name != "group"]).values
+    return [group for group in order if positive[group]][:MOST_CURVES]

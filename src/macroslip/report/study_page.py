@@ -1,42 +1,151 @@
-"""The page on a study of many cases: lifetime energy, exceedance, worst cases, failures."""
+"""The page on a study of many cases: its designs ranked, a year, effects, lifetime energy, exceedance, worst cases, failures."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
+from macroslip.constants import HOURS_A_YEAR
 from macroslip.errors import InputError
 from macroslip.loads.source_file import without_folders
-from macroslip.report.page import Block, Paragraph, Pictures, Section, Table, Verbatim, render
-from macroslip.report.pictures import picture
+from macroslip.report.comparison import compare_designs
+from macroslip.report.page import Opening, Table, number, render, sections, words
 from macroslip.report.provenance import provenance_section
-from macroslip.report.rating_section import rating_summary
-from macroslip.report.study_figures import EXCEEDED, groups, plot_exceedance, plot_lifetime
-from macroslip.report.study_opening import study_opening
-from macroslip.report.surface_section import lifetime_blocks
+from macroslip.report.result_numbers import rating_summary
+from macroslip.report.results_page import map_pictures
+from macroslip.report.study_figures import (
+    EXCEEDED,
+    drawable,
+    plot_by_result,
+    plot_effects,
+    plot_exceedance,
+    plot_lifetime,
+)
+from macroslip.report.style import OPENING, Picture, picture
+from macroslip.result.surface_maps import energy_density
+from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance
 from macroslip.study.export import as_table
-from macroslip.study.lifetime import lifetime_energy, worst
-from macroslip.study.outcome import Outcome
-from macroslip.study.store import MANIFEST
-from macroslip.study.weights import Weibull, Weights
+from macroslip.study.lifetime import lifetime_energy, weighted_maps, worst
+from macroslip.study.store import Outcome
+from macroslip.study.weights import IEC_CLASSES, Given, Weibull, Weights, Year, binned, is_parameter, weights_in_use
+from macroslip.study.year import CRITERIA, coverage, design_names, designs, year
 
 if TYPE_CHECKING:
     import pandas as pd
-    import xarray as xr
+    from markupsafe import Markup
+    from matplotlib.axes import Axes
 
-#: Wind speeds of IEC 61400-1, class I: Rayleigh with a mean of 10 m/s, so that the scale is 10 m/s / Γ(3/2).
-CLASS_ONE = Weibull(11.284, 2.0)
+#: Wind speeds of a study that does not say which: Rayleigh with a mean of 10 m/s.
+CLASS_ONE = IEC_CLASSES["IEC I"]
 #: Variables of the summary whose largest values are shown, and how many of them.
 _WORST, _WORST_COUNT = ("energy_mean", "orbit_energy_max", "peak_power_max"), 5
-#: Lines of a table.
-_MOST_LINES = 40
+#: Lines of a table, of the opening's, and runs that a figure can name.
+_MOST_LINES, _MOST_DESIGNS, _MOST_NAMES = 40, 8, 16
 #: Labels of a run that a reader does not need.
 _LEFT_OUT = ("case", "run", "outcome", "reason", "key")
+#: Variables of the summary in the opening, and the labels of their figures.
+_EXTREMES = {
+    "energy_mean": "energy of a mean roller [J]",
+    "peak_power_max": "largest frictional power [W]",
+    "lowest_spin_ratio": "lowest spin / pure rolling [–]",
+}
+_SEVERAL = {"loads": "load histories", "bearing": "bearings", "lubricant": "lubricants", "model": "models"}
+#: Columns of the table of designs: factor to the unit that is shown, and heading.
+_SHOWN = {
+    "energy": (1e-6, "energy, both rows [MJ/year]"),
+    "wear": (1e6, "wear at k = 1e-17 m²/N [µm/year]"),
+    "entries": (1.0, "entries under slip [1/year]"),
+    "mixed_time": (100.0, "time with Λ < 1 [%]"),
+    "pressure_slip": (1.0, "friction energy / FE8 test"),
+    "entry_slip": (1.0, "smearing: largest slip at entry"),
+    "peak": (1.0, "largest power [W]"),
+    "basic_life": (1.0 / HOURS_A_YEAR, "life L10 [years]"),
+    "modified_reference_life": (1.0 / HOURS_A_YEAR, "modified reference life [years]"),
+}
+_TEMPLATE = "study.html"
+
+
+def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None = None, years: float = 20.0) -> str:
+    """A page on a study.
+
+    Parameters
+    ----------
+    study : xarray.Dataset
+        From `open_study`.
+    title : str
+        Heading of the page.
+    weights : Weibull or Given, optional
+        How likely each wind speed is; that of the study file by default. Without any, designs are ranked over all cases
+        alike, and lifetime and exceedance are those of `CLASS_ONE`.
+    years : float
+        The lifetime [years].
+
+    Returns
+    -------
+    str
+        HTML in one piece, every name and text in it escaped.
+    """
+    text = words(_TEMPLATE)
+    chosen, field, width = weights_in_use(study, weights)
+    used, bins = chosen or CLASS_ONE, {"field": field, "width": width}
+    wind = chosen.wind if isinstance(chosen, Year) else chosen
+    named = wind if wind is None or isinstance(wind, Weibull) else False
+    # Points of a sample are no designs: they are pooled here, and told apart by their effects.
+    base = study.drop_vars(sampled_parameters(study))
+    unused = ""
+    try:
+        whole = year(base, chosen, **bins)
+    except InputError as problem:
+        chosen, whole, unused = None, year(base, None), f"The weights cannot be used: {problem}"
+    table, told = designs(whole)
+    told = [unused or coverage(whole), *told]
+    order = table.index.tolist()
+    names = design_names(whole)
+    pictures: list[Picture] = []
+    ranking = _ranking(study, weights)
+    bodies = {"designs": text.designs(_designs(table, names, _MOST_LINES), ranking, told)}
+    if chosen is not None:
+        bodies["year"] = text.year(coverage(whole), _year(whole, names))
+    bodies["effects"], driver, drawn = _effects(study, chosen, bins)
+    try:
+        life = lifetime_energy(base, used, years=years, **bins)
+        shown = drawable(life.bin_energy, order)
+        energies = _table(as_table(life, ["lifetime_energy"]), "Lifetime energy")
+        pictures = [picture(plot_lifetime, "Lifetime energy by wind speed", life, shown, **OPENING)] if shown else []
+        bodies["lifetime"] = text.lifetime(years, named, 100.0 * float(life.covered), energies, pictures)
+    except InputError as problem:
+        bodies["lifetime"] = text.no_lifetime(str(problem))
+    try:
+        curves = exceedance(base, used, **bins)
+        shown = drawable(curves.power_orbits, order)
+        exceeding = [
+            picture(plot_exceedance, f"Orbits a year of a roller over the {label}", curves, name, shown, **OPENING)
+            for name, label in (EXCEEDED.items() if shown else ())
+        ]
+        bodies["exceedance"] = text.exceedance(named, exceeding)
+        pictures = [*pictures, *exceeding]
+    except InputError as problem:
+        bodies["exceedance"] = text.no_exceedance(str(problem))
+    bodies["surface"] = _surface(base, used, years, bins)
+    if rating := rating_summary(study):
+        bodies["rating"] = text.rating(int(study.static_safety.notnull().sum()), study.sizes["case"], rating)
+    bodies |= {"worst": text.worst(_worst(study)), "failures": text.failures(_failures(study))}
+    found = sections(_TEMPLATE, bodies)
+    if "status" in study:
+        found.append(provenance_section({study.attrs["title"] or "study": study}))
+    found += sections(_TEMPLATE, {"study": text.file(_without_folders(study.attrs["study"]))})
+    extremes = _extremes(study)
+    pictures = [*drawn[:1], *pictures]
+    for name, label in _EXTREMES.items():
+        if len(pictures) < 4 and name in extremes:
+            pictures.append(picture(_plot_extremes, f"By run: {label}", base, order, name, label, **OPENING))
+    answer = text.answer(_counts(study), _first(ranking), told, list(extremes.values()), driver)
+    opening = Opening(answer, pictures, table=_designs(table, names, _MOST_DESIGNS))
+    return render(title, _subtitle(study, title), opening, found)
 
 
 def _without_folders(study: str) -> str:
@@ -53,185 +162,210 @@ def _without_folders(study: str) -> str:
     return json.dumps(content, ensure_ascii=False)
 
 
-def is_study(path: Path) -> bool:
-    """Whether a path is the folder of a study."""
-    return (path / MANIFEST).is_file()
-
-
-def study_page(study: xr.Dataset, *, title: str, weights: Weights | None = None, years: float = 20.0) -> str:
-    """A page on a study.
-
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    title : str
-        Heading of the page.
-    weights : Weibull or Given, optional
-        How likely each wind speed is; `CLASS_ONE` by default.
-    years : float
-        The lifetime [years].
-
-    Returns
-    -------
-    str
-        HTML in one piece, every name and text in it escaped.
-    """
-    life, no_life = _or_reason(lambda: lifetime_energy(study, weights or CLASS_ONE, years=years))
-    curves, no_curves = _or_reason(lambda: exceedance(study, weights or CLASS_ONE))
-    lifetime = (
-        _lifetime(life, weights, years) if life is not None else [Paragraph(f"There is no lifetime energy; {no_life}")]
-    )
-    exceeded = (
-        _exceedance(curves, weights)
-        if curves is not None
-        else [Paragraph(f"There are no exceedance curves: {no_curves}")]
-    )
-    sections = [
-        Section("runs", "All runs", tuple(_overview(study)), "mean and extreme energies, powers and spins, row by row"),
-        Section(
-            "lifetime", "Lifetime energy", tuple(lifetime), f"energy of a roller in {years:g} years, by wind speed"
-        ),
-        Section("exceedance", "Exceedance", tuple(exceeded), "how many orbits a year exceed an energy and a power"),
-        *_further(study, weights, years),
-        Section("worst", "Worst cases", tuple(_worst(study)), f"the {_WORST_COUNT} runs with the largest values"),
-        Section("failures", "Failures", tuple(_failures(study)), "runs without a result, with the reason"),
-    ]
-    if "status" in study:
-        sections.append(provenance_section({study.attrs["title"] or "study": study}))
-    file = Verbatim(_without_folders(study.attrs["study"]), "The study as it was read, as JSON")
-    sections.append(Section("study", "The study file", (file,), "the study as it was read"))
-    return render(title, _subtitle(study, title), study_opening(study, life, curves), sections)
-
-
 def _subtitle(study: xr.Dataset, title: str) -> str:
-    """Title of the study, if the page has another, and how many runs of what it has."""
-    parts = []
-    for name, several in (
-        ("loads", "load histories"),
-        ("bearing", "bearings"),
-        ("lubricant", "lubricants"),
-        ("model", "models"),
-    ):
-        values = np.unique(study[name].values)
-        parts.append(f"{values.size} {several}" if values.size > 1 else f"{name} {values[0]}")
+    """Title of the study, if the page has another, and its numbers of runs, loads and parameters."""
+    values = {name: np.unique(study[name].values) for name in _SEVERAL}
+    parts = [f"{one.size} {_SEVERAL[name]}" if one.size > 1 else f"{name} {one[0]}" for name, one in values.items()]
     own = f"{study.attrs['title']}: " if study.attrs["title"] not in ("", title) else ""
     return f"{own}{study.sizes['case']} runs, {', '.join(parts)}."
 
 
-def _or_reason(make: Callable[[], xr.Dataset]) -> tuple[xr.Dataset | None, str]:
-    """What can be made of a study, or why it cannot."""
+def _counts(study: xr.Dataset) -> dict[str, int]:
+    """How many runs ended how."""
+    counts = {one: int((study.outcome.values == str(one)).sum()) for one in Outcome}
+    return {
+        "runs": study.sizes["case"],
+        "completed": counts[Outcome.COMPLETED],
+        "failed": counts[Outcome.FAILED] + counts[Outcome.ROLLERS_FAILED],
+        "missing": counts[Outcome.MISSING],
+    }
+
+
+def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> str:
+    """Sentences that rank the designs of a study; empty for one design, or where they cannot be weighted."""
     try:
-        return make(), ""
-    except InputError as problem:
-        return None, str(problem)
+        return compare_designs(study, None, wind).attrs["ranking"]
+    except InputError:
+        return ""
 
 
-def _further(study: xr.Dataset, weights: Weights | None, years: float) -> list[Section]:
-    """Maps of the raceways and the rating, where the runs have them."""
-    parts = (
+def _first(ranking: str) -> str:
+    """The first of its sentences."""
+    head, _, _ = ranking.partition(". ")
+    return f"{head.rstrip('.')}." if head else ""
+
+
+def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
+    """Designs with their criteria, the least energy first."""
+    columns = [name for name in _SHOWN if name in table]
+    rows = [
         (
-            "surface",
-            "Where the surface suffers",
-            lifetime_blocks(study, weights or CLASS_ONE, years),
-            "energy and power per area on the raceways over the lifetime",
-        ),
-        ("rating", "Numbers beside slip", rating_summary(study), "rating lives, static safety, pressure"),
-    )
-    return [Section(name, title, blocks, gist) for name, title, blocks, gist in parts if blocks]
+            f"{k} {names[int(group)]}" if names[int(group)] else "the study",
+            *(number(_SHOWN[name][0] * float(line[name]), 3) for name in columns),
+        )
+        for k, (group, line) in enumerate(table.head(most).to_dict("index").items(), start=1)
+    ]
+    more = f"; the first {most} of {len(table)}" if len(table) > most else ""
+    about = "Designs by energy, the least first; wear, mixed film, friction energy, slip and power of the worse row"
+    return Table(("design", *(_SHOWN[name][1] for name in columns)), rows, f"{about}{more}")
 
 
-def _overview(study: xr.Dataset) -> list[Block]:
+def _effects(
+    study: xr.Dataset, weights: Weights | None, bins: dict[str, Any]
+) -> tuple[Markup | str, str, list[Picture]]:
+    """The section on the sample, the parameter that moves the energy most in a sentence, and pictures; empty without one."""
+    if not sampled_parameters(study):
+        return "", "", []
+    found = effects(study, weights, **bins)
+    if not found.sizes["quantity"]:
+        return words(_TEMPLATE).no_effects(), "", []
     rows = []
-    for row in study.row.values.tolist():
-        one = study.sel(row=row)
-        values = (one.energy_mean.mean(), one.energy_max.max(), one.peak_power_max.max(), one.lowest_spin_ratio.min())
-        rows.append((row, *(_number(float(value)) for value in values)))
-    headings = (
-        "row",
-        "mean energy of a roller in a run [J]",
-        "highest energy of a roller in a run [J]",
-        "highest peak power [W]",
-        "lowest spin / pure rolling",
-    )
-    return [Table(headings, tuple(rows), "Over all runs with a result")]
-
-
-def _lifetime(life: xr.Dataset, weights: Weights | None, years: float) -> list[Block]:
-    shown = as_table(life, ["lifetime_energy"])
-    words = (
-        f"Energy dissipated by a roller in {years:g} years, mean over the rollers of the row. {_weighted(weights)} The "
-        f"wind speeds of the study are {100.0 * float(life.covered):.0f} % of all time; the rest counts as no energy."
-    )
-
-    pictures = tuple(
-        picture(
-            lambda axes, group=group: plot_lifetime(axes, life, group), "Lifetime energy by wind speed", legend="above"
+    for name in found.quantity.values.tolist():
+        one = found.sel(quantity=name)
+        scale, heading = _SHOWN.get(name, (1.0, f"{name.replace('_', ' ')} [{one.units.item()}]"))
+        cells = [
+            f"{100.0 * float(each.main_effect):+.3g} ± {100.0 * float(each.main_effect_error):.2g} % (ρ {float(each.rank_correlation):.2f})"
+            if np.isfinite(each.rank_correlation)
+            else "–"
+            for each in (one.sel(parameter=key) for key in found.parameter.values)
+        ]
+        rows.append((heading, " … ".join(number(scale * value, 3) for value in one["range"].values), *cells))
+    table = Table(("", "5, 50 and 95 %", *map(str, found.parameter.values)), rows, f"{int(found.points)} points")
+    shown = [
+        picture(plot_effects, f"Main effects on the {CRITERIA[name][2]}", found, name, **{**OPENING, "legend": ""})
+        for name in ("energy", "wear")
+        if name in found.quantity
+    ]
+    driver = ""
+    if "energy" in found.quantity and bool(found.rank_correlation.sel(quantity="energy").notnull().any()):
+        energy = found.sel(quantity="energy")
+        first = energy.isel(parameter=int(np.nanargmax(np.abs(energy.rank_correlation.values))))
+        driver = (
+            f"Of the sampled values, {first.parameter.item()} moves the energy most: {100.0 * float(first.main_effect):+.2g} % "
+            f"from the lower to the upper half of its range (rank correlation {float(first.rank_correlation):.2f})."
         )
-        for group in groups(life.bin_energy)
+    return words(_TEMPLATE).effects(table, shown), driver, shown
+
+
+def situation(found: xr.Dataset, place: int) -> str:
+    """Name of a bin: its wind speed, or its event."""
+    event = str(found.event.values[place]) if "event" in found.coords else ""
+    return event or f"{float(found.bin[place]):g} {found.bin.attrs['units']}"
+
+
+def _year(found: xr.Dataset, names: list[str]) -> Table:
+    """Hours, energies, powers, entries and wear of every bin of a year, design by design."""
+    rows = []
+    more = {
+        "entries": ("entries under slip", 1.0),
+        "wear": ("wear [µm]", 1e6),
+        "mixed_time": ("Λ < 1 [h]", 1.0 / 3600.0),
+    }
+    for group in range(found.sizes["group"]):
+        for place in range(found.sizes["bin"]):
+            here = found.isel(group=group, bin=place)
+            share = 100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
+            cells = [here.hours, *here.energy, share, *here.per_hour, here.peak.max()]
+            if "entries" in here:
+                cells.append(here.entries.sum(skipna=False))
+            cells += [more[name][1] * here[name].max(skipna=False) for name in ("wear", "mixed_time") if name in here]
+            rows.append((names[group], situation(found, place), *(number(float(value)) for value in cells)))
+    sides = found.row.values.tolist()
+    headings = ("design", "situation", "hours a year", *(f"energy {row} [J]" for row in sides), "share of it [%]",
+                *(f"in an hour {row} [J]" for row in sides), "largest power [W]",
+                *(heading for name, (heading, _) in more.items() if name in found))  # fmt: skip
+    return Table(headings, rows[:_MOST_LINES], "A year: energies of a mean roller; wear and Λ < 1 of the worse row")
+
+
+def case_names(study: xr.Dataset) -> list[str]:
+    """Name of the case of every run: the fields of its loads, `14 m/s, seed 2`, or its loads where these do not tell cases apart."""
+    labels = [
+        str(name) for name in study.coords if study[name].dims == ("case",) and not is_parameter(study, str(name))
+    ]
+    fields = [name for name in labels if name not in (*_LEFT_OUT, *_SEVERAL, "temperature")]
+    loads = study.loads.values.astype(str)
+    if fields and any("." in one for one in loads):  # names of files
+        part = xr.Dataset(coords={name: ("group", study[name].values, study[name].attrs) for name in fields})
+        told = [one.replace("wind speed ", "") for one in design_names(part)]
+        if len(set(told)) == len(set(loads)):
+            return told
+    return [one.rpartition("/")[2] for one in loads]
+
+
+def run_names(study: xr.Dataset) -> list[str]:
+    """Name of every run: its case, and its design where there are several."""
+    labels = [name for name in study.coords if name in (*_SEVERAL, "temperature") or is_parameter(study, str(name))]
+    coords = {name: ("group", study[name].values, study[name].attrs) for name in labels if name != "loads"}
+    designed = design_names(xr.Dataset(coords=coords), 3)
+    return [", ".join(filter(None, one)) for one in zip(case_names(study), designed, strict=True)]
+
+
+def _extremes(study: xr.Dataset) -> dict[str, dict[str, Any]]:
+    """Row, run and value of the most extreme values of the summary."""
+    names, found = run_names(study), {}
+    for name in _EXTREMES:
+        values = -study[name] if name == "lowest_spin_ratio" else study[name]
+        if bool(values.notnull().any()):
+            place = values.argmax(["case", "row"])
+            row, run = study.row[place["row"]].item(), names[int(place["case"])]
+            found[name] = {"quantity": name, "value": float(study[name].isel(place)), "row": row, "run": run}
+    return found
+
+
+def _plot_extremes(axes: Axes, study: xr.Dataset, order: list[int], name: str, label: str) -> Axes:
+    """The runs with the most extreme values, in the order of the study, with the numbers of their designs."""
+    values = study[name].transpose("case", "row").values
+    extreme = (-study[name].min("row") if name == "lowest_spin_ratio" else study[name].max("row")).values
+    shown = np.sort(np.argsort(-np.nan_to_num(extreme, nan=-np.inf), kind="stable")[:_MOST_NAMES])
+    names = case_names(study)
+    if len(order) > 1:
+        group = binned(study, None).group
+        names = [f"{one} #{order.index(int(k)) + 1}" for one, k in zip(names, group, strict=True)]
+    plot_by_result(axes, [names[case] for case in shown], study.row.values.tolist(), values[shown], label)
+    if shown.size < study.sizes["case"]:
+        axes.set_title(f"the {shown.size} most extreme of {study.sizes['case']} runs", fontsize=10, loc="left")
+    return axes
+
+
+def _surface(study: xr.Dataset, weights: Weights, years: float, bins: dict[str, Any]) -> Markup | str:
+    """Maps over a lifetime, weighted by wind speed, of the first design; nothing where the cases have none."""
+    if "surface_energy" not in study:
+        return ""
+    text = words(_TEMPLATE)
+    try:
+        maps = weighted_maps(study, weights, years=years, **bins).isel(group=0)
+    except InputError as problem:
+        return text.no_maps(str(problem))
+    labels = ", ".join(str(maps[name].item()) for name in ("bearing", "lubricant", "model") if name in maps.coords)
+    of = f"in {years:g} years, of the simulated rollers, {labels}"
+    return text.turned() + words("result.html").surface(
+        *map_pictures(energy_density(maps), maps.surface_power_density), of
     )
-    blocks: list[Block] = [Paragraph(words), _frame(shown, "Lifetime energy")]
-    return [*blocks, Pictures(pictures, "What each wind speed adds to it.")] if pictures else blocks
 
 
-def _exceedance(curves: xr.Dataset, weights: Weights | None) -> list[Block]:
-    pictures = tuple(
-        picture(
-            lambda axes, name=name, group=group: plot_exceedance(axes, curves, name, group),
-            f"Orbits a year of a roller over the {label}",
-            legend="above",
-        )
-        for group in groups(curves.power_orbits)
-        for name, label in EXCEEDED.items()
-    )
-    caption = "How many orbits a year of one roller exceed an energy, all interfaces, and a power, at any interface."
-    if not pictures:
-        return [Paragraph("There are no exceedance curves: not every wind speed has a result.")]
-    return [Paragraph(_weighted(weights)), Pictures(pictures, caption)]
-
-
-def _worst(study: xr.Dataset) -> list[Block]:
-    blocks: list[Block] = []
+def _worst(study: xr.Dataset) -> list[Table]:
+    tables = []
     for name in _WORST:
         found = as_table(worst(study, name, count=_WORST_COUNT), [name])
-        about = study[name].attrs["long_name"]
-        blocks.append(_frame(found.drop(columns=[one for one in _LEFT_OUT if one in found]), f"By {name}: {about}"))
-    return blocks
+        found = found.drop(columns=[one for one in _LEFT_OUT if one in found])
+        tables.append(_table(found, f"By {name}: {study[name].attrs['long_name']}"))
+    return tables
 
 
-def _failures(study: xr.Dataset) -> list[Block]:
+def _failures(study: xr.Dataset) -> Table | None:
     failed = study.isel(case=np.flatnonzero(study.outcome.values != str(Outcome.COMPLETED)))
     if not failed.sizes["case"]:
-        return [Paragraph("No run failed, and none is missing.")]
+        return None
     labels = [name for name, one in failed.coords.items() if one.dims == ("case",)]
     frame = failed[labels].reset_coords().to_dataframe().reset_index()
-    columns = [name for name in frame if name not in ("case", "run", "key", "outcome", "reason")]
-    failures = frame[[*columns, "outcome", "reason"]]
-    blocks: list[Block] = []
-    blocks.append(_frame(failures, "Runs without a result, or with rollers that failed"))
-    return blocks
+    columns = [name for name in frame if name not in _LEFT_OUT]
+    return _table(frame[[*columns, "outcome", "reason"]], "Runs without a result, or with rollers that failed")
 
 
-def _weighted(weights: Weights | None) -> str:
-    if weights is None:
-        return (
-            "Wind speeds are weighted by IEC 61400-1, class I: a Rayleigh distribution with a mean of 10 m/s; give that "
-            "of your site by --weibull."
-        )
-    if isinstance(weights, Weibull):
-        return f"Wind speeds have a Weibull distribution with scale {weights.scale:g} m/s and shape {weights.shape:g}."
-    return "Wind speeds have the probabilities given."
+def _table(frame: pd.DataFrame, caption: str) -> Table:
+    def cell(value: Any) -> str:
+        return number(float(value)) if isinstance(value, (float, np.floating)) else str(value)
 
-
-def _frame(frame: pd.DataFrame, caption: str) -> Table:
-    rows = [tuple(map(_cell, line)) for line in frame.head(_MOST_LINES).itertuples(index=False)]
+    rows = [tuple(map(cell, line)) for line in frame.head(_MOST_LINES).itertuples(index=False)]
     more = f"; the first {_MOST_LINES} of {len(frame)}" if len(frame) > _MOST_LINES else ""
-    return Table(tuple(map(str, frame.columns)), tuple(rows), f"{caption}{more}")
-
-
-def _cell(value: Any) -> str:
-    return _number(value) if isinstance(value, (float, np.floating)) else str(value)
-
-
-def _number(value: float) -> str:
-    return f"{value:.4g}" if np.isfinite(value) else "–"
+    return Table(tuple(map(str, frame.columns)), rows, f"{caption}{more}")

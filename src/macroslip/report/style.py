@@ -1,45 +1,78 @@
-"""The look of the figures: one typeface, colours for the colour-blind, markers and line styles that differ in grey."""
+"""The look of figures and numbers: colours for the colour-blind, marks that differ in grey, numbers of three digits."""
 
 from __future__ import annotations
 
+import base64
+import io
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from macroslip.constants import HOURS_A_YEAR
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from pathlib import Path
 
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 #: From Okabe and Ito's palette.
 BLACK, BLUE, ORANGE, GREEN, GREY = "#000000", "#0072B2", "#D55E00", "#009E73", "#6E6E6E"
 
-#: Line and marker of each turbulence class.
-TURBULENCE: Mapping[str, Mapping[str, object]] = MappingProxyType(
-    {
-        "A": {"color": ORANGE, "marker": "s", "linestyle": "-"},
-        "B": {"color": BLUE, "marker": "o", "linestyle": "--"},
-        "C": {"color": GREEN, "marker": "^", "linestyle": ":"},
-    }
-)
+_Styles = Mapping[str, Mapping[str, Any]]
 #: Line and marker of each row.
-ROW: Mapping[str, Mapping[str, object]] = MappingProxyType(
+ROW: _Styles = MappingProxyType(
     {
         "downwind": {"color": BLUE, "marker": "o", "linestyle": "-"},
         "upwind": {"color": ORANGE, "marker": "s", "linestyle": "--"},
     }
 )
 #: Line of each interface.
-INTERFACE: Mapping[str, Mapping[str, object]] = MappingProxyType(
+INTERFACE: _Styles = MappingProxyType(
     {
         "inner": {"color": BLUE, "linestyle": "-"},
         "outer": {"color": ORANGE, "linestyle": "--"},
         "cage": {"color": GREEN, "linestyle": "-."},
     }
 )
-#: Steps from one turbulence class to the next along the wind-speed axis [m/s], so that bars do not hide each other.
-CLASS_OFFSET: Mapping[str, float] = MappingProxyType({"A": -0.35, "B": 0.0, "C": 0.35})
+#: Size of a picture [inches]: what a telephone held upright shows without making letters smaller than the text's; and
+#: size of a round one.
+WIDTH, HEIGHT = 4.2, 3.1
+ROUND: Mapping[str, Any] = MappingProxyType({"height": 4.6, "polar": True})
+#: Options of `picture` on the first screen of a page.
+OPENING: Mapping[str, Any] = MappingProxyType({"width": 3.5, "height": 2.55, "legend": "above"})
+#: Size of letters: labels and titles; numbers at the axes and legends.
+LABEL, SMALL = 11, 10
+
+
+def three_digits(value: float) -> str:
+    """A number with three digits, without a power of ten where one can do without.
+
+    Examples
+    --------
+    >>> three_digits(0.21014), three_digits(1925.7)
+    ('0.21', '1,926')
+    """
+    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+
+
+def years(hours: float) -> str:
+    """Write a life in years, with three digits; lives beyond 500 years as such.
+
+    Examples
+    --------
+    >>> years(175320.0), years(4000.0), years(2e16), years(float("nan"))
+    ('20 years', '4000 h', 'beyond 500 years', '–')
+    """
+    if math.isnan(hours):
+        return "–"
+    if hours > 500.0 * HOURS_A_YEAR:
+        return "beyond 500 years"
+    return f"{hours / HOURS_A_YEAR:.3g} years" if hours >= HOURS_A_YEAR else f"{hours:.0f} h"
 
 
 def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list]:
@@ -54,32 +87,36 @@ def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **o
 
 def finish(axes: Axes, x_label: str, y_label: str, title: str = "") -> Axes:
     """Label the axes and take away what carries no information."""
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
+    axes.set_xlabel(x_label, fontsize=LABEL)
+    axes.set_ylabel(y_label, fontsize=LABEL)
     if title:
-        axes.set_title(title, fontsize=10, loc="left")
+        axes.set_title(title, fontsize=LABEL, loc="left")
     axes.spines[["top", "right"]].set_visible(False)
-    axes.tick_params(labelsize=9)
+    axes.tick_params(labelsize=SMALL)
     return axes
 
 
 def legend_above(figure: Figure, axes: Axes, **options: object) -> None:
     """The legend of one of the figure's axes, above all of them."""
     handles, labels = axes.get_legend_handles_labels()
-    options = {"frameon": False, "fontsize": 9, "title_fontsize": 9, "ncols": len(labels)} | options
+    options = {"frameon": False, "fontsize": SMALL, "title_fontsize": SMALL, "ncols": len(labels)} | options
     figure.legend(handles, labels, loc="outside upper center", **options)
 
 
 def log_ticks(axes: Axes, which: str = "y") -> Axes:
     """A logarithmic axis, vertical or `which` is "x", with plain numbers at 1, 2 and 5 of every decade."""
+    axes.set(**{f"{which}scale": "log"})
+    decade_ticks(axes.yaxis if which == "y" else axes.xaxis)
+    return axes
+
+
+def decade_ticks(axis: Axis) -> None:
+    """Plain numbers at 1, 2 and 5 of every decade."""
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axes.set(**{f"{which}scale": "log"})
-    axis = axes.yaxis if which == "y" else axes.xaxis
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(NullFormatter())
-    return axes
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[str]:
@@ -90,3 +127,96 @@ def save(figure: Figure, folder: Path, name: str) -> list[str]:
     figure.set_layout_engine("none")
     figure.savefig(folder / files[1], metadata={"Date": None})
     return files
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A figure for a page: its data URI, its content for those who cannot see it, its size [px], as `picture` has it."""
+
+    source: str
+    words: str
+    width: int
+    height: int
+    wide: bool = False
+
+
+def picture(plot: Callable[..., object], about: str, *data: Any, **options: Any) -> Picture:
+    """Draw one axes as SVG inside the page, so that it stays sharp without another file.
+
+    Parameters
+    ----------
+    plot : callable
+        A plot function, called with the axes and `data`.
+    about : str
+        The content, for those who cannot see it.
+    **options
+        width, height : [inches]. polar : whether the axes are polar. legend : "" for none, "above", or "below" (one
+        entry a line). wide : whether the picture keeps its width where the page is narrower, and is moved sideways.
+    """
+    return compared(plot, {about: data}, **options)[0]
+
+
+def compared(
+    plot: Callable[..., object],
+    panels: Mapping[str, Sequence[Any]],
+    *,
+    width: float = WIDTH,
+    height: float = HEIGHT,
+    polar: bool = False,
+    legend: str = "",
+    wide: bool = False,
+) -> list[Picture]:
+    """Pictures that are compared, and so share their scales: colours of maps, otherwise the vertical or radial axis.
+
+    Takes the data of every panel by its content; the rest as `picture`.
+    """
+    drawn = [new_figure(width, height, subplot_kw={"projection": "polar" if polar else None}) for _ in panels]
+    for (_, (axes,)), data in zip(drawn, panels.values(), strict=True):
+        plot(axes, *data)
+    _share_scales([axes for _, (axes,) in drawn])
+    return [
+        Picture(_svg(figure, axes, legend), about, round(96 * width), round(96 * height), wide)
+        for (figure, (axes,)), about in zip(drawn, panels, strict=True)
+    ]
+
+
+def _share_scales(panels: Sequence[Axes]) -> None:
+    images = [one.images[0] for one in panels if one.images]
+    if len(panels) < 2:
+        return
+    if images:
+        low, high = zip(*(one.get_clim() for one in images), strict=True)
+        for one in images:
+            one.set_clim(min(low), max(high))
+        return
+    low, high = zip(*(one.get_ylim() for one in panels), strict=True)
+    for one in panels:
+        one.set_ylim(min(low), max(high))
+
+
+def _svg(figure: Figure, axes: Axes, legend: str) -> str:
+    """The figure as a data URI, with a legend."""
+    import matplotlib
+
+    handles, labels = axes.get_legend_handles_labels()
+    if legend == "above":
+        # Long names do not fit beside each other.
+        legend_above(figure, axes, ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 else 2))
+    elif legend:
+        figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=SMALL)
+    content = io.BytesIO()
+    # Names inside the file follow from its content: the same numbers give the same page.
+    with matplotlib.rc_context({"svg.hashsalt": "macroslip"}):
+        figure.savefig(content, format="svg", metadata={"Date": None}, dpi=160)
+    # Without comments and metadata, which a page does not show, and outlines to a hundredth of a point.
+    svg = re.sub(rb"<!--.*?-->|<metadata>.*?</metadata>", b"", content.getvalue(), flags=re.DOTALL)
+    svg = re.sub(rb' d="[^"]*"', lambda outline: re.sub(rb"(\.\d\d)\d+", rb"\1", outline[0]), svg)
+    encoded = base64.b64encode(re.sub(rb"\n\s*", b"\n", svg)).decode("ascii")
+    return f"data:image/svg+xml;base64,{encoded}"
+
+
+def row_pictures(
+    plot: Callable[..., object], about: str, data: Any, rows: Sequence[str], **options: Any
+) -> list[Picture]:
+    """The same picture of every row, on one scale; `about` has braces where the name of the row belongs."""
+    return compared(plot, {about.format(row): (data, row) for row in rows}, **options)

@@ -1,39 +1,43 @@
-"""Rating numbers of a case, from the same loads as its slip, and beside it in one dataset."""
+"""Loads of the rollers of a case, and its rating numbers, from the same loads as its slip."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from macroslip.case.case import BALANCE
 from macroslip.errors import InputError
-from macroslip.loads import BearingLoads, main_bearing_load
 from macroslip.rating import rate, roller_load_history
 from macroslip.rating.rate import CONTAMINATION
 
 if TYPE_CHECKING:
     import xarray as xr
+    from numpy.typing import NDArray
 
     from macroslip.case.case import Case
+
+#: One of so many samples of the ring balance is used.
+_EVERY = 5
+
+
+def roller_load_series(case: Case, start: float, end: float) -> tuple[NDArray, NDArray]:
+    """Elastic load of every roller at every fifth sample of the ring balance between two times [s].
+
+    Returns m times [s] and loads [N] of shape (m, 2, rollers), by time, row and roller. Raises InputError as
+    `macroslip.rating.roller_load_history`.
+    """
+    loads, found = roller_load_history(case.bearing, case.oil, case.ring_loads)
+    here = np.flatnonzero((loads.time >= start) & (loads.time <= end))[::_EVERY]
+    return loads.time[here], np.moveaxis(found[..., here], -1, 0)
 
 
 def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset:
     """Rate the main bearing of a case over all of its loads: safety, lives, pressures, film, minimum load, spectra.
 
-    Parameters
-    ----------
-    case : Case
-        Its laws do not matter: a rating depends only on loads, speed and viscosity. Nor does its window.
-    contamination : float
-        e_C of ISO 281 [-], above 0 and at most 1.
-
-    Returns
-    -------
-    xarray.Dataset
-        See `macroslip.rating.rate`.
-
-    Raises
-    ------
-    InputError
-        As `macroslip.rating.rate` and `macroslip.rating.roller_load_history`.
+    As `macroslip.rating.rate` with the contamination factor e_C [-]; the case's laws and window do not matter, since a
+    rating depends only on loads, speed and viscosity.
 
     Examples
     --------
@@ -42,29 +46,20 @@ def rate_case(case: Case, *, contamination: float = CONTAMINATION) -> xr.Dataset
     >>> round(float(rating.static_safety), 2)
     30.64
     """
-    loads = case.loads if isinstance(case.loads, BearingLoads) else main_bearing_load(case.loads, case.drivetrain)
-    history = roller_load_history(case.bearing, case.oil, loads)
+    history = roller_load_history(case.bearing, case.oil, case.ring_loads)
     return rate(case.bearing, case.oil, *history, contamination=contamination)
 
 
 def with_rating(result: xr.Dataset, case: Case) -> xr.Dataset:
-    """The result of a case with the numbers of its rating as further variables.
+    """The result of a case with the variables of `macroslip.rating.rate`; as it is with `rating: false`.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `simulate`.
-    case : Case
-        With `rating: false`, the result comes back as it is.
-
-    Returns
-    -------
-    xarray.Dataset
-        With the variables of `macroslip.rating.rate` and, as attributes, `rating_contamination` and `rating_film_law`. A
-        bearing that lacks what a rating needs has the reason in the attribute `rating_problem` instead.
+    The attributes `rating_contamination` and `rating_film_law` are added. A bearing that lacks what a rating needs has
+    the reason in the attribute `rating_problem` instead.
     """
     if not case.rating:
         return result
+    if case.temperature == BALANCE:
+        case = replace(case, temperature=float(result.inlet_temperature), heat=None)
     try:
         rating = rate_case(case)
     except InputError as problem:

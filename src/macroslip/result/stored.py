@@ -6,20 +6,24 @@ HDF5's Fletcher checksum is verified by every reader of the format: a flipped bi
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
-from macroslip.bearing.frames import ROWS
+from macroslip.bearing.geometry import ROWS
 from macroslip.errors import InputError
-from macroslip.integrate.status import Status
-from macroslip.result.variables import INTERFACES, VARIABLES
-
-if TYPE_CHECKING:
-    import xarray as xr
+from macroslip.imposed.status import Status
+from macroslip.measures.totals import INTERFACES
+from macroslip.result import skew
+from macroslip.result.variables import VARIABLES
 
 REMEDY = "Name files that macroslip run wrote, whole ones; run the case again if need be."
-_TRACES = [name for name, (dims, _, _) in VARIABLES.items() if "time" in dims and "raceway" not in dims]
+_TRACES = [
+    name
+    for name, (dims, _, _) in VARIABLES.items()
+    if "time" in dims and "raceway" not in dims and name not in skew.VARIABLES
+]
 #: Largest block [bytes] with one checksum; larger variables are divided by the library.
 _LARGEST_BLOCK = 2**26
 
@@ -40,17 +44,14 @@ def to_netcdf(result: xr.Dataset) -> bytes:
 def check_result(result: xr.Dataset, where: str) -> None:
     """Refuse a dataset that is no result, or not whole, or holds what none can hold.
 
+    Raises InputError naming the variable or attribute.
+
     Parameters
     ----------
     result : xarray.Dataset
         As read from a file: of a run, or of a study, which has everything over `case` too.
     where : str
         The file.
-
-    Raises
-    ------
-    InputError
-        Naming the variable or attribute.
     """
     problem = next(filter(None, (look(result) for look in (_names, _kinds, _labels, _values, _input))), None)
     if problem:
@@ -59,7 +60,7 @@ def check_result(result: xr.Dataset, where: str) -> None:
 
 
 def _names(result: xr.Dataset) -> str:
-    """What is missing."""
+    """Names that are missing."""
     missing = [name for name in ("energy", "status") if name not in result.data_vars]
     missing += [name for name in ("row", "roller", "interface") if name not in result.dims]
     if "time" in result.dims:
@@ -69,7 +70,7 @@ def _names(result: xr.Dataset) -> str:
 
 
 def _kinds(result: xr.Dataset) -> str:
-    """What is no number, or over other dimensions than it should be."""
+    """Variables that are no numbers, or have wrong dimensions."""
     for name, (expected, _, _) in VARIABLES.items():
         if name not in result:
             continue

@@ -8,23 +8,25 @@ was at the first sample. Energies are stored, in J, so that sums over a map are 
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.errors import InputError
-from macroslip.integrate.surface import FILM_REGIMES, SECTORS, SLIP_SIGNS, STATIONS
+from macroslip.measures.details import FILM_EDGES, FILM_REGIMES, SECTORS, SLIP_EDGES, SLIP_SIGNS, STATIONS
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from macroslip.bearing import Bearing
-    from macroslip.integrate.record import RollerRecord
+    from macroslip.measures.details import Details
 
 _PLACES = ("row", "raceway", "angle", "station")
+_CLASSES = ("row", "raceway", "film_class", "slip_class")
 #: As `macroslip.result.variables.VARIABLES`.
 VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "surface_energy": (
@@ -38,16 +40,39 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "W/m2",
         "largest frictional power per area at each place of a raceway, mean over the width of the contact",
     ),
-}
+    "surface_asperity_energy": (
+        _PLACES, "J", "part of the energy at each place of a raceway that asperities dissipate, of all simulated rollers"
+    ),
+    "surface_work": (
+        _PLACES, "J", "pressure times slip over time and area at each place of a raceway, of all simulated rollers: the "
+        "energy in the window that a coefficient of friction of 1 would dissipate",
+    ),
+    "working_load": (("row", "raceway"), "N", "mean load of the contacts, weighted by pressure times slip"),
+    "film_slip_time": (
+        _CLASSES, "s", "time under load by Lambda and by slide-roll ratio, times the part of the roller's length that has "
+        "them, of all simulated rollers",
+    ),
+    "film_slip_passes": (_CLASSES, "1", "passes over the ring by Lambda and slide-roll ratio, weighted alike"),
+}  # fmt: skip
 
 
-def values(records: list[list[RollerRecord]], failed: np.ndarray) -> dict[str, np.ndarray]:
+def values(records: list[list[Details]], failed: np.ndarray) -> dict[str, np.ndarray]:
     """Maps of the rows; NaN for a row with a roller that failed, whose part is missing."""
     energy = np.array([sum(record.surface_energy for record in line) for line in records])
     density = np.array([np.max([record.surface_density for record in line], axis=0) for line in records])
+    asperities, work, load, classes = (
+        np.array([sum(getattr(record, name) for record in line) for line in records])
+        for name in ("surface_asperities", "surface_work", "working_load", "film_slip")
+    )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        load = load[..., 0] / load[..., 1]
     for number in np.flatnonzero(failed.any(axis=1)):
-        energy[number] = density[number] = np.nan
-    return {"surface_energy": energy, "surface_power_density": density}
+        for one in (energy, density, asperities, work, load, classes):
+            one[number] = np.nan
+    return {
+        "surface_energy": energy, "surface_power_density": density, "surface_asperity_energy": asperities,
+        "surface_work": work, "working_load": load, "film_slip_time": classes[..., 0], "film_slip_passes": classes[..., 1],
+    }  # fmt: skip
 
 
 def coordinates(bearing: Bearing) -> dict[str, Any]:
@@ -59,8 +84,18 @@ def coordinates(bearing: Bearing) -> dict[str, Any]:
         "angle": ("angle", angle, about),
         "slip_sign": list(SLIP_SIGNS),
         "film_regime": list(FILM_REGIMES),
+        "film_class": _classes(FILM_EDGES),
+        "slip_class": _classes(SLIP_EDGES),
         "cell_area": (("row", "raceway", "station"), _areas(bearing), area),
     }
+
+
+def _classes(edges: tuple[float, ...]) -> list[str]:
+    return [
+        f"below {edges[0]:g}",
+        *(f"{a:g} to {b:g}" for a, b in itertools.pairwise(edges)),
+        f"{edges[-1]:g} and above",
+    ]
 
 
 def _areas(bearing: Bearing) -> np.ndarray:
@@ -78,22 +113,9 @@ def _areas(bearing: Bearing) -> np.ndarray:
 
 
 def energy_density(result: xr.Dataset) -> xr.DataArray:
-    """Frictional energy per area of the raceways, e = ∫|τ v| dt.
+    """Frictional energy per area of the raceways, e = ∫|τ v| dt [J/m²], over row, raceway, angle and station.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `simulate`, with microslip; or from `macroslip.study.surface.weighted_maps`.
-
-    Returns
-    -------
-    xarray.DataArray
-        [J/m²] over row, raceway, angle and station, and what else `surface_energy` is over but the two it is split by.
-
-    Raises
-    ------
-    InputError
-        If the result has no maps.
+    Of a result with maps, InputError without, or from `macroslip.study.lifetime.weighted_maps`.
     """
     _require_maps(result)
     found = result.surface_energy.sum(("slip_sign", "film_regime"), skipna=False) / result.cell_area
@@ -101,23 +123,9 @@ def energy_density(result: xr.Dataset) -> xr.DataArray:
 
 
 def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
-    """Frictional energy per area of a roller along its axis, of both raceway contacts, mean over its circumference.
+    """Frictional energy per area of a roller along its axis [J/m²], of both raceways, mean over its circumference.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `simulate`, with microslip.
-    bearing : Bearing
-
-    Returns
-    -------
-    xarray.DataArray
-        [J/m²] over row, station, slip_sign and film_regime; mean over the simulated rollers.
-
-    Raises
-    ------
-    InputError
-        If the result has no maps.
+    Over row, station, slip_sign and film_regime; mean over the simulated rollers. InputError if the result has no maps.
     """
     _require_maps(result)
     area = 2.0 * math.pi * geometry.roller_radius(bearing) * bearing.roller_length / STATIONS
@@ -126,23 +134,11 @@ def roller_energy_density(result: xr.Dataset, bearing: Bearing) -> xr.DataArray:
 
 
 def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> xr.DataArray:
-    """Share of a raceway's area on which a map exceeds a threshold of the user's own.
+    """Share of a raceway's area, over row and raceway, on which a map exceeds a threshold of the user's own.
 
-    None is built in: no threshold of damage by frictional power or energy per area could be traced to a primary source.
-
-    Parameters
-    ----------
-    density : xarray.DataArray
-        `surface_power_density` or `energy_density`, over angle and station.
-    area : xarray.DataArray
-        `cell_area`.
-    threshold : float
-        [W/m²] or [J/m²], as the map.
-
-    Returns
-    -------
-    xarray.DataArray
-        [1] over row and raceway.
+    Of `surface_power_density` or `energy_density`, over angle and station, with `cell_area` and a threshold in the unit
+    of the map [W/m² or J/m²]. None is built in: no threshold of damage by frictional power or energy per area could be
+    traced to a primary source.
     """
     weight = (area + 0.0 * density).where(density.notnull())
     return (weight.where(density > threshold, 0.0).sum(("angle", "station")) / weight.sum(("angle", "station"))).rename(
@@ -152,8 +148,6 @@ def share_above(density: xr.DataArray, area: xr.DataArray, threshold: float) -> 
 
 def _require_maps(result: xr.Dataset) -> None:
     if "surface_energy" not in result:
-        raise InputError(
-            "the result has no maps of the raceways",
-            allowed="results of contacts with microslip or asperities",
-            remedy="Write laws: {model: physical} and contact_details: true in the case.",
-        )
+        allowed = "results of contacts with microslip or asperities"
+        remedy = "Write laws: {model: physical} and contact_details: true in the case."
+        raise InputError("the result has no maps of the raceways", allowed=allowed, remedy=remedy)

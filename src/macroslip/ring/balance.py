@@ -2,9 +2,10 @@
 
 The displacement d = (dX, dY, dZ) makes the elastic energy less the work of the load,
 
-    Π(d) = Σ_j (2/5) K δ_j₊^2.5 − F·d,   δ_j = n_j·d − (P_d/2) cos α,   n_j = (cos φ_j cos α, sin φ_j cos α, s sin α),
+    Π(d) = Σ_j (2/5) K δ_j₊^2.5 − F·d,   δ_j = n_j·d − c(φ_j) cos α,   n_j = (cos φ_j cos α, sin φ_j cos α, s sin α),
 
-smallest. Π is convex, so every minimum is global and the roller loads are unique; d itself is not where too few rollers
+smallest. The radial clearance is c = P_d/2 + c2 cos 2(φ − ψ) + c3 cos 3(φ − ψ), with the waves of an outer ring out
+of round. Π is convex, so every minimum is global and the roller loads are unique; d itself is not where too few rollers
 are loaded to hold the ring, and then the solution nearest to the start is as good as any. Levenberg's damping of the
 Newton step deals with those singular cases and vanishes in the others.
 """
@@ -16,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit, jit_lawless
+from macroslip.compiled import jit, jit_inline
 
 #: Iterations granted to a warm start before a cold one, and to a cold one before the balance counts as failed.
 _WARM_ITERATIONS, _COLD_ITERATIONS = 40, 200
@@ -25,7 +26,7 @@ _LONGEST_PUSH = 1e3
 
 
 class RingGeometry(NamedTuple):
-    """What the balance needs of a bearing.
+    """Geometry and stiffness of a bearing, for the balance.
 
     Attributes
     ----------
@@ -41,6 +42,8 @@ class RingGeometry(NamedTuple):
         K [N/m^1.5].
     orbit_ratio : float
         Ω/Ω_in [-].
+    second_x, second_y, third_x, third_y : float
+        c2 cos 2ψ, c2 sin 2ψ, c3 cos 3ψ and c3 sin 3ψ of the clearance's waves [m].
     """
 
     cosine: np.ndarray
@@ -50,9 +53,29 @@ class RingGeometry(NamedTuple):
     radial_play: float
     stiffness: float
     orbit_ratio: float
+    second_x: float = 0.0
+    second_y: float = 0.0
+    third_x: float = 0.0
+    third_y: float = 0.0
 
 
-@jit
+@jit_inline
+def radial_clearance(ring, cosine, sine):
+    """Radial clearance [m] at the place cos φ, sin φ of a ring or of a roller's record.
+
+    Examples
+    --------
+    >>> oval = RingGeometry(np.ones(1), np.zeros(1), np.zeros(1), 1.0, 1e-4, 1e11, 0.45, 2e-5)
+    >>> [round(1e6 * radial_clearance(oval, math.cos(phi), math.sin(phi)), 9) for phi in (0.0, 0.5 * math.pi)]
+    [120.0, 80.0]
+    """
+    twice_x, twice_y = cosine * cosine - sine * sine, 2.0 * cosine * sine
+    second = ring.second_x * twice_x + ring.second_y * twice_y
+    third = ring.third_x * (twice_x * cosine - twice_y * sine) + ring.third_y * (twice_y * cosine + twice_x * sine)
+    return ring.radial_play + second + third
+
+
+@jit_inline
 def _energy_gradient_hessian(ring, turn_cosine, turn_sine, d, force, gradient, hessian):
     """Π; fills its gradient (unbalanced force) and Hessian."""
     energy = 0.0
@@ -63,10 +86,11 @@ def _energy_gradient_hessian(ring, turn_cosine, turn_sine, d, force, gradient, h
             hessian[i, k] = 0.0
     cosine_alpha = ring.cos_contact_angle
     for j in range(ring.cosine.size):
-        n_x = (ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine) * cosine_alpha
-        n_y = (ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine) * cosine_alpha
-        n_z = ring.axial[j]
-        approach = n_x * d[0] + n_y * d[1] + n_z * d[2] - ring.radial_play * cosine_alpha
+        cosine = ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine
+        sine = ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine
+        n_x, n_y, n_z = cosine * cosine_alpha, sine * cosine_alpha, ring.axial[j]
+        play = radial_clearance(ring, cosine, sine) * cosine_alpha
+        approach = n_x * d[0] + n_y * d[1] + n_z * d[2] - play
         if approach > 0.0:
             root = math.sqrt(approach)
             load = ring.stiffness * approach * root
@@ -84,7 +108,7 @@ def _energy_gradient_hessian(ring, turn_cosine, turn_sine, d, force, gradient, h
     return energy
 
 
-@jit
+@jit_inline
 def _damped_newton_step(hessian, gradient, damping, step):
     """Solve (H + damping·1) step = −gradient by Cholesky factors of the symmetric 3 × 3 matrix."""
     l11 = math.sqrt(hessian[0, 0] + damping)
@@ -101,30 +125,31 @@ def _damped_newton_step(hessian, gradient, damping, step):
     step[0] = (y1 - l21 * step[1] - l31 * step[2]) / l11
 
 
-@jit
+@jit_inline
 def _trace(matrix):
     return matrix[0, 0] + matrix[1, 1] + matrix[2, 2]
 
 
-@jit
+@jit_inline
 def _length(vector):
     return math.sqrt(vector[0] ** 2 + vector[1] ** 2 + vector[2] ** 2)
 
 
-@jit
+@jit_inline
 def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_iterations):
     """Damped Newton steps downhill in Π from `displacement`; returns the unbalanced force [N] that is left."""
     gradient, hessian, step = np.empty(3), np.empty((3, 3)), np.empty(3)
     trial, trial_gradient, trial_hessian = np.empty(3), np.empty(3), np.empty((3, 3))
-    energy = _energy_gradient_hessian(ring, turn_cosine, turn_sine, displacement, force, gradient, hessian)
     magnitude = _length(force)
     # Without a loaded roller there is no stiffness: push the ring along the load until the rollers push back harder.
     push = (magnitude / ring.stiffness) ** (2.0 / 3.0) + abs(ring.radial_play)
-    while magnitude > tolerance and _trace(hessian) == 0.0 and push < _LONGEST_PUSH:
+    while True:
+        energy = _energy_gradient_hessian(ring, turn_cosine, turn_sine, displacement, force, gradient, hessian)
+        if not (magnitude > tolerance and _trace(hessian) == 0.0 and push < _LONGEST_PUSH):
+            break
         for i in range(3):
             displacement[i] += push * force[i] / magnitude
         push *= 2.0
-        energy = _energy_gradient_hessian(ring, turn_cosine, turn_sine, displacement, force, gradient, hessian)
     relative = 1e-6
     for _ in range(most_iterations):
         unbalanced = _length(gradient)
@@ -175,32 +200,24 @@ def balance(ring, shaft_angle, force, displacement):
     turn_sine = math.sin(ring.orbit_ratio * shaft_angle)
     magnitude = _length(force)
     tolerance = 1e-10 * magnitude + 1e-7
-    unbalanced = _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, _WARM_ITERATIONS)
-    if unbalanced > tolerance:
+    unbalanced = math.inf
+    for iterations in (_WARM_ITERATIONS, _COLD_ITERATIONS):
+        if unbalanced <= tolerance:
+            break
         # A start at the far side of the play would have to slide round the whole bearing; from the middle it is short.
-        for i in range(3):
-            displacement[i] = 0.0
-        unbalanced = _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, _COLD_ITERATIONS)
+        if iterations == _COLD_ITERATIONS:
+            for i in range(3):
+                displacement[i] = 0.0
+        unbalanced = _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, iterations)
     return unbalanced
 
 
-@jit_lawless
+@jit
 def balance_series(ring, shaft_angle, force, current, displacement, unbalanced):
-    """`balance` over a series, each sample started from the one before.
+    """`balance` over a series, each sample started from its predecessor.
 
-    Parameters
-    ----------
-    ring : RingGeometry
-    shaft_angle : ndarray, shape (n,)
-        [rad].
-    force : ndarray, shape (n, 3)
-        [N].
-    current : ndarray, shape (3,)
-        Start of the first sample, overwritten by the displacement of the last [m].
-    displacement : ndarray, shape (n, 3)
-        Filled with ring displacements [m].
-    unbalanced : ndarray, shape (n,)
-        Filled with the unbalanced forces that are left [N].
+    `current` [m], shape (3,), is the start of the first sample and then the displacement of the last; `displacement`,
+    shape (n, 3), and `unbalanced`, shape (n,), are filled with the displacements [m] and the forces that are left [N].
     """
     for k in range(shaft_angle.size):
         unbalanced[k] = balance(ring, shaft_angle[k], force[k], current)
@@ -214,7 +231,8 @@ def roller_loads(ring, shaft_angle, displacement, loads):
     turn_cosine = math.cos(ring.orbit_ratio * shaft_angle)
     turn_sine = math.sin(ring.orbit_ratio * shaft_angle)
     for j in range(ring.cosine.size):
-        radial = (ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine) * displacement[0]
-        radial += (ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine) * displacement[1]
-        approach = (radial - ring.radial_play) * ring.cos_contact_angle + ring.axial[j] * displacement[2]
+        cosine = ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine
+        sine = ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine
+        radial = cosine * displacement[0] + sine * displacement[1] - radial_clearance(ring, cosine, sine)
+        approach = radial * ring.cos_contact_angle + ring.axial[j] * displacement[2]
         loads[j] = ring.stiffness * approach**1.5 if approach > 0.0 else 0.0

@@ -1,16 +1,21 @@
-"""Motion of the inner ring under a load history: the ring balance at every sample, and what it must not exceed."""
+"""Motion of the inner ring under a load history: the ring balance at every sample, and loads it must not exceed.
+
+Loads of rollers that are given take the place of the balance; every roller then has a motion of its own, whose
+"displacement" is what gives it its approach where it is.
+"""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.compiled import jit_lawless
+from macroslip.compiled import jit
 from macroslip.errors import InputError, MacroslipError
-from macroslip.ring.balance import RingGeometry, balance_series, roller_loads
-from macroslip.ring.orbit import Motion, shaft_angle
-from macroslip.ring.travel import travel
+from macroslip.loads import RollerLoads
+from macroslip.ring.balance import RingGeometry, balance_series, radial_clearance, roller_loads
+from macroslip.ring.orbit import Motion, shaft_angle, travel
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -19,6 +24,8 @@ if TYPE_CHECKING:
 #: Largest part of a roller pitch turned between samples of the ring balance; loads sampled more coarsely get samples
 #: in between, because the ring moves with every roller that passes.
 _SAMPLED_PITCH = 0.25
+#: The same where roller loads are given: between samples the approach of a roller on its way is then off by 1e-5 of it.
+_SAMPLED_GIVEN = 1.0 / 16.0
 #: Part of the load that the ring balance may leave unbalanced, and the force [N] below which that does not matter.
 _BALANCE_TOLERANCE = 1e-8
 _NEGLIGIBLE_FORCE = 1e-3
@@ -26,7 +33,7 @@ _NEGLIGIBLE_FORCE = 1e-3
 _SAMPLES_AT_A_TIME = 20_000
 
 
-@jit_lawless
+@jit
 def largest_load(ring, angle, displacement):
     """Largest roller load in a series [N], and the index of its sample."""
     loads = np.empty(ring.cosine.size)
@@ -39,17 +46,25 @@ def largest_load(ring, angle, displacement):
     return largest, sample
 
 
-def ring_motion(loads: BearingLoads, bearing: Bearing, ring: RingGeometry, highest_load: float) -> tuple[Motion, float]:
+def ring_motion(
+    loads: BearingLoads | RollerLoads,
+    bearing: Bearing,
+    ring: RingGeometry,
+    highest_load: float,
+    more: np.ndarray | None = None,
+) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
     Parameters
     ----------
-    loads : BearingLoads
-        Load on the inner ring.
+    loads : BearingLoads or RollerLoads
+        Load on the inner ring; or loads of the rollers, with which the ring is left in the middle.
     bearing : Bearing
     ring : RingGeometry
     highest_load : float
         Roller load [N] that must not be exceeded.
+    more : ndarray, optional
+        Force on the ring beside its load at the samples of its motion [N], shape (n, 3).
 
     Returns
     -------
@@ -64,8 +79,17 @@ def ring_motion(loads: BearingLoads, bearing: Bearing, ring: RingGeometry, highe
     MacroslipError
         If a balance did not converge.
     """
-    time, speed, force = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
+    time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)
+    if isinstance(loads, RollerLoads):
+        motion = Motion(time, speed, angle, np.zeros((time.size, 3)))
+        given = elastic_loads(loads, ring, motion)
+        largest, sample = float(given.max()), int(given.max(axis=1).argmax())
+        _refuse(largest, highest_load, f"{loads.source}, t = {time[sample]:g} s", bearing)
+        return motion, largest
+    force = np.column_stack([np.interp(time, loads.time, component) for component in loads.force.T])
+    if more is not None:
+        force += more
     displacement, unbalanced = np.empty_like(force), np.empty(time.size)
     largest, sample, current = 0.0, 0, np.zeros(3)
     # In pieces, so that an interrupt need not wait for the end of a long history.
@@ -83,29 +107,73 @@ def ring_motion(loads: BearingLoads, bearing: Bearing, ring: RingGeometry, highe
             f"{force[worst]} N unbalanced. This is a defect of the solver; please report it with the bearing and this "
             "load."
         )
+    _refuse(largest, highest_load, f"{loads.source}, t = {time[sample]:g} s", bearing)
+    return Motion(time, speed, angle, displacement), largest
+
+
+def _refuse(largest: float, highest_load: float, where: str, bearing: Bearing) -> None:
     if largest > highest_load:
         raise InputError(
             f"a roller carries {largest / 1e3:.4g} kN, at which its contact ellipse would reach beyond the roller's "
             "ends",
-            where=f"{loads.source}, t = {time[sample]:g} s",
+            where=where,
             allowed=f"roller loads up to {highest_load / 1e3:.4g} kN for {bearing.name}",
             remedy="Check units and signs of the loads, the bearing's size and its osculation. Loads a little higher are "
             "taken with laws: {model: physical}, whose microslip cuts the contact off at the roller's ends.",
         )
-    return Motion(time, speed, angle, displacement), largest
+
+
+def elastic_loads(loads: BearingLoads | RollerLoads, ring: RingGeometry, motion: Motion) -> np.ndarray:
+    """Elastic load of every roller of both rows at the samples of a motion [N], shape (n, rollers)."""
+    if isinstance(loads, RollerLoads):
+        return ring.stiffness * np.maximum(_given_approach(loads, ring, motion), 0.0) ** 1.5
+    found = np.empty((motion.time.size, ring.cosine.size))
+    for line, angle, place in zip(found, motion.shaft_angle, motion.displacement, strict=True):
+        roller_loads(ring, angle, place, line)
+    return found
+
+
+def own_motions(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> list[Motion]:
+    """Motions that give every roller of both rows the loads of its places, in place of `ring_motion`'s."""
+    approach = _given_approach(loads, ring, motion)
+    start = np.arctan2(ring.sine, ring.cosine)
+    found = []
+    for roller in range(start.size):
+        angle = start[roller] + ring.orbit_ratio * motion.shaft_angle
+        cosine, sine = np.cos(angle), np.sin(angle)
+        reach = approach[:, roller] / ring.cos_contact_angle + radial_clearance(ring, cosine, sine)
+        found.append(motion._replace(displacement=np.column_stack([reach * cosine, reach * sine, np.zeros(sine.size)])))
+    return found
+
+
+def _given_approach(loads: RollerLoads, ring: RingGeometry, motion: Motion) -> np.ndarray:
+    """Approach of every roller [m] at the samples of a motion, shape (n, rollers): linear in angle and time."""
+    count, full = ring.cosine.size // 2, 2.0 * math.pi
+    known = loads.approach(ring.stiffness, max(ring.radial_play, 0.0) * ring.cos_contact_angle)
+    before = np.clip(np.searchsorted(loads.time, motion.time, side="right") - 1, 0, loads.time.size - 2)
+    share = (motion.time - loads.time[before]) / (loads.time[before + 1] - loads.time[before])
+    start = np.arctan2(ring.sine, ring.cosine)
+    found = np.empty((motion.time.size, 2 * count))
+    for k, (line, at, part) in enumerate(zip(found, before, share, strict=True)):
+        angles = start + ring.orbit_ratio * motion.shaft_angle[k]
+        for row in range(2):
+            here = slice(row * count, (row + 1) * count)
+            near, far = (np.interp(angles[here], loads.angle[i, row], known[i, row], period=full) for i in (at, at + 1))
+            line[here] = near + part * (far - near)
+    return found
 
 
 def _finely_sampled(
-    loads: BearingLoads, orbit_ratio: float, rollers_per_row: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Time, shaft speed and force of the same piecewise linear loads, with samples close enough for the balance."""
+    loads: BearingLoads | RollerLoads, orbit_ratio: float, rollers_per_row: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Time and shaft speed of the same piecewise linear loads, with samples close enough for the balance."""
+    part = _SAMPLED_GIVEN if isinstance(loads, RollerLoads) else _SAMPLED_PITCH
     path = np.diff(travel(loads.time, loads.shaft_speed, orbit_ratio))
-    pieces = np.ceil(path / (_SAMPLED_PITCH * 2.0 * np.pi / rollers_per_row) * (1.0 - 1e-9)).astype(int)
+    pieces = np.ceil(path / (part * 2.0 * np.pi / rollers_per_row) * (1.0 - 1e-9)).astype(int)
     if pieces.max() <= 1:
         # Copies: the loads are read-only, which would be another type to the compiler and compile everything twice.
-        return loads.time.copy(), loads.shaft_speed.copy(), loads.force.copy()
+        return loads.time.copy(), loads.shaft_speed.copy()
     spans = zip(loads.time[:-1], loads.time[1:], np.maximum(pieces, 1), strict=True)
     pieces = [np.linspace(start, end, count, endpoint=False) for start, end, count in spans]
     time = np.concatenate([*pieces, loads.time[-1:]])
-    force = np.column_stack([np.interp(time, loads.time, component) for component in loads.force.T])
-    return time, np.interp(time, loads.time, loads.shaft_speed), force
+    return time, np.interp(time, loads.time, loads.shaft_speed)

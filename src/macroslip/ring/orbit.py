@@ -1,53 +1,31 @@
-"""The imposed motion: shaft speed, shaft angle and ring displacement between load samples.
+"""The imposed motion: shaft speed, shaft angle and ring displacement between load samples, and when orbits are completed.
 
 Shaft speed and ring displacement are linear between samples; the shaft angle is the exact integral of the speed. So a
-roller's path and load are functions of time alone and do not depend on the integrator's steps.
+roller's path and load are functions of time alone and do not depend on the integrator's steps. Rollers complete orbits
+whatever the shaft does: the path they travel counts, forth and back.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit_inline
 
 
 class Motion(NamedTuple):
-    """Sampled motion of the inner ring, shared by all rollers.
+    """Sampled motion of the inner ring, shared by all rollers."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        Sample times [s], rising.
-    shaft_speed : ndarray, shape (n,)
-        Ω_in [rad/s].
-    shaft_angle : ndarray, shape (n,)
-        Angle turned since the first sample [rad].
-    displacement : ndarray, shape (n, 3)
-        Ring displacement d = (dX, dY, dZ) [m].
-    """
-
-    time: np.ndarray
-    shaft_speed: np.ndarray
-    shaft_angle: np.ndarray
-    displacement: np.ndarray
+    time: np.ndarray  #: Shape (n,). Sample times [s], rising.
+    shaft_speed: np.ndarray  #: Shape (n,). Ω_in [rad/s].
+    shaft_angle: np.ndarray  #: Shape (n,). Angle turned since the first sample [rad].
+    displacement: np.ndarray  #: Shape (n, 3). Ring displacement d = (dX, dY, dZ) [m].
 
 
 def shaft_angle(time: np.ndarray, shaft_speed: np.ndarray) -> np.ndarray:
-    """Exact integral of a piecewise linear shaft speed, zero at the first sample.
-
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        [s].
-    shaft_speed : ndarray, shape (n,)
-        [rad/s].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        [rad].
+    """Exact integral [rad] of a piecewise linear shaft speed [rad/s] over time [s], zero at the first sample.
 
     Examples
     --------
@@ -68,7 +46,7 @@ class Instant(NamedTuple):
     displacement_z: float
 
 
-@jit
+@jit_inline
 def interval_of(motion, time, start):
     """Index of the sample interval that holds `time` [s], searched from interval `start` in either direction."""
     last = motion.time.size - 2
@@ -80,7 +58,7 @@ def interval_of(motion, time, start):
     return k
 
 
-@jit
+@jit_inline
 def instant(motion, interval, time):
     """The ring's motion at `time` [s] inside sample interval `interval`.
 
@@ -88,7 +66,7 @@ def instant(motion, interval, time):
     --------
     >>> motion = Motion(np.array([0.0, 2.0]), np.array([1.0, 3.0]), np.array([0.0, 4.0]), np.zeros((2, 3)))
     >>> now = instant(motion, 0, 1.0)
-    >>> now.shaft_speed, now.shaft_angle
+    >>> float(now.shaft_speed), float(now.shaft_angle)
     (2.0, 1.5)
     """
     since = time - motion.time[interval]
@@ -104,3 +82,59 @@ def instant(motion, interval, time):
         near[1] + (far[1] - near[1]) * share,
         near[2] + (far[2] - near[2]) * share,
     )
+
+
+def angle_at(motion: Motion, time: np.ndarray) -> np.ndarray:
+    """Angle that the shaft has turned since the first sample [rad], at times [s] of the history.
+
+    Examples
+    --------
+    >>> motion = Motion(np.array([0.0, 2.0]), np.array([1.0, 3.0]), np.array([0.0, 4.0]), np.zeros((2, 3)))
+    >>> angle_at(motion, np.array([0.0, 1.0, 2.0])).tolist()
+    [0.0, 1.5, 4.0]
+    """
+    k = np.clip(np.searchsorted(motion.time, time, side="right") - 1, 0, motion.time.size - 2)
+    since = time - motion.time[k]
+    rise = (motion.shaft_speed[k + 1] - motion.shaft_speed[k]) / (motion.time[k + 1] - motion.time[k])
+    return motion.shaft_angle[k] + (motion.shaft_speed[k] + 0.5 * rise * since) * since
+
+
+def travel(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
+    """Angle travelled by the rollers along their orbit, ∫|Ω| dt [rad], exact for a piecewise linear shaft speed [rad/s].
+
+    It is zero at the first of the times [s] and never falls; `orbit_ratio` is Ω/Ω_in.
+
+    Examples
+    --------
+    >>> travel(np.array([0.0, 2.0]), np.array([1.0, -1.0]), 0.5).tolist()
+    [0.0, 0.5]
+    """
+    near, far = shaft_speed[:-1] * orbit_ratio, shaft_speed[1:] * orbit_ratio
+    span = np.diff(time)
+    straight = 0.5 * np.abs(near + far) * span
+    with np.errstate(invalid="ignore", divide="ignore"):
+        turning = 0.5 * (near**2 + far**2) / np.abs(far - near) * span
+    return np.concatenate([[0.0], np.cumsum(np.where(near * far < 0.0, turning, straight))])
+
+
+def orbit_times(time: np.ndarray, shaft_speed: np.ndarray, orbit_ratio: float) -> np.ndarray:
+    """Times at which the rollers have completed 1, 2, 3, … orbits [s], none if not one is completed; given as for `travel`.
+
+    Examples
+    --------
+    >>> orbit_times(np.array([0.0, 10.0]), np.full(2, 2.0 * math.pi), 0.25).tolist()
+    [4.0, 8.0]
+    """
+    speed = shaft_speed * orbit_ratio
+    turns = np.flatnonzero(speed[:-1] * speed[1:] < 0.0)
+    zeros = time[turns] + np.diff(time)[turns] * speed[turns] / (speed[turns] - speed[turns + 1])
+    # Between these times the speed has one sign and goes straight.
+    time, speed = np.insert(time, turns + 1, zeros), np.insert(np.abs(speed), turns + 1, 0.0)
+    path = travel(time, speed, 1.0)
+    # Rounding of the sum may take a little from the last orbit of a whole number; it is given back.
+    count = math.floor(path[-1] / (2.0 * math.pi) * (1.0 + 4e-16 * (time.size + 10)))
+    targets = np.minimum(2.0 * math.pi * np.arange(1, count + 1), path[-1])
+    k = np.searchsorted(path, targets, side="left") - 1
+    since, rise = targets - path[k], (speed[k + 1] - speed[k]) / (time[k + 1] - time[k])
+    root = np.sqrt(np.maximum(speed[k] ** 2 + 2.0 * rise * since, 0.0))
+    return np.minimum(time[k] + 2.0 * since / (speed[k] + root), time[k + 1])

@@ -1,30 +1,69 @@
-"""Everything about a roller that does not change with time, as one tuple of numbers for the compiled kernels."""
+"""Everything about a roller that does not change with time: its numbers, its laws, and both as compiled functions take them."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry, inertia
-from macroslip.bearing.frames import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing import geometry
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
 from macroslip.constants import GRAVITY
-from macroslip.contact.hertz import effective_modulus, elliptical_contact, series_stiffness
-from macroslip.contact.interface import Interface
-from macroslip.mechanisms import Laws
+from macroslip.contact.hertz import series_stiffness
+from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
+from macroslip.contact.look_up import PLANE, REST_SPEED, TRACTION
+from macroslip.contact.mechanisms import Laws
+from macroslip.contact.table import (
+    Box,
+    TableErrors,
+    Tables,
+    cage_values,
+    film_values,
+    oil_values,
+    write_plane,
+    write_traction,
+)
 from macroslip.ring.balance import RingGeometry
-from macroslip.roller.contacts import prepare_contact, prepare_films
-
-#: Share of a roller's load that may lie beyond its ends.
-HIGHEST_TRUNCATED_SHARE = 0.1
+from macroslip.roller.forces import is_faded
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
     from macroslip.lubricant import Lubricant
 
+#: Least load of planes [N], and least speed of oil's as part of the fastest.
+_LIGHTEST, _SLOWEST = 1e-4, 1e-4
 
-class RollerModel(NamedTuple):
+#: A contact of a roller: its tables, the numbers of the paper's closed form, the part of rolling resistance's shear that acts
+#: along the ring's motion (`push`), and what curvature and contact angle make of lag and skew moment in its power.
+CONTACT = np.dtype(
+    [
+        ("traction", TRACTION), ("oil", PLANE), ("film", PLANE),
+        ("conductance", "f8"), ("pressure_exponent", "f8"), ("heating", "f8"),
+        ("boundary_friction", "f8"), ("full_slip", "f8"), ("push", "f8"), ("curvature", "f8"), ("spin", "f8"),
+    ]
+)  # fmt: skip
+#: Waves of an outer ring out of round, as `RingGeometry` has them.
+WAVES = ("second_x", "second_y", "third_x", "third_y")
+_NUMBERS = (
+    "radius", "mobility", "stiffness", "cos_contact_angle", "sin_contact_angle", "radial_play", "orbit_ratio", "outer_radius",
+    "weight_in_plane", "weight_along_axis", "centrifugal", "drag", *WAVES,
+)  # fmt: skip
+#: A roller: `RollerModel`'s numbers, what kinds of laws it has, elastic load from which on films carry nothing beside it, the box
+#: of its tables, and its contacts.
+BODY = np.dtype(
+    [
+        *((name, "f8") for name in _NUMBERS),
+        ("closed_form", "i8"), ("microslip", "i8"), ("oily", "i8"), ("faded_load", "f8"),
+        ("highest_load", "f8"), ("highest_speed", "f8"),
+        ("inner", CONTACT), ("outer", CONTACT), ("cage", CONTACT),
+    ]
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class RollerModel:
     """One roller on its imposed orbit.
 
     Attributes
@@ -49,10 +88,10 @@ class RollerModel(NamedTuple):
         m r~ [kg m]; times Ω² gives the centrifugal force (18).
     drag : float
         ½ C_D ρ_eff 2 r l r~² [N s²]; times Ω² gives the drag (24).
-    films : Films or NoFilms
-        The oil around the roller: rolling resistance, and films where it has play.
-    inner, outer, cage : PlainContact or CurvedContact
-        Laws of the three interfaces.
+    second_x, second_y, third_x, third_y : float
+        Waves of the clearance, as in `macroslip.ring.balance.RingGeometry` [m].
+    laws : RollerLaws
+        Of the three contacts.
     """
 
     radius: float
@@ -67,90 +106,36 @@ class RollerModel(NamedTuple):
     weight_along_axis: float
     centrifugal: float
     drag: float
-    films: Any
-    inner: Any
-    outer: Any
-    cage: Any
+    second_x: float
+    second_y: float
+    third_x: float
+    third_y: float
+    laws: RollerLaws
+
+    @property
+    def curved(self) -> bool:
+        """Whether slip may vary over its contacts, or asperities touch."""
+        return self.laws.inner.curved
 
 
-def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Interface, Interface]:
-    """The inner, outer and cage interface of a roller, with their Hertz coefficients (section "Forces" of the paper).
+class Roller(NamedTuple):
+    """A roller as compiled functions take it: the record of its numbers, and the flat array of its tables."""
 
-    Parameters
-    ----------
-    bearing : Bearing
-    lubricant : Lubricant
-
-    Returns
-    -------
-    tuple of three Interface
-        In the order inner, outer, cage.
-    """
-    own = bearing.youngs_modulus, bearing.poisson_ratio
-    steel = effective_modulus(*own, *own)
-    cage = effective_modulus(*own, bearing.cage_youngs_modulus, bearing.cage_poisson_ratio)
-    found = []
-    for name, curvatures, modulus in (
-        ("inner", geometry.inner_curvatures(bearing), steel),
-        ("outer", geometry.outer_curvatures(bearing), steel),
-        ("cage", geometry.cage_curvatures(bearing), cage),
-    ):
-        hertz = elliptical_contact(curvatures.rolling, curvatures.lateral, modulus)
-        found.append(
-            Interface(
-                name, hertz, 1.0 / curvatures.rolling, modulus, bearing.composite_roughness, bearing.hardness, lubricant
-            )
-        )
-    return tuple(found)
+    body: np.ndarray
+    tables: np.ndarray
 
 
-def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
-    """Roller load [N] at which a raceway contact ellipse reaches the ends of the roller.
+class TableReport(NamedTuple):
+    """Numbers on tables for a result: relative errors of force and power, size [bytes], and processor time they took [s]."""
 
-    Above it the contact is truncated, and Hertz pressure, film and traction formulas no longer describe it.
-    """
-    inner, outer, _ = interfaces(bearing, lubricant)
-    half = 0.5 * bearing.roller_length
-    return min(contact.hertz.load_at_semi_axis_across(half) for contact in (inner, outer))
-
-
-def truncated_share(load: float, truncation: float) -> float:
-    """Share of a roller's load whose part of the Hertz ellipse lies beyond the roller's ends [-].
-
-    Parameters
-    ----------
-    load : float
-        Largest roller load [N].
-    truncation : float
-        From `truncation_load` [N].
-
-    Examples
-    --------
-    >>> truncated_share(1e5, 2e5), round(truncated_share(4e5, 2e5), 4)
-    (0.0, 0.0594)
-    """
-    if load <= truncation:
-        return 0.0
-    part = (truncation / load) ** (1.0 / 3.0)
-    return 1.0 - 0.5 * part * (3.0 - part * part)
-
-
-def highest_load(bearing: Bearing, lubricant: Lubricant, laws: Laws) -> float:
-    """Roller load [N] that a case may not exceed.
-
-    There the ellipse reaches the roller's ends; with microslip, which cuts it off there, a tenth of the load would lie
-    beyond them.
-    """
-    truncation = truncation_load(bearing, lubricant)
-    if not laws.microslip:
-        return truncation
-    # (3t − t³)/2 = 1 − share, with t the half length over the semi-axis.
-    part = 2.0 * math.sin(math.asin(1.0 - HIGHEST_TRUNCATED_SHARE) / 3.0)
-    return truncation / part**3
+    typical_error: float
+    worst_error: float
+    size: int
+    build_time: float
 
 
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
-    """What the ring balance needs of a bearing; `model` is a roller of the downwind row."""
+    """Geometry and stiffness for the ring balance; `model` is a roller of the downwind row."""
     count = bearing.rollers_per_row
     angles = np.concatenate([initial_angles(row, count) for row in ROWS])
     signs = np.repeat([AXIAL_SIGNS[row] for row in ROWS], count)
@@ -162,6 +147,7 @@ def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
         radial_play=model.radial_play,
         stiffness=model.stiffness,
         orbit_ratio=model.orbit_ratio,
+        **{name: getattr(model, name) for name in WAVES},
     )
 
 
@@ -190,10 +176,6 @@ def roller_model(
     laws : Laws
         Mechanisms in the contacts.
 
-    Returns
-    -------
-    RollerModel
-
     Raises
     ------
     InputError
@@ -204,18 +186,19 @@ def roller_model(
     The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
     """
     radius = geometry.roller_radius(bearing)
-    mass = inertia.roller_mass(bearing.density, radius, bearing.roller_length)
-    found = interfaces(bearing, lubricant)
+    mass = geometry.roller_mass(bearing.density, radius, bearing.roller_length)
+    prepared = prepare(laws, bearing, lubricant, axial_sign)
     inner_radius = geometry.inner_contact_radius(bearing)
     outer_radius = geometry.outer_contact_radius(bearing)
     weight = mass * GRAVITY if gravity else 0.0
-    effective_density = lubricant.fill_factor * lubricant.density
+    density = lubricant.fill_factor * lubricant.density if drag else 0.0
     area = 2.0 * radius * bearing.roller_length
-    contacts = [prepare_contact(laws, bearing, lubricant, one, axial_sign) for one in found]
+    second, third = bearing.out_of_round_second or 0.0, bearing.out_of_round_third or 0.0
+    crest = bearing.out_of_round_angle or 0.0
     return RollerModel(
         radius=radius,
-        mobility=radius**2 / inertia.spin_inertia(mass, radius),
-        stiffness=series_stiffness(found[0].hertz, found[1].hertz),
+        mobility=radius**2 / geometry.spin_inertia(mass, radius),
+        stiffness=series_stiffness(prepared.inner.interface.hertz, prepared.outer.interface.hertz),
         cos_contact_angle=math.cos(bearing.contact_angle),
         sin_contact_angle=axial_sign * math.sin(bearing.contact_angle),
         radial_play=0.5 * bearing.diametral_clearance,
@@ -224,9 +207,104 @@ def roller_model(
         weight_in_plane=weight * math.cos(tilt),
         weight_along_axis=weight * math.sin(tilt),
         centrifugal=mass * bearing.pitch_radius,
-        drag=0.5 * lubricant.drag_coefficient * effective_density * area * bearing.pitch_radius**2 if drag else 0.0,
-        films=prepare_films(laws, bearing, lubricant, found),
-        inner=contacts[0],
-        outer=contacts[1],
-        cage=contacts[2],
+        drag=0.5 * lubricant.drag_coefficient * density * area * bearing.pitch_radius**2,
+        second_x=second * math.cos(2.0 * crest),
+        second_y=second * math.sin(2.0 * crest),
+        third_x=third * math.cos(3.0 * crest),
+        third_y=third * math.sin(3.0 * crest),
+        laws=prepared,
     )
+
+
+def body_force(model: RollerModel, shaft_speed: float) -> float:
+    """Largest weight and centrifugal force of a roller [N] at shaft speeds up to the given one [rad/s]."""
+    weight = abs(model.weight_in_plane) + abs(model.weight_along_axis)
+    return weight + model.centrifugal * (model.orbit_ratio * shaft_speed) ** 2
+
+
+def with_tables(
+    models: dict[str, RollerModel], box: Box, pocket_gap: float = POCKET_GAP
+) -> tuple[dict[str, Roller], TableReport]:
+    """The rollers of both rows with the tables of their contacts, made or from store.
+
+    Parameters
+    ----------
+    models : dict of RollerModel
+        By row, of the same bearing, oil and laws.
+    box : Box
+        States that the tables hold.
+    pocket_gap : float
+        Largest gap between a roller and the spar that pushes it [m].
+    """
+    tables, found, errors = Tables(), {}, []
+    first = np.zeros(1, BODY)
+    model = next(iter(models.values()))
+    for name in ("inner", "outer", "cage"):
+        errors += _write_contact(first[0][name], tables, getattr(model.laws, name), box, pocket_gap)
+    flat = tables.flat()
+    for row, one in models.items():
+        body = first.copy()
+        _write_numbers(body[0], one, box)
+        found[row] = Roller(body, flat)
+    if body[0]["oily"]:
+        load = _faded_load(found, model, box)
+        for one in found.values():
+            one.body[0]["faded_load"] = load
+    typical, worst, seconds = (max(column) for column in zip(*errors, strict=True)) if errors else (0.0, 0.0, 0.0)
+    return found, TableReport(typical, worst, flat.nbytes, seconds)
+
+
+def _write_contact(
+    record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float
+) -> list[TableErrors]:
+    """Write the tables and numbers of one contact; the errors of its traction's table, if it has one."""
+    errors = []
+    record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
+    slowest = _SLOWEST * box.fastest
+    if contact.closed_form is not None:
+        write_plane(record["film"], tables, film_values(contact), _LIGHTEST, REST_SPEED, box)
+        for name in ("conductance", "pressure_exponent", "heating"):
+            record[name] = getattr(contact.closed_form, name)
+    elif contact.name != "cage":
+        errors.append(write_traction(record["traction"], tables, contact, box))
+    if contact.name == "cage":
+        write_plane(record["oil"], tables, cage_values(contact, pocket_gap), _LIGHTEST, slowest, box)
+    elif contact.rolling is not None:
+        write_plane(record["oil"], tables, oil_values(contact), _LIGHTEST, slowest, box)
+        # Beside its shear the inclined pressure pushes by −2 R/r of it.
+        record["push"] = 1.0 - 2.0 * contact.rolling.share_1
+    return errors
+
+
+def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
+    """Write what differs between rows, and numbers of the whole roller."""
+    for name in _NUMBERS:
+        body[name] = getattr(model, name)
+    laws = model.laws
+    body["closed_form"] = laws.inner.closed_form is not None
+    body["microslip"] = laws.inner.shape.microslip
+    body["oily"] = laws.inner.rolling is not None
+    body["faded_load"] = math.inf
+    body["highest_load"], body["highest_speed"] = box.load, box.fastest
+    for name in ("inner", "outer"):
+        shape = getattr(laws, name).shape
+        if shape.microslip:
+            body[name]["curvature"] = shape.curvature_ratio * shape.roller_radius
+            body[name]["spin"] = shape.spin_ratio
+            body[name]["traction"]["side"] = math.copysign(1.0, shape.spin_ratio)
+
+
+def _faded_load(rollers: dict[str, Roller], model: RollerModel, box: Box) -> float:
+    """Elastic load [N] from which on films carry nothing beside it in the box.
+
+    Films grow with speed, and carry more the less the body force presses on one of them.
+    """
+    shaft_speed = box.fastest / (model.orbit_ratio * model.outer_radius)
+    most = body_force(model, shaft_speed)
+    roller = next(iter(rollers.values()))
+    load = 1.0
+    while not all(
+        is_faded(roller.body[0], roller.tables.ctypes.data, load, one, box.fastest) for one in (-most, 0.0, most)
+    ):
+        load *= 1.1
+    return load

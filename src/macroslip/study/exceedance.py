@@ -3,44 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import YEAR, Weights, binned
-
-if TYPE_CHECKING:
-    import xarray as xr
+from macroslip.study.weights import YEAR, Weights, binned, described, weighted
 
 #: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
 THRESHOLDS = np.logspace(-9.0, 9.0, 721)
 
 
 def exceedance(
-    study: xr.Dataset,
-    weights: Weights,
-    *,
-    field: str = "wind_speed",
-    width: float = 2.0,
-    by: Sequence[str] = (),
+    study: xr.Dataset, weights: Weights, *, field: str = "wind_speed", width: float = 2.0, by: Sequence[str] = ()
 ) -> xr.Dataset:
     """How many orbits a year of one roller exceed an energy, and a peak power.
 
         n(x) = 1 year · Σ_b p_b N_b(> x) / t_b
 
     with the probability p_b of bin b, the number N_b(> x) of its orbits above x, over all runs, rollers of the row and
-    complete orbits, and the time t_b that these took, over the same.
+    complete orbits, and the time t_b that these took, over the same; of an event, the whole of its window.
 
     Results are read one after the other and counted by classes, so that memory does not grow with the study.
 
     Parameters
     ----------
-    study : xarray.Dataset
-        From `open_study`.
-    weights : Weibull or Given
-    field, width, by
-        As in `macroslip.study.weights.binned`.
+    study, weights, field, width, by
+        As in `macroslip.study.lifetime.lifetime_energy`.
 
     Returns
     -------
@@ -55,23 +44,21 @@ def exceedance(
     InputError
         If a label or a probability is wrong, or a stored result is damaged.
     """
-    import xarray as xr
-
     missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
     if missing:
-        raise InputError(
-            f"the results hold no {' and no '.join(missing)}",
-            allowed="a study with results that keep them",
-            remedy="Add them to keep in the study file, and go on with --resume.",
-        )
+        what = f"the results hold no {' and no '.join(missing)}"
+        remedy = "Add them to keep in the study file, and go on with --resume."
+        raise InputError(what, allowed="a study with results that keep them", remedy=remedy)
     bins = binned(study, field, width, by)
     shape = (len(bins.groups), bins.centres.size, study.sizes["row"])
-    counts = {name: np.zeros((*shape, THRESHOLDS.size)) for name in ("energy", "power")}
+    counts = np.zeros((2, *shape, THRESHOLDS.size))
     orbits, seconds = np.zeros(shape), np.zeros(shape)
     used, left_out = np.zeros(shape[:2]), np.zeros(shape[:2])
     for case in range(study.sizes["case"]):
         cell = bins.group[case], bins.bin[case]
-        if not np.isfinite(study.energy_mean.values[case]).all() or not study.orbits.values[case] > 0:
+        event = bool(bins.events[bins.bin[case]])
+        complete = event or study.orbits.values[case] > 0
+        if not np.isfinite(study.energy_mean.values[case]).all() or not complete:
             left_out[cell] += 1
             continue
         used[cell] += 1
@@ -82,60 +69,46 @@ def exceedance(
         length = (one.orbit_end - one.orbit_start).values
         for row in range(shape[2]):
             present = np.isfinite(energy[row])
-            for name, values in (("energy", energy), ("power", power)):
-                counts[name][*cell, row] += present.sum() - np.searchsorted(
-                    np.sort(values[row][present]), THRESHOLDS, side="right"
-                )
+            for kind, values in enumerate((energy, power)):
+                above = np.sort(values[row][present])
+                counts[kind][*cell, row] += present.sum() - np.searchsorted(above, THRESHOLDS, side="right")
             orbits[*cell, row] += present.sum()
-            seconds[*cell, row] += np.broadcast_to(length, present.shape)[present].sum()
-    with np.errstate(invalid="ignore", divide="ignore"):
-        per_second = {name: values / seconds[..., None] for name, values in counts.items()}
-        all_per_second = orbits / seconds
+            # An event has all of its record for the orbits that it completes, which may be none.
+            alone = float(one.window_length) * max(present.any(axis=-1).sum(), 1)
+            seconds[*cell, row] += alone if event else np.broadcast_to(length, present.shape)[present].sum()
     weight = bins.probabilities(weights)
-    found = {name: YEAR * _weighted(values, weight) for name, values in per_second.items()}
-    every = YEAR * _weighted(all_per_second, weight)
-    kept = _where_something_happens(np.stack(list(found.values())), every)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        found = np.stack([YEAR * weighted(values / seconds[..., None], weight) for values in counts])
+        every = YEAR * weighted(orbits / seconds, weight)
+        # Thresholds that some orbits exceed and some do not, and one more at either end.
+        some = (found > 0.0) & (found < every[None, ..., None] * (1.0 - 1e-12))
+    kept = _span(some.any(axis=(0, 1, 2)))
     dims = ("group", "row", "threshold")
     return xr.Dataset(
         {
-            "energy_orbits": (dims, found["energy"][..., kept], _about("1/year", "orbits whose energy exceeds it")),
-            "power_orbits": (dims, found["power"][..., kept], _about("1/year", "orbits whose peak power exceeds it")),
-            "orbits": (dims[:2], every, _about("1/year", "orbits of a roller")),
-            "runs": (("group", "bin"), used, _about("1", "runs that were counted")),
-            "left_out": (("group", "bin"), left_out, _about("1", "runs without a result, or without an orbit")),
+            "energy_orbits": (dims, found[0][..., kept], described("1/year", "orbits whose energy exceeds it")),
+            "power_orbits": (dims, found[1][..., kept], described("1/year", "orbits whose peak power exceeds it")),
+            "orbits": (dims[:2], every, described("1/year", "orbits of a roller")),
+            "runs": (("group", "bin"), used, described("1", "runs that were counted")),
+            "left_out": (("group", "bin"), left_out, described("1", "runs without a result, or without an orbit")),
         },
         bins.coordinates(study) | {
             "row": study.row,
-            "threshold": ("threshold", THRESHOLDS[kept], _about("J or W", "energy [J] or power [W]")),
+            "threshold": ("threshold", THRESHOLDS[kept], described("J or W", "energy [J] or power [W]")),
         },
         {"title": f"Exceedance per orbit: {study.attrs.get('title', '')}"},
     )  # fmt: skip
 
 
 def load_spectrum(
-    study: xr.Dataset,
-    weights: Weights,
-    *,
-    years: float = 20.0,
-    field: str = "wind_speed",
-    width: float = 2.0,
+    study: xr.Dataset, weights: Weights, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
     by: Sequence[str] = (),
-) -> xr.Dataset:
+) -> xr.Dataset:  # fmt: skip
     """Cycles of the bearing's load in a lifetime by their range, of a study that counts cycles.
 
         n = T Σ_b p_b (1/N_b) Σ_{c in b} n_c / t_c
 
-    as in `lifetime_energy`, with the cycles n_c and the length t_c of each load history.
-
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    weights : Weibull or Given
-    years : float
-        T [years of 365.25 days].
-    field, width, by
-        As in `macroslip.study.weights.binned`.
+    as in `macroslip.study.lifetime.lifetime_energy`, with the cycles n_c and the length t_c of each load history.
 
     Returns
     -------
@@ -148,26 +121,15 @@ def load_spectrum(
     InputError
         If a label or a probability is wrong, or the study has not counted cycles.
     """
-    import xarray as xr
-
     if "load_cycles" not in study:
-        raise InputError(
-            "the study has not counted cycles", remedy="Set `cycles: true` in the study file and run it again."
-        )
+        remedy = "Set `cycles: true` in the study file and run it again."
+        raise InputError("the study has not counted cycles", remedy=remedy)
     bins = binned(study, field, width, by)
-    counts = study.load_cycles
-    shape = (len(bins.groups), bins.centres.size)
-    total, used = np.zeros((*shape, *counts.shape[1:])), np.zeros(shape)
-    for case in range(study.sizes["case"]):
-        values = counts.isel(case=case).values / study.loads_length.values[case]
-        if np.isfinite(values).all():
-            total[bins.group[case], bins.bin[case]] += values
-            used[bins.group[case], bins.bin[case]] += 1
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean = total / used[..., None, None]
-    cycles = years * YEAR * _weighted(mean, bins.probabilities(weights))
+    lengths = study.loads_length.values
+    rates = (study.load_cycles.isel(case=case).values / lengths[case] for case in range(study.sizes["case"]))
+    cycles = years * YEAR * weighted(bins.means(rates)[0], bins.probabilities(weights))
     kept = _span(np.nan_to_num(cycles).any(axis=(0, 1)))
-    about = _about("1", f"cycles of the bearing's load in {years:g} years")
+    about = described("1", f"cycles of the bearing's load in {years:g} years")
     return xr.Dataset(
         {"cycles": (("group", "component", "load_range"), cycles[..., kept], about)},
         bins.coordinates(study, bins=False) | {"component": study.component, "load_range": study.load_range[kept]},
@@ -175,23 +137,6 @@ def load_spectrum(
     )
 
 
-def _where_something_happens(numbers: np.ndarray, every: np.ndarray) -> slice:
-    """Thresholds that some orbits exceed and some do not, and one more at either end."""
-    with np.errstate(invalid="ignore"):
-        some = (numbers > 0.0) & (numbers < every[None, ..., None] * (1.0 - 1e-12))
-    return _span(some.any(axis=(0, 1, 2)))
-
-
 def _span(some: np.ndarray) -> slice:
     places = np.flatnonzero(some)
     return slice(max(int(places[0]) - 1, 0), int(places[-1]) + 2) if places.size else slice(0, 1)
-
-
-def _weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
-    """Sum of values (groups, bins, ...) over bins by their probability; a bin of no weight may be NaN."""
-    some = probability > 0.0
-    return np.tensordot(probability[some], values[:, some], axes=(0, 1))
-
-
-def _about(units: str, long_name: str) -> dict[str, Any]:
-    return {"units": units, "long_name": long_name}

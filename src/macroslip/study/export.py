@@ -4,36 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
+import xarray as xr
 
 from macroslip.files import write_durably
+from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance, load_spectrum
 from macroslip.study.lifetime import lifetime_energy, percentiles, worst
-from macroslip.study.outcome import Outcome
-from macroslip.study.safe_text import cell
+from macroslip.study.store import Outcome
 from macroslip.study.weights import Weights
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
+from macroslip.study.year import CRITERIA, EXPONENTS, LIVES, SUMS, designs, year
 
 FORMATS = ("csv", "parquet")
 
 
 def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
-    """Some variables of a dataset with all coordinates they have, one line a value; units are in the headings.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    names : sequence of str
-        Variables with the same dimensions.
-
-    Returns
-    -------
-    pandas.DataFrame
+    """Variables with all coordinates they have, one line a value of the largest; units are in the headings.
 
     Examples
     --------
@@ -43,6 +32,7 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
     ['row', 'energy [J]']
     """
     part = dataset[list(names)]
+    part = part.assign({name: one.broadcast_like(part) for name, one in part.items()})
     frame = part.reset_coords().to_dataframe().reset_index()
     frame = frame.loc[:, [name for name in (*part.coords, *names) if name in frame]]
     units = {name: one.attrs.get("units", "1") for name, one in part.variables.items()}
@@ -51,14 +41,9 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
 
 
 def tables(
-    study: xr.Dataset,
-    weights: Weights | None,
-    *,
-    years: float = 20.0,
-    field: str = "wind_speed",
-    width: float = 2.0,
+    study: xr.Dataset, weights: Weights | None, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
     by: Sequence[str] = (),
-) -> dict[str, pd.DataFrame]:
+) -> dict[str, pd.DataFrame]:  # fmt: skip
     """All tables of a study by name; docs/studies.md lists their columns.
 
     Parameters
@@ -66,8 +51,9 @@ def tables(
     study : xarray.Dataset
         From `open_study`.
     weights : Weibull or Given, optional
-        Without them there are `cases`, `failures`, `worst` and `percentiles`; with them also `lifetime`, `bins`,
-        `exceedance`, where results keep what it needs, and, if the study counts cycles, `cycles`.
+        Without them there are `cases`, `failures`, `worst`, `percentiles`, `designs` and, of a sample, `effects`; with them
+        also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where results keep its variables, and, if the study counts
+        cycles, `cycles`.
     years, field, width, by
         As in `macroslip.study.lifetime.lifetime_energy`.
     """
@@ -79,16 +65,21 @@ def tables(
     found["worst"] = as_table(worst(study), by_row)
     spread = percentiles(study, field=field, width=width, by=by)
     found["percentiles"] = as_table(spread, [name for name in spread.data_vars if name != "runs"])
+    whole = year(study, weights, field=field, width=width, by=by)
+    units = {name: unit for name, (_, unit, _) in CRITERIA.items()} | dict.fromkeys(LIVES, "h")
+    ranked = designs(whole)[0].dropna(axis="columns", how="all")
+    found["designs"] = ranked.rename(columns={name: f"{name} [{unit}]" for name, unit in units.items() if unit != "1"})
+    if sampled_parameters(study):
+        drivers = effects(study, weights, field=field, width=width)
+        found["effects"] = as_table(drivers, [name for name, one in drivers.items() if "parameter" in one.dims])
     if weights is None:
         return found
+    by_bin = ["hours", "runs", "energy", "per_hour", "peak", "entry_slip", *SUMS]
+    found["year"] = as_table(whole, [name for name in by_bin if name in whole])
+    found["lives"] = as_table(whole, [*LIVES, *(f"damage_equivalent_load_{m}" for m in EXPONENTS)])
     life = lifetime_energy(study, weights, years=years, field=field, width=width, by=by)
-    found["lifetime"] = as_table(
-        life.assign(covered=life.covered.broadcast_like(life.lifetime_energy)), ["lifetime_energy", "covered"]
-    )
-    found["bins"] = as_table(
-        life.assign({name: life[name].broadcast_like(life.power) for name in _OF_BINS}),
-        ["power", "bin_energy", *_OF_BINS],
-    )
+    found["lifetime"] = as_table(life, ["lifetime_energy", "covered"])
+    found["bins"] = as_table(life, ["power", "bin_energy", "probability", "runs", "left_out"])
     if {"orbit_energy", "peak_power"} <= set(study.data_vars):
         curves = exceedance(study, weights, field=field, width=width, by=by)
         found["exceedance"] = as_table(curves, ["energy_orbits", "power_orbits"])
@@ -99,24 +90,8 @@ def tables(
     return found
 
 
-_OF_BINS = ("probability", "runs", "left_out")
-
-
 def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> list[Path]:
-    """Write tables, each to a file of its name; text in CSV is made harmless to spreadsheets.
-
-    Parameters
-    ----------
-    found : dict of str to DataFrame
-    folder : Path
-        Made if need be; files of the same names are replaced.
-    form : str
-        `csv` or `parquet`.
-
-    Returns
-    -------
-    list of Path
-    """
+    """Write tables, each to a file of its name in the folder, as `csv` or `parquet`; files of the same names are replaced."""
     import io
 
     written = []
@@ -134,4 +109,5 @@ def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> lis
 
 
 def _harmless(value: Any) -> Any:
-    return cell(value) if isinstance(value, str) else value
+    """Text with an apostrophe in front where a spreadsheet would take it as a formula; else unchanged."""
+    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value

@@ -4,39 +4,36 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import YEAR, Binning, Weights, binned
+from macroslip.study.weights import YEAR, Weights, binned, described, weighted
+from macroslip.study.year import year
 
-if TYPE_CHECKING:
-    import xarray as xr
+#: Variables over the places of the raceways in a result.
+_PLACES = ("row", "raceway", "angle", "station")
 
 
 def lifetime_energy(
-    study: xr.Dataset,
-    weights: Weights,
-    *,
-    years: float = 20.0,
-    field: str = "wind_speed",
-    width: float = 2.0,
+    study: xr.Dataset, weights: Weights, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
     by: Sequence[str] = (),
-) -> xr.Dataset:
+) -> xr.Dataset:  # fmt: skip
     """Frictional energy of a roller over a lifetime, mean over the rollers of a row.
 
         E = T Σ_b p_b P_b,    P_b = (1/N_b) Σ_{c in b} E_c / t_c
 
     with the lifetime T, the probability p_b of bin b, the energy E_c (`energy_mean`) of its N_b runs and the length t_c
-    of their windows. Time outside the bins of the study contributes nothing; `covered` is the share of all time in the
-    bins.
+    of their windows. An event is a bin of its own, whose p_b is the share of time that its rate gives it, and wind speeds
+    share the rest. Time outside the bins contributes nothing; `covered` is the share of all time in the bins.
 
     Parameters
     ----------
     study : xarray.Dataset
         From `open_study`.
-    weights : Weibull or Given
+    weights : Weibull, Given or Year
     years : float
         T [years of 365.25 days], above 0.
     field, width, by
@@ -67,82 +64,48 @@ def lifetime_energy(
     >>> f"{float(found.lifetime_energy[0, 0]):.4g} J"
     '1.893e+09 J'
     """
-    import xarray as xr
-
-    if not (math.isfinite(years) and years > 0.0):
-        raise InputError(f"the lifetime is {years!r} years", allowed="a number above 0")
-    bins = binned(study, field, width, by)
-    probability = bins.probabilities(weights)
-    rate = study.energy_mean.transpose("case", "row").values / study.window_length.values[:, None]
-    power, used, left_out = _bin_means(bins, rate)
-    with np.errstate(invalid="ignore"):
-        # A bin of no weight needs no run.
-        parts = np.where(probability[:, None] > 0.0, years * YEAR * probability[:, None] * power, 0.0)
-    return xr.Dataset(
-        {
-            "lifetime_energy": (("group", "row"), parts.sum(axis=1), _about(
-                "J", f"energy dissipated by a roller in {years:g} years, mean over the rollers of the row")),
-            "bin_energy": (("group", "bin", "row"), parts, _about("J", "part of the bin in it")),
-            "power": (("group", "bin", "row"), power, _about("W", "energy of a roller per time, mean over runs")),
-            "runs": (("group", "bin"), used, _about("1", "runs of the means")),
-            "left_out": (("group", "bin"), left_out, _about("1", "runs without a result for all rollers")),
-            "probability": ("bin", probability, _about("1", "share of time in the bin")),
-            "covered": ((), probability.sum(), _about("1", "share of time in all bins")),
-        },
-        bins.coordinates(study) | {"row": study.row},
-        {"title": f"Lifetime energy: {study.attrs.get('title', '')}", "years": years},
-    )  # fmt: skip
+    _check_years(years)
+    found = year(study, weights, field=field, width=width, by=by)
+    about = f"energy dissipated by a roller in {years:g} years, mean over the rollers of the row"
+    data = {
+        "lifetime_energy": (years * found.total).assign_attrs(described("J", about)),
+        "bin_energy": (years * found.energy).assign_attrs(described("J", "part of the bin in it")),
+        "power": (found.per_hour / 3600.0).assign_attrs(described("W", "energy of a roller per time, mean over runs")),
+        "probability": (found.hours * 3600.0 / YEAR).assign_attrs(described("1", "share of time in the bin")),
+    }
+    title = f"Lifetime energy: {study.attrs.get('title', '')}"
+    return found[["runs", "left_out", "covered"]].assign(data).assign_attrs(title=title, years=years)
 
 
 def percentiles(
-    study: xr.Dataset,
-    *,
-    quantiles: Sequence[float] = (0.05, 0.5, 0.95),
-    field: str = "wind_speed",
-    width: float = 2.0,
+    study: xr.Dataset, *, quantiles: Sequence[float] = (0.05, 0.5, 0.95), field: str = "wind_speed", width: float = 2.0,
     by: Sequence[str] = (),
-) -> xr.Dataset:
+) -> xr.Dataset:  # fmt: skip
     """Spread of the runs in each bin, which differ in their seeds.
 
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    quantiles : sequence of float
-        From 0 to 1.
-    field, width, by
-        As in `macroslip.study.weights.binned`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (group, bin, row, quantile), linear between runs (`numpy.quantile`): `power` [W], energy of a roller per
-        time, `orbit_energy_mean` [J], `peak_power_mean` and `peak_power_max` [W], `lowest_spin_ratio` [1]; and `runs`,
-        over (group, bin). Runs without a value are left out.
-
-    Raises
-    ------
-    InputError
-        If a label or a quantile is wrong.
+    Over (group, bin, row, quantile), linear between runs (`numpy.quantile`): `power` [W], energy of a roller per time,
+    `orbit_energy_mean` [J], `peak_power_mean` and `peak_power_max` [W], `lowest_spin_ratio` [1]; and `runs`, over (group,
+    bin). Runs without a value are left out. Arguments are those of `lifetime_energy`; quantiles are from 0 to 1. Raises
+    InputError if a label or a quantile is wrong.
     """
-    import xarray as xr
-
     if not quantiles or not all(0.0 <= quantile <= 1.0 for quantile in quantiles):
         raise InputError(f"the quantiles are {list(quantiles)!r}", allowed="numbers from 0 to 1")
     bins = binned(study, field, width, by)
-    rate = study.energy_mean / study.window_length
     names = ("orbit_energy_mean", "peak_power_mean", "peak_power_max", "lowest_spin_ratio")
-    wanted = {"power": (rate, _about("W", "energy dissipated by a roller per time"))}
-    wanted |= {name: (study[name], dict(study[name].attrs)) for name in names}
-    data: dict[str, Any] = {}
-    for name, (values, about) in wanted.items():
-        values = values.transpose("case", "row").values
-        runs = bins.by_cell(np.where(np.isfinite(values), values, np.nan))
-        found = np.stack([bins.as_array(runs.quantile(quantile)) for quantile in quantiles], axis=-1)
-        data[name] = (("group", "bin", "row", "quantile"), found, about)
-    _, used, _ = _bin_means(bins, rate.transpose("case", "row").values)
-    data["runs"] = (("group", "bin"), used, _about("1", "runs of the quantiles"))
-    coordinates = {"row": study.row, "quantile": ("quantile", list(quantiles), _about("1", "share of runs below"))}
+    power = (study.energy_mean / study.window_length).transpose("case", "row")
+    wanted = {"power": power.assign_attrs(described("W", "energy dissipated by a roller per time"))} | {
+        name: study[name].transpose("case", "row") for name in names
+    }
+    shape = len(bins.groups), bins.centres.size, study.sizes["row"]
+    cells = [np.repeat(one, shape[2]) for one in (bins.group, bins.bin)]
+    frame = xr.Dataset({name: ("run", one.values.ravel()) for name, one in wanted.items()}).to_dataframe()
+    found = frame.groupby([*cells, np.tile(np.arange(shape[2]), study.sizes["case"])]).quantile(list(quantiles))
+    # A cell without runs has no line.
+    every, dims = [*map(range, shape), list(quantiles)], ("group", "bin", "row", "quantile")
+    array = found.rename_axis(index=dims).to_xarray().reindex(dict(zip(dims, every, strict=True))).transpose(*dims)
+    data: dict[str, Any] = {name: (dims, array[name].values, dict(one.attrs)) for name, one in wanted.items()}
+    data["runs"] = (dims[:2], bins.means(power.values)[1], described("1", "runs of the quantiles"))
+    coordinates = {"row": study.row, "quantile": ("quantile", list(quantiles), described("1", "share of runs below"))}
     title = {"title": f"Percentiles over runs: {study.attrs.get('title', '')}"}
     return xr.Dataset(data, bins.coordinates(study) | coordinates, title)
 
@@ -174,34 +137,89 @@ def worst(
     InputError
         If there is no such variable.
     """
-    import pandas as pd
-    import xarray as xr
-
     names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
     if variable not in names:
         raise InputError(f"the summary has no variable '{variable}'", allowed=", ".join(map(str, names)))
     if count < 1:
         raise InputError(f"the count is {count}", allowed="a whole number above 0")
-    summary = study[[name for name, one in study.data_vars.items() if set(one.dims) <= {"case", "row"}]]
-    summary = summary.drop_vars(
-        [name for name in study.coords if not set(study[name].dims) <= {"case", "row"}], errors="ignore"
-    )
+    summary = study.drop_vars([name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}])
     values = study[variable].transpose("case", "row").values
-    finite = pd.Series(values.ravel())[np.isfinite(values.ravel())]
-    order = (finite.nsmallest(count) if smallest else finite.nlargest(count)).index.to_numpy()
+    finite = np.flatnonzero(np.isfinite(values))
+    order = finite[np.argsort((1 if smallest else -1) * values.ravel()[finite], kind="stable")][:count]
     cases, rows = np.unravel_index(order, values.shape)
     found = summary.isel(case=xr.DataArray(cases, dims="rank"), row=xr.DataArray(rows, dims="rank"))
-    return found.assign_coords(rank=("rank", np.arange(1, order.size + 1), _about("1", f"rank by {variable}")))
+    return found.assign_coords(rank=("rank", np.arange(1, order.size + 1), described("1", f"rank by {variable}")))
 
 
-def _bin_means(bins: Binning, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean of values (runs, k) in each cell over runs that have all k, their number, and that of the others."""
-    whole = np.asarray(np.isfinite(values).all(axis=1))
-    used = bins.as_array(bins.by_cell(whole).sum(), 0.0)
-    left_out = bins.as_array(bins.by_cell(~whole).sum(), 0.0)
-    means = bins.as_array(bins.by_cell(np.where(whole[:, None], values, np.nan)).mean())
-    return means, used[..., 0], left_out[..., 0]
+def weighted_maps(
+    study: xr.Dataset, weights: Weights, *, years: float = 20.0, field: str = "wind_speed", width: float = 2.0,
+    by: Sequence[str] = (),
+) -> xr.Dataset:  # fmt: skip
+    """Frictional energy at the places of the raceways over a lifetime, and the largest power per area of all cases.
+
+    As `lifetime_energy`, at every place and for every sign of slip and film regime.
+
+    Returns
+    -------
+    xarray.Dataset
+        `surface_energy` [J] and `surface_power_density` [W/m²] over group and their dimensions in a result, and
+        `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete run. In which place the inner ring
+        is when a case begins is by chance, so its map is spread evenly over the angle.
+
+    Raises
+    ------
+    InputError
+        If a label, a probability or the lifetime is wrong, or the study has no maps.
+    """
+    if "surface_energy" not in study:
+        raise InputError(
+            "the study has no maps of the raceways",
+            allowed="cases with microslip or asperities that keep surface_energy and surface_power_density",
+            remedy="Write laws: {model: physical} and contact_details: true in the case, and leave keep out or add both "
+            "to it.",
+        )
+    _check_years(years)
+    bins = binned(study, field, width, by)
+    dims = (*_PLACES, "slip_sign", "film_regime")
+    largest = np.zeros((len(bins.groups), *(study.sizes[dim] for dim in _PLACES)))
+
+    def rates() -> Any:
+        for case, group in enumerate(bins.group):
+            one = study.isel(case=case)
+            energy = one.surface_energy.transpose(*dims).values
+            if np.isfinite(energy).all():
+                density = one.surface_power_density.transpose(*_PLACES).values
+                largest[group] = np.maximum(largest[group], density)
+            yield energy / float(one.window_length)
+
+    found = years * YEAR * weighted(bins.means(rates())[0], bins.probabilities(weights))
+    inner = study.raceway.values.tolist().index("inner")
+    found[:, :, inner] = found[:, :, inner].mean(axis=2, keepdims=True)
+    largest[:, :, inner] = largest[:, :, inner].max(axis=2, keepdims=True)
+    about = described("J", f"energy at each place of a raceway in {years:g} years")
+    return xr.Dataset(
+        {
+            "surface_energy": (("group", *dims), found, about),
+            "surface_power_density": (("group", *_PLACES), largest, dict(study.surface_power_density.attrs)),
+        },
+        bins.coordinates(study, bins=False) | {name: study[name] for name in dims} | {"cell_area": _area(study)},
+        {"title": f"Maps of the raceways: {study.attrs.get('title', '')}", "years": years},
+    )
 
 
-def _about(units: str, long_name: str) -> dict[str, str]:
-    return {"units": units, "long_name": long_name}
+def _check_years(years: float) -> None:
+    if not (math.isfinite(years) and years > 0.0):
+        raise InputError(f"the lifetime is {years!r} years", allowed="a number above 0")
+
+
+def _area(study: xr.Dataset) -> xr.DataArray:
+    """Areas of the places, which all bearings of the study have to share."""
+    area = study.cell_area
+    if "case" not in area.dims:
+        return area
+    values = area.values
+    known = np.flatnonzero(np.isfinite(values).all(axis=tuple(range(1, values.ndim))))
+    if not known.size or np.ptp(values[known], axis=0).max() > 1e-12 * values[known].max():
+        remedy = "Select the cases of one bearing first: study.isel(case=study.bearing == 'name')."
+        raise InputError("the bearings of the study have raceways of different size", remedy=remedy)
+    return area.isel(case=int(known[0]), drop=True)

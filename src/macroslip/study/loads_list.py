@@ -1,22 +1,16 @@
-"""The load histories of a study: where each is, and the fields it is labelled with."""
+"""The load histories of a study: where each is, and the fields it is labelled with, from file names or a table."""
 
 from __future__ import annotations
 
 import re
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from pathlib import Path, PurePosixPath
+from typing import Any
 
 from macroslip.errors import InputError
 from macroslip.files import check_regular
-from macroslip.loads import bundled_cases
-from macroslip.study.pattern import Pattern
-from macroslip.study.safe_text import safe_text
-
-if TYPE_CHECKING:
-    from macroslip.study.study_keys import StudyLoads
+from macroslip.loads.bundled import bundled_cases, bundled_labels
 
 #: Names that labels of the user's own would hide.
 RESERVED = (
@@ -25,20 +19,31 @@ RESERVED = (
 )  # fmt: skip
 #: Largest whole number that a float holds exactly; larger ones would change on the way into a result.
 _LARGEST = 2**53
-_BUNDLED_UNITS = {"wind_speed": "m/s", "turbulence": "1"}
+_BUNDLED_UNITS = {"wind_speed": "m/s"}
+_KINDS: dict[str, tuple[str, Callable[[str], Any]]] = {
+    "d": (r"[+-]?\d+", int),
+    "g": (r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", float),
+    "": (r"[^/]+?", str),
+}
+_FIELD = re.compile(r"\{([A-Za-z_][A-Za-z0-9_]*)(?::([^{}]*))?\}")
+_WILDCARDS = {"**/": r"(?:[^/]+/)*", "*": r"[^/]*", "?": r"[^/]"}
+_PIECES = re.compile(r"\*\*/|\*|\?|\{[^{}]*\}|[^*?{]+|\{")
+
+
+def safe_text(text: object) -> str:
+    r"""A name from a file or folder with its control characters, which could steer a terminal, as numbers.
+
+    Examples
+    --------
+    >>> safe_text("run\x1b[2J\n7.outb")
+    'run\\x1b[2J\\n7.outb'
+    """
+    return "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in str(text))
 
 
 @dataclass(frozen=True)
 class Load:
-    """One load history.
-
-    Parameters
-    ----------
-    name : str
-        Path as the study has it, or name of a bundled case.
-    fields : mapping
-        Labels: numbers or text.
-    """
+    """One load history: its path as the study has it or name of a bundled case, and its labels, numbers or text."""
 
     name: str
     fields: Mapping[str, Any]
@@ -65,84 +70,142 @@ class LoadList:
     remarks: Sequence[str] = ()
 
 
-def load_list(given: StudyLoads, folder: Path) -> LoadList:
-    """The load histories that the section `loads` of a study file names.
+class Pattern:
+    """A path with fields and wildcards, to find files by and to read values from their names.
+
+    Raises InputError if a field has another form.
 
     Parameters
     ----------
-    given : StudyLoads
-        The section, as read.
-    folder : Path
-        Where relative paths start.
+    text : str
+        Fields are `{name}` (text without slash), `{name:d}` (whole number) and `{name:g}` (number); wildcards are `*`,
+        `?` and `**/`. A field that occurs twice must have the same value in both places.
 
-    Raises
-    ------
-    InputError
-        If there is none, a table cannot be read, or a field has a name that is taken or a value that cannot be stored.
+    Examples
+    --------
+    >>> Pattern("{wind_speed:g}mps_seed{seed:d}.outb").fields_of("11.4mps_seed03.outb")
+    {'wind_speed': 11.4, 'seed': 3}
     """
-    source = "bearing_file" if given.kind == "main-bearing" else "file"
+
+    def __init__(self, text: str):
+        self.text = PurePosixPath(text).as_posix()
+        self.kinds: dict[str, Callable[[str], Any]] = {}
+        self._expression, self._glob = "", ""
+        for piece in _PIECES.findall(self.text):
+            match = _FIELD.fullmatch(piece)
+            if piece.startswith("{") and (match is None or (match[2] or "") not in _KINDS):
+                raise InputError(
+                    f"'{piece}' in the pattern '{self.text}' is no field",
+                    allowed="{name} for text, {name:d} for a whole number, {name:g} for a number",
+                )
+            if piece == "**/" and self._glob and not self._glob.endswith("/"):
+                raise InputError(
+                    f"'**' in the pattern '{self.text}' is not the whole name of a folder",
+                    remedy="Write runs/**/*.outb for the folders under runs, or a single *.",
+                )
+            glob = "*" if match else piece if piece in _WILDCARDS else piece.replace("[", "[[]")
+            # Fields beside each other are one wildcard: ** has a meaning of its own.
+            self._glob += "" if glob == "*" and self._glob.endswith("*") else glob
+            if match is None:
+                self._expression += _WILDCARDS.get(piece) or re.escape(piece)
+            elif match[1] in self.kinds:
+                self._expression += f"(?P={match[1]})"
+            else:
+                form, self.kinds[match[1]] = _KINDS[match[2] or ""]
+                self._expression += f"(?P<{match[1]}>{form})"
+
+    def fields_of(self, path: str) -> dict[str, Any] | None:
+        """Values of the fields in a path with forward slashes; None if it does not fit."""
+        found = re.fullmatch(self._expression, path)
+        return None if found is None else {name: kind(found[name]) for name, kind in self.kinds.items()}
+
+    def files(self, folder: Path) -> tuple[list[tuple[str, dict[str, Any]]], list[str]]:
+        """Find the files of a folder, in which a relative pattern starts: paths with fields, sorted, relative if it is.
+
+        Second come files that the wildcards find but whose fields cannot be read, as `{seed:d}` from a name with `seedA`.
+        Raises InputError if the pattern names a folder.
+        """
+        pure = PurePosixPath(self._glob)
+        base = Path(pure.anchor)
+        start = folder / base
+        names = [part for part in pure.parts if part != pure.anchor]
+        if not names or (start / pure).is_dir():
+            allowed = "the path of load files, with fields and wildcards"
+            remedy = "Name the files in it: runs/*.outb, for example."
+            raise InputError(f"'{self.text}' is a folder", allowed=allowed, remedy=remedy)
+        # The part before the first wildcard is a plain folder, which may lead upwards ("../runs").
+        while len(names) > 1 and not re.search(r"[*?\[]", names[0]):
+            base, start = base / names[0], start / names[0]
+            names = names[1:]
+        paths = sorted(
+            (base / one.relative_to(start)).as_posix() for one in start.glob("/".join(names)) if one.is_file()
+        )
+        read = [(name, self.fields_of(name)) for name in paths]
+        return [(name, one) for name, one in read if one is not None], [name for name, one in read if one is None]
+
+
+def load_list(
+    folder: Path, *, kind: str, bundled: Sequence[str] | None = None, table: str | None = None,
+    files: Sequence[str] | None = None, units: Mapping[str, str] | None = None,
+) -> LoadList:  # fmt: skip
+    """The load histories that the section `loads` of a study file names, whose keys are the arguments.
+
+    Raises InputError if there is none, a table cannot be read, or a field has a name that is taken or a value that
+    cannot be stored.
+    """
+    source = "bundled" if bundled else "bearing_file" if kind == "main-bearing" else "file"
     remarks: list[str] = []
-    if given.bundled:
-        source, loads = "bundled", _bundled(given.bundled)
-    elif given.table:
-        loads = _from_table(folder / given.table)
+    if bundled:
+        loads = _bundled(bundled)
+    elif table:
+        loads = _from_table(folder / table)
     else:
-        loads, remarks = _from_patterns([Pattern(text) for text in given.files or ()], folder)
+        loads, remarks = _from_patterns([Pattern(text) for text in files or ()], folder)
     names = list(dict.fromkeys(name for load in loads for name in load.fields))
     for name in names:
         if name in RESERVED or not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
-            raise InputError(
-                f"a field is called '{safe_text(name)}'",
-                allowed=f"letters, digits and _, and none of {', '.join(RESERVED)}",
-                remedy="Give it another name.",
-            )
+            allowed = f"letters, digits and _, and none of {', '.join(RESERVED)}"
+            raise InputError(f"a field is called '{safe_text(name)}'", allowed=allowed, remedy="Give it another name.")
     for load in loads:
+        if any("\ud800" <= letter <= "\udfff" for letter in load.name):
+            what = f"the name of the file {safe_text(load.name)} is not UTF-8"
+            raise InputError(what, remedy="Rename it; results are kept by the names of their loads.")
         for name, value in load.fields.items():
             if type(value) is int and abs(value) > _LARGEST:
                 what = f"the field {name} of {safe_text(load.name)} is {value}"
-                raise InputError(
-                    what, allowed=f"whole numbers up to {_LARGEST}", remedy=f"Read it as text: {{{name}}}."
-                )
-    units = given.units or {}
-    unknown = [name for name in units if name not in names]
-    if unknown:
+                remedy = f"Read it as text: {{{name}}}."
+                raise InputError(what, allowed=f"whole numbers up to {_LARGEST}", remedy=remedy)
+    units = units or {}
+    if unknown := [name for name in units if name not in names]:
         what = f"units names {', '.join(unknown)}"
         raise InputError(what, allowed=f"fields: {', '.join(names) or 'there are none'}")
-    units = {name: units.get(name, _BUNDLED_UNITS.get(name, "1")) for name in names}
-    return LoadList(source, loads, units, remarks)
+    return LoadList(source, loads, {name: units.get(name, _BUNDLED_UNITS.get(name, "1")) for name in names}, remarks)
 
 
 def _bundled(names: Sequence[str]) -> list[Load]:
-    known = bundled_cases()
-    wrong = [name for name in names if name not in known and name != "all"]
+    sets = {"all": bundled_cases(), "year": bundled_cases("year")}
+    known = sets["year"]
+    wrong = [name for name in names if name not in known and name not in sets]
     if wrong:
-        raise InputError(f"there is no bundled case '{safe_text(wrong[0])}'", allowed=f"all, or {', '.join(known)}")
-    chosen = known if "all" in names else names
-    return [Load(name, {"wind_speed": float(name[:-1]), "turbulence": name[-1]}) for name in chosen]
+        raise InputError(
+            f"there is no bundled case '{safe_text(wrong[0])}'", allowed=f"all, year, or {', '.join(known)}"
+        )
+    chosen = list(dict.fromkeys(one for name in names for one in sets.get(name, [name])))
+    return [Load(name, labels) for name, labels in zip(chosen, bundled_labels(chosen), strict=True)]
 
 
 def _from_patterns(patterns: Sequence[Pattern], folder: Path) -> tuple[list[Load], list[str]]:
-    first = patterns[0]
+    first, loads, remarks = patterns[0], {}, []
     for pattern in patterns:
-        if set(pattern.names) != set(first.names):
-            raise InputError(
-                f"the patterns '{first.text}' and '{pattern.text}' have different fields",
-                allowed="the same fields in all of them",
-            )
-    loads: dict[str, Load] = {}
-    remarks = []
-    for pattern in patterns:
+        if pattern.kinds.keys() != first.kinds.keys():
+            what = f"the patterns '{first.text}' and '{pattern.text}' have different fields"
+            raise InputError(what, allowed="the same fields in all of them")
         found, unread = pattern.files(folder)
         if not found:
-            raise InputError(
-                f"no file fits the pattern '{pattern.text}'",
-                remedy=f"Relative paths start at {folder.resolve()}."
-                + (
-                    f" The fields of {len(unread)} files could not be read, {safe_text(unread[0])} first."
-                    if unread
-                    else ""
-                ),
-            )
+            remedy = f"Relative paths start at {folder.resolve()}."
+            if unread:
+                remedy += f" The fields of {len(unread)} files could not be read, {safe_text(unread[0])} first."
+            raise InputError(f"no file fits the pattern '{pattern.text}'", remedy=remedy)
         loads |= {name: Load(name, fields) for name, fields in found}
         if unread:
             remarks.append(
@@ -159,35 +222,29 @@ def _from_table(path: Path) -> list[Load]:
 
     where = str(path)
     check_regular(path, "Name a table, .csv or .parquet.")
+    readers = {".csv": pa.csv.read_csv, ".parquet": pa.parquet.read_table}
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise InputError(f"the extension {path.suffix!r} is not known", where=where, allowed=", ".join(readers))
     try:
-        if path.suffix.lower() == ".csv":
-            table = pa.csv.read_csv(path)
-        elif path.suffix.lower() == ".parquet":
-            table = pa.parquet.read_table(path)
-        else:
-            raise InputError(f"the extension {path.suffix!r} is not known", where=where, allowed=".csv, .parquet")
+        rows = (table := reader(path)).to_pylist()
     except (pa.ArrowException, OSError) as error:
         raise InputError(f"the table of load files cannot be read ({error})", where=where) from None
-    rows = table.to_pylist()
     if "file" not in table.column_names or not rows:
         what = "the table has no rows" if "file" in table.column_names else "the table has no column 'file'"
         raise InputError(what, where=where, allowed="a column 'file' with paths, and one column a field")
+    names = set()
     for number, row in enumerate(rows, start=1):
         if not isinstance(row["file"], str) or not row["file"]:
             raise InputError(f"row {number} has no file", where=where, remedy="Fill or remove it.")
-        empty = [name for name, value in row.items() if value is None]
-        if empty:
-            raise InputError(
-                f"row {number} has no {', '.join(empty)}", where=where, remedy="Fill it, or remove the column."
-            )
-        odd = [name for name, value in row.items() if not isinstance(value, (str, int, float))]
-        if odd:
+        if empty := [name for name, value in row.items() if value is None]:
+            remedy = "Fill it, or remove the column."
+            raise InputError(f"row {number} has no {', '.join(empty)}", where=where, remedy=remedy)
+        if odd := [name for name, value in row.items() if not isinstance(value, (str, int, float))]:
             what = f"row {number} has {row[odd[0]]!r} in column {odd[0]}"
             raise InputError(what, where=where, allowed="numbers, text, true and false")
-    loads = [Load(row["file"], {name: value for name, value in row.items() if name != "file"}) for row in rows]
-    name, times = Counter(load.name for load in loads).most_common(1)[0]
-    if times > 1:
-        raise InputError(
-            f"the file {safe_text(name)} is listed {times} times", where=where, remedy="Keep one row of it."
-        )
-    return loads
+        if row["file"] in names:
+            what = f"the file {safe_text(row['file'])} is listed twice"
+            raise InputError(what, where=where, remedy="Keep one row of it.")
+        names.add(row["file"])
+    return [Load(row.pop("file"), row) for row in rows]

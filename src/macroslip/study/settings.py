@@ -1,31 +1,31 @@
-"""Values that runs of a study have in place of those of its base case: `bearing.diametral_clearance` is `0.2 mm`."""
+"""Values that runs of a study have in place of the base case's, one by one, in grids and in samples; and the case they make."""
 
 from __future__ import annotations
 
 import functools
+import math
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
 
 from macroslip.bearing import Bearing
-from macroslip.case.keys import CaseFile
-from macroslip.catalogue import Record
-from macroslip.catalogue.entry import is_finite_number, read_entry
-from macroslip.catalogue.fields import dimensions
-from macroslip.catalogue.forms import FORM_ONLY
-from macroslip.catalogue.input_section import read_value
-from macroslip.catalogue.problems import shown, unknown_key
-from macroslip.catalogue.quantity import NUMBER_PATTERN
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.section_forms import form_of, keys_of, word_of
-from macroslip.catalogue.source import Place, Source
-from macroslip.catalogue.units import NUMBER
+from macroslip.case.case import Case
+from macroslip.case.case_file import build_case
+from macroslip.case.load_source import LoadSource
 from macroslip.errors import InputError
+from macroslip.input.fields import FORM_ONLY, Choice, Quantity, Text, Whole
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import shown, unknown_key
+from macroslip.input.record import Record, dimensions, read_entry
+from macroslip.input.section import Field, MappingOf, OrWord, form_of, input_section, keys_of, read_value, word_of
+from macroslip.input.units import NUMBER, NUMBER_PATTERN, is_finite_number
+from macroslip.loads import BearingLoads, HubLoads
 from macroslip.lubricant import Lubricant
-
-if TYPE_CHECKING:
-    from pydantic.fields import FieldInfo
+from macroslip.result.variables import CONTACT_DETAILS
 
 #: Records with values of their own, each of which can be replaced.
 RECORDS: dict[str, type[Record]] = {"bearing": Bearing, "lubricant": Lubricant}
@@ -34,25 +34,24 @@ _TOGETHER = {"lubricant.at": "inlet_temperature"}
 #: Keys of a case that have a key of their own in a study.
 _ELSEWHERE = {"loads": "loads", "bearing": "bearings", "lubricant": "lubricants"}
 _QUANTITY = re.compile(rf"\s*(?P<number>{NUMBER_PATTERN})(?=[^\d.,])\s*(?P<unit>\S.*?)\s*")
+#: Keys of the base case's loads: what to read of each file, and the speed of files that have none.
+CUT_KEYS = ("start", "end", "shaft_speed")
+#: Used in place of the loads until they are read: so long that any window lies within it.
+_ANY_LOADS = BearingLoads(np.array([-1e10, 1e10]), np.zeros(2), np.zeros((2, 3)), "no loads yet")
+METHODS = ("latin-hypercube", "sobol")
+SCALES = ("linear", "log")
+#: Points of a sample beyond which the count must be a mistake.
+_MOST_POINTS = 10_000_000
 
 
 @dataclass(frozen=True)
 class Setting:
-    """One value in place of the base case's.
+    """One value in place of the base case's."""
 
-    Parameters
-    ----------
-    key : str
-        Key of the case file, as `drivetrain.tilt`, or `bearing.` or `lubricant.` and the key of one of its values.
-    value : Any
-        Number, text, truth value or list.
-    unit : str
-        Unit of a quantity, or empty.
-    """
-
+    #: Key of the case file, as `drivetrain.tilt`, or `bearing.` or `lubricant.` and the key of one of its values.
     key: str
-    value: Any
-    unit: str = ""
+    value: Any  #: Number, text, truth value or list
+    unit: str = ""  #: Unit of a quantity, or empty
 
     @classmethod
     def written(cls, key: str, value: Any) -> Setting:
@@ -70,58 +69,61 @@ class Setting:
         """The value as a catalogue file has it, with the tag of a user's value."""
         return {"value": self.value, "unit": self.unit or "1", "tag": "U", "note": "varied in a study"}
 
-    def check(self, place: Place) -> None:
-        """Check key, form and unit; whether the value is in range depends on the others, and is checked with the case.
+    def checked(self) -> Setting:
+        """The setting, if key, form and unit are right; whether it is in range is checked with the case.
 
-        Raises
-        ------
-        InputError
+        Raises InputError otherwise.
         """
         head, *rest = self.key.split(".")
         if head in RECORDS and rest:
-            self._check_entry(RECORDS[head], ".".join(rest), place)
-            return
+            self._check_entry(RECORDS[head], ".".join(rest))
+            return self
         if head in _ELSEWHERE:
             remedy = f"It has its own key in a study: {_ELSEWHERE[head]}."
-            raise place.problem(f"the key '{self.key}' cannot be varied here", remedy=remedy)
+            raise InputError(f"the key '{self.key}' cannot be varied here", remedy=remedy)
         fields = _settable().get(self.key, [])
         if not fields:
             others = (key for key in _settable() if key.partition(".")[0] not in _ELSEWHERE)
             records = (f"{noun}.{key}" for noun, record in RECORDS.items() for key in dimensions(record))
-            raise unknown_key(self.key, [*others, *records], where=place.where)
+            raise unknown_key(self.key, [*others, *records])
         problems = []
         for field in fields:
             try:
-                self._check_against(field, place)
+                self._check_against(field)
+                return self
             except InputError as problem:
                 problems.append(problem)
-            else:
-                return
         raise problems[0]
 
-    def _check_against(self, field: FieldInfo, place: Place) -> None:
+    def _check_against(self, field: Field) -> None:
         form, word = form_of(field), word_of(field)
         if self.unit and not (isinstance(form, Quantity) and form.dimension is not NUMBER):
-            raise place.problem(f"it has the unit '{self.unit}'", "a value without unit", "Remove the unit.")
+            raise InputError(
+                f"it has the unit '{self.unit}'", allowed="a value without unit", remedy="Remove the unit."
+            )
         if form is None and self.value != word:
-            raise place.problem(f"it is {shown(self.value)}", word)
-        read_value(field, self.text, place, FORM_ONLY)
+            raise InputError(f"it is {shown(self.value)}", allowed=word)
+        read_value(field, self.text, FORM_ONLY)
 
-    def _check_entry(self, record: type[Record], key: str, place: Place) -> None:
-        key = _TOGETHER.get(self.key, key)
-        if key not in dimensions(record):
-            raise unknown_key(self.key, (f"{record.noun}.{one}" for one in dimensions(record)), where=place.where)
+    def _check_entry(self, record: type[Record], key: str) -> None:
+        key, known = _TOGETHER.get(self.key, _field_key(key)), dimensions(record)
+        if key not in known:
+            raise unknown_key(self.key, (f"{record.noun}.{one}" for one in known))
         if not is_finite_number(self.value):
-            units = dimensions(record)[key].choices
-            raise place.problem(f"it is {shown(self.value)}", f"a number with its unit, {units}")
+            raise InputError(f"it is {shown(self.value)}", allowed=f"a number with its unit, {known[key].choices}")
         try:
-            read_entry(key, self.entry, dimensions(record)[key], Source())
+            read_entry(key, self.entry, known[key], Source())
         except InputError as problem:
-            raise place.blamed(problem) from None
+            raise Place(Source()).blamed(problem) from None
 
 
-def with_settings(mapping: Mapping[str, Any], settings: list[Setting]) -> dict[str, Any]:
-    """The mapping of a case file with other values; those of bearing and lubricant are left to `replaced`."""
+def _field_key(key: str) -> str:
+    """The field of a record's key; of one inside a section, `out_of_round.second`, `out_of_round_second`."""
+    return key.replace(".", "_")
+
+
+def with_settings(mapping: Mapping[str, Any], settings: Sequence[Setting]) -> dict[str, Any]:
+    """The mapping of a case file with other values; bearing's and lubricant's values are left to `replaced`."""
     result = dict(mapping)
     for setting in settings:
         *sections, last = setting.key.split(".")
@@ -136,13 +138,10 @@ def with_settings(mapping: Mapping[str, Any], settings: list[Setting]) -> dict[s
     return result
 
 
-def replaced(record: Record, settings: list[Setting]) -> Record:
+def replaced(record: Record, settings: Sequence[Setting]) -> Record:
     """A bearing or lubricant with the values meant for it, checked as any other input.
 
-    Raises
-    ------
-    InputError
-        If a value is out of its range, or does not go with the others.
+    Raises InputError if a value is out of its range, or does not go with the others.
 
     Examples
     --------
@@ -152,8 +151,8 @@ def replaced(record: Record, settings: list[Setting]) -> Record:
     """
     head = f"{record.noun}."
     own = [one for one in settings if one.key.startswith(head)]
-    entries = {one.key.removeprefix(head): one.entry for one in own if one.key not in _TOGETHER}
-    result = type(record).from_dict(record.as_dict() | entries) if entries else record
+    entries = {_field_key(one.key.removeprefix(head)): one.entry for one in own if one.key not in _TOGETHER}
+    result = record.with_entries(entries) if entries else record
     for one in own:
         if one.key == "lubricant.at":
             temperature, _ = read_entry("at", one.entry, dimensions(type(record))[_TOGETHER[one.key]], Source())
@@ -162,10 +161,163 @@ def replaced(record: Record, settings: list[Setting]) -> Record:
 
 
 @functools.cache
-def _settable() -> dict[str, list[FieldInfo]]:
+def _settable() -> dict[str, list[Field]]:
     """Fields by the full name of a key, `drivetrain.tilt`; several where sections exclude each other."""
-    found: dict[str, list[FieldInfo]] = {}
-    for key, field in keys_of(CaseFile):
+    found: dict[str, list[Field]] = {}
+    for key, field in keys_of(Case):
         if form_of(field) or word_of(field):
             found.setdefault(key, []).append(field)
     return found
+
+
+def template(
+    mapping: Mapping[str, Any],
+    settings: Sequence[Setting],
+    records: Mapping[str, Record],
+    *,
+    keep: Sequence[str] | None = None,
+    source: Source | None = None,
+    folder: Path | None = None,
+) -> tuple[Case, dict[str, float]]:
+    """A case with everything but its loads, and how to read them.
+
+    The base case is the mapping of a case file, of `loads` only start, end and shaft_speed; settings and records stand in place
+    of its values. Details of contacts are recorded only where variables to keep are among them. Source and folder are where
+    the mapping was written and where relative paths start. Raises InputError if anything but the loads is wrong.
+    """
+    cut: dict[str, float] = {}
+
+    def unread(given: LoadSource) -> BearingLoads:
+        cut.update(given.cut)
+        return _ANY_LOADS
+
+    names = {noun: record.name for noun, record in records.items()}
+    # The source is named only because a case has to have one; it is not read.
+    content = {**with_settings(mapping, settings), **names}
+    content["loads"] = (content.get("loads") or {}) | {"file": "-"}
+    case = build_case(content, source or Source(), folder or Path(), records=records, series=unread)
+    changed = {noun: replaced(getattr(case, noun), settings) for noun in RECORDS}
+    details = case.contact_details and (keep is None or not set(CONTACT_DETAILS).isdisjoint(keep))
+    return replace(case, **changed, contact_details=details), cut
+
+
+def read_loads(source: str, path: str, cut: Mapping[str, float]) -> HubLoads | BearingLoads:
+    """Read the loads of a run: a `file`, `bearing_file`, or `bundled` case.
+
+    The cut has `start` and `end` [s], if the loads are to be cut, and `shaft_speed` [rad/s] of files without one. Raises
+    InputError if they cannot be used, or a file cannot be read.
+    """
+    try:
+        if "shaft_speed" in cut and source != "file":
+            what = "shaft_speed is given in the base case, but these loads have a speed"
+            remedy = "Remove loads.shaft_speed; it serves hub loads from files only."
+            raise InputError(what, where=path, remedy=remedy)
+        if source == "bundled":
+            return HubLoads.bundled(path).window(cut.get("start"), cut.get("end"))
+        return (HubLoads if source == "file" else BearingLoads).read(path, **cut)
+    except OSError as error:
+        raise InputError(f"the file cannot be read ({error.strerror or error})", where=path) from None
+
+
+@input_section("range", "interval of a sampled parameter", positional=True)
+class Range:
+    """Interval of a sampled parameter, on whose scale all values, or all logarithms, are equally likely."""
+
+    low: Annotated[float, Quantity("lower end; its unit goes into unit")]
+    high: Annotated[float, Quantity("upper end; its unit goes into unit")]
+    unit: Annotated[str, Text("unit of both ends", may_be_empty=True)] = ""
+    scale: Annotated[str, Choice("scale on which values are equally likely", lambda: SCALES)] = "linear"
+
+    def __post_init__(self) -> None:
+        if not self.low < self.high:
+            raise InputError(f"low is {self.low:g} and high is {self.high:g}", allowed="low below high")
+        if self.scale == "log" and self.low <= 0.0:
+            raise InputError(f"low is {self.low:g} on a logarithmic scale", allowed="a number above 0")
+
+    def at(self, position: float) -> float:
+        """The value at a position from 0 to 1."""
+        if self.scale == "log":
+            return math.exp(math.log(self.low) + position * (math.log(self.high) - math.log(self.low)))
+        return self.low + position * (self.high - self.low)
+
+
+def _checked_range(key: str, interval: Range | None) -> Range | None:
+    """Check both ends as values of the parameter; a file's are checked with the file."""
+    if interval is None:
+        if key.partition(".")[0] not in RECORDS:
+            what = f"the range of {key} is to come from a file, but it is no value of a bearing or lubricant"
+            raise InputError(what, allowed="keys such as bearing.roller_length", remedy="Give low, high and unit.")
+        noun, _, name = key.partition(".")
+        known = dimensions(RECORDS[noun])
+        if _field_key(name) not in known:
+            raise unknown_key(key, (f"{noun}.{one}" for one in known))
+        return None
+    for end in (interval.low, interval.high):
+        Setting(key, end, interval.unit).checked()
+    return interval
+
+
+@input_section("sample", "seeded sample of a box of parameters")
+class Sample:
+    """Seeded sample of a box of parameters, of `scipy.stats.qmc`; a range that is None is the range in the record's file."""
+
+    method: Annotated[str, Choice("how to sample", lambda: METHODS)] = "latin-hypercube"
+    count: Annotated[int, Whole("number of points; a power of 2 for sobol", 1, _MOST_POINTS)]
+    seed: Annotated[int, Whole("seed: the same one gives the same points")]
+    ranges: Annotated[
+        dict[str, Range | None],
+        MappingOf(
+            "interval of each parameter",
+            "a section such as {bearing.diametral_clearance: {low: 0, high: 0.4, unit: mm}, bearing.roller_length: range}",
+            Annotated[Range | None, OrWord("range")],
+            _checked_range,
+        ),
+    ]
+
+    def __post_init__(self) -> None:
+        if self.method == "sobol" and self.count & (self.count - 1):
+            below = 1 << (self.count.bit_length() - 1)
+            allowed = "a power of 2, at which a Sobol sequence is balanced"
+            remedy = f"Take {below} or {2 * below}, or latin-hypercube."
+            raise InputError(f"count is {self.count}", allowed=allowed, remedy=remedy)
+
+    def with_ranges_of(self, records: Mapping[str, Record]) -> Sample:
+        """The sample with the ranges that the files of bearing and lubricant give, in place of the word.
+
+        Raises InputError if a value has no range there, or is a count.
+        """
+        found = dict(self.ranges)
+        for key in (key for key, interval in self.ranges.items() if interval is None):
+            noun, _, name = _field_key(key.replace(".", "/", 1)).partition("/")
+            entry, where = records[noun].provenance.get(name), f"variations.sample.ranges.{key}"
+            if entry is None or entry.range is None:
+                remedy = "Give low, high and unit, or a range in the file."
+                raise InputError(f"{records[noun].name} has no range for {name}", where=where, remedy=remedy)
+            if isinstance(getattr(records[noun], name), int):
+                remedy = f"List its values in variations.grid: {{{key}: {{values: [...]}}}}."
+                raise InputError(f"{name} is a count, which an interval cannot sample", where=where, remedy=remedy)
+            found[key] = Range(low=entry.range[0], high=entry.range[1], unit="" if entry.unit == "1" else entry.unit)
+        return Sample(method=self.method, count=self.count, seed=self.seed, ranges=found)
+
+    def points(self) -> list[list[Setting]]:
+        """The points, each as the settings of all parameters.
+
+        Examples
+        --------
+        >>> sample = Sample(method="sobol", count=4, seed=1, ranges={"drivetrain.tilt": Range(0.0, 8.0, "deg")})
+        >>> sorted(int(point[0].value // 2) for point in sample.points())  # one in each quarter
+        [0, 1, 2, 3]
+        """
+        from scipy.stats import qmc
+
+        kind = {"latin-hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}[self.method]
+        intervals: dict[str, Any] = dict(self.ranges)  # `with_ranges_of` has filled in those that were left open
+        positions = kind(len(self.ranges), rng=np.random.default_rng(self.seed)).random(self.count)
+        return [
+            [
+                # Twelve digits are more than the accuracy of any parameter, and the same on every machine.
+                Setting(key, float(f"{interval.at(float(position)):.12g}"), interval.unit)
+                for (key, interval), position in zip(intervals.items(), point, strict=True)
+            ]
+            for point in positions
+        ]

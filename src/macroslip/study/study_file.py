@@ -1,35 +1,321 @@
-"""From a study file to a `Study`; whatever is wrong with the file is reported together, each with its line and remedy."""
+"""A study, and its file: the keys, and from them the runs; all that is wrong with a file is reported together."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import hashlib
+import itertools
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from macroslip.case.case import BALANCE
-from macroslip.case.keys import CaseFile
-from macroslip.catalogue import Record
-from macroslip.catalogue.input_section import read_fields
-from macroslip.catalogue.problems import together
-from macroslip.catalogue.source import Place, Source, parse, read_text
+from macroslip.case.case import BALANCE, Case
 from macroslip.errors import InputError
-from macroslip.study.build import template
-from macroslip.study.loads_list import load_list
-from macroslip.study.settings import RECORDS, Setting
-from macroslip.study.study import TEMPERATURE, Study
-from macroslip.study.study_keys import StudyFile, Variations
-from macroslip.study.variation import Sample, grid
+from macroslip.input.fields import Choice, Flag, Form, Text, Texts
+from macroslip.input.files import Place, Source, parse, read_text
+from macroslip.input.messages import shown, together
+from macroslip.input.record import Record
+from macroslip.input.section import MappingOf, input_section, read_all, read_fields
+from macroslip.result.variables import VARIABLES
+from macroslip.study.loads_list import Load, LoadList, load_list
+from macroslip.study.settings import CUT_KEYS, RECORDS, Sample, Setting, template
+from macroslip.study.weights import Weighting
 
 if TYPE_CHECKING:
-    from macroslip.case.case import Case
     from macroslip.case.parts import Heat
-    from macroslip.study.loads_list import Load
-    from macroslip.study.weights import Weighting
+
+LOAD_SOURCES = ("files", "table", "bundled")
+KINDS = ("hub", "main-bearing")
+#: Key of the temperature of the oil.
+TEMPERATURE = "temperature"
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+_REMEDY = "Write a study file that runs with: macroslip init --example study"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of a study: its load history, names of the others within the study, and values of what varies."""
+
+    load: Load
+    bearing: str
+    lubricant: str
+    model: str
+    settings: Sequence[Setting]
+
+    @property
+    def group(self) -> str:
+        """Hash of everything but loads and temperature: runs that differ in these have one."""
+        return self._hash([self.bearing, self.lubricant, self.model], TEMPERATURE)
+
+    @property
+    def name(self) -> str:
+        """Hash of what distinguishes this run from the others of its study: 32 hexadecimal digits."""
+        return self._hash([self.load.name, self.bearing, self.lubricant, self.model], "")
+
+    def _hash(self, labels: list[str], but: str) -> str:
+        parameters = sorted((setting.key, setting.text) for setting in self.settings if setting.key != but)
+        return hashlib.sha256(json.dumps([labels, parameters]).encode()).hexdigest()[:32]
+
+    @property
+    def labels(self) -> dict[str, Any]:
+        """Loads, fields, bearing, lubricant, model, and the parameters by key."""
+        choices = {"loads": self.load.name, "bearing": self.bearing, "lubricant": self.lubricant, "model": self.model}
+        return choices | dict(self.load.fields) | {setting.key: setting.value for setting in self.settings}
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study: load histories × bearings × lubricants × models × parameters; content of a study file, checked."""
+
+    title: str
+    #: Where relative paths of load files start.
+    folder: Path
+    #: Base case: keys of a case file, of `loads` only start, end and shaft_speed.
+    case: Mapping[str, Any]
+    loads: LoadList
+    #: By the names the study has for them.
+    bearings: Mapping[str, Record]
+    lubricants: Mapping[str, Record]
+    models: Mapping[str, Sequence[Setting]]
+    #: Settings of every combination of parameters, and units of the parameters by key.
+    variations: Sequence[Sequence[Setting]]
+    parameters: Mapping[str, str]
+    #: Whether to count cycles of the bearing's load, and which variables of a result to store; None: all.
+    cycles: bool = False
+    keep: Sequence[str] | None = None
+    #: The study file as plain data.
+    content: Mapping[str, Any] = field(default_factory=dict)
+    #: How the bearing loses its heat, if the temperature is to balance, and what each load history counts in that.
+    heat: Heat | None = None
+    weights: Weighting | None = None
+    #: Temperature [K] of the oil by `Run.group`, once it is balanced.
+    temperatures: Mapping[str, float] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return (
+            f"<study {self.title!r}: {len(self)} runs of {len(self.loads.loads)} load histories, {len(self.bearings)} bearings, "
+            f"{len(self.lubricants)} lubricants, {len(self.models)} models, {len(self.variations)} combinations of parameters>"
+        )
+
+    def __len__(self) -> int:
+        """Number of runs."""
+        return math.prod(map(len, self._choices(self.loads.loads)))
+
+    def _choices(self, loads: Sequence[Load]) -> tuple[Any, ...]:
+        return loads, self.bearings, self.lubricants, self.models, self.variations
+
+    def runs(self) -> Iterator[Run]:
+        """Yield the runs in the order of the study file, those with the same loads together."""
+        return self._runs(self.loads.loads)
+
+    def mixed_runs(self) -> Iterator[Run]:
+        """Yield the runs, those with the same loads together, so that any stretch of them is a sample of the whole.
+
+        Load files come sorted by wind speed, and rough wind takes several times as long as calm wind: in their own
+        order the rate so far would not hold for the rest.
+        """
+        # Multiples of the golden ratio are spread evenly over [0, 1), so that neighbours by them lie far apart.
+        order = sorted(range(len(self.loads.loads)), key=lambda number: number * _GOLDEN % 1.0)
+        return self._runs([self.loads.loads[number] for number in order])
+
+    def _runs(self, loads: Sequence[Load]) -> Iterator[Run]:
+        for load, bearing, lubricant, model, settings in itertools.product(*self._choices(loads)):
+            run = Run(load, bearing, lubricant, model, [*self.models[model], *settings])
+            if self.temperatures:
+                found = Setting(TEMPERATURE, self.temperatures[run.group], "K")
+                run = replace(run, settings=[*run.settings, found])
+            yield run
+
+    def case_of(self, run: Run | None = None) -> tuple[Case, dict[str, float]]:
+        """The case of a run, by default the base case, without its loads; and how to read these."""
+        known = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
+        records = {noun: one[getattr(run, noun)] if run else next(iter(one.values())) for noun, one in known.items()}
+        return template(self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder)
+
+    def place(self, load: Load) -> str:
+        """Path of a load history, or its name if it is bundled."""
+        return load.name if self.loads.source == "bundled" else str(self.folder / load.name)
+
+    @property
+    def labels(self) -> dict[str, tuple[str, str]]:
+        """Units and meaning of every label of a run, by name."""
+        choices = {name: ("1", f"{name} of the case") for name in ("bearing", "lubricant", "model")}
+        fields = {name: (units, "label of the loads") for name, units in self.loads.units.items()}
+        about = "value of the case; NaN: that of the base case"
+        parameters = {key: (units or "1", about) for key, units in self.parameters.items()}
+        if self.temperatures:
+            parameters[TEMPERATURE] = ("K", "temperature of the oil at the inlets, of the balance of heat")
+        return {"loads": ("1", "loads of the case"), **choices, **fields, **parameters}
+
+
+@dataclass(frozen=True)
+class BaseCase(Form):
+    """The keys of a case file; their values are checked by the reader of case files."""
+
+    form = f"the keys of a case file, of loads only {', '.join(CUT_KEYS)}"
+
+    def read(self, value: Any, given: Any) -> dict[str, Any]:
+        """Check that the loads are left to the study; None: every key of the section is commented out."""
+        loads = {} if value is None else value.get("loads", {}) if isinstance(value, Mapping) else None
+        if not isinstance(loads, Mapping):
+            raise InputError(f"it is {shown(value)}", allowed=self.form)
+        remedy = "The study's own section loads names where the loads come from."
+        problems = [
+            given.place.inside("loads", str(key)).problem(
+                f"the key '{key}' cannot stand here", ", ".join(CUT_KEYS), remedy
+            )
+            for key in loads
+            if key not in CUT_KEYS
+        ]
+        if problems:
+            raise together(problems)
+        return dict(value or {})
+
+
+@dataclass(frozen=True)
+class Settings(Form):
+    """Values in place of the base case's: keys with dots, values as in a case file."""
+
+    form = "a section such as {bearing.diametral_clearance: 0.2 mm, forces.drag: false}"
+
+    def read(self, value: Any, given: Any) -> list[Setting]:
+        """Check every key and value; nothing is the base case itself."""
+        if value is None or value == {}:
+            return []
+
+        def written(key: str, text: Any) -> Setting:
+            return Setting.written(key, text).checked()
+
+        return list(MappingOf(self.about, self.form, Any, written).read(value, given).values())
+
+
+@dataclass(frozen=True)
+class SettingsList(Form):
+    """A list of settings that belong together."""
+
+    form = f"a list of sections, each {Settings.form[2:]}"
+
+    def read(self, value: Any, given: Any) -> list[list[Setting]]:
+        """Check every item; a key has one unit throughout, so that its values fit in one column."""
+        if not isinstance(value, list) or not value:
+            raise InputError(f"it is {shown(value)}", allowed=self.form)
+        numbered = ((str(number), item) for number, item in enumerate(value))
+        items = read_all(numbered, lambda _, item, inner: Settings(self.about).read(item, inner), given)
+        units: dict[str, str] = {}
+        for setting in itertools.chain(*items):
+            if units.setdefault(setting.key, setting.unit) != setting.unit:
+                both = f"{setting.unit or 'no unit'} and in {units[setting.key] or 'no unit'}"
+                raise InputError(f"{setting.key} is given in {both}", allowed="one unit for all values of a key")
+        return items
+
+
+@dataclass(frozen=True)
+class Values(Form):
+    """A list of different values."""
+
+    form = "a list of values"
+
+    def read(self, value: Any, given: Any) -> list[Any]:
+        """Check that there are some, and none twice."""
+        if not isinstance(value, list) or not value:
+            remedy = "For quantities, without their unit."
+            raise InputError(f"values is {shown(value)}", allowed=self.form, remedy=remedy)
+        if len({repr(item) for item in value}) != len(value):
+            raise InputError(f"a value stands twice in {shown(value)}", allowed="different values")
+        return value
+
+
+@dataclass(frozen=True)
+class Variables(Texts):
+    """Names of variables of a result."""
+
+    form = f"a list of variables of a result: {', '.join(VARIABLES)}"
+
+    def read(self, value: Any, given: Any) -> list[str]:
+        """Check every name."""
+        names = super().read(value, given)
+        wrong = [name for name in names if name not in VARIABLES]
+        if wrong:
+            raise InputError(f"it is {shown(wrong[0])}", allowed=self.form, remedy=f"It is the {self.about}.")
+        return names
+
+
+@input_section("grid", "values of one parameter")
+class GridAxis:
+    """Values of one parameter."""
+
+    values: Annotated[list[Any], Values("values of the parameter")]
+    unit: Annotated[str, Text("unit of the values", may_be_empty=True)] = ""
+
+
+@input_section("loads", "load histories, from exactly one source", one_of=LOAD_SOURCES)
+class StudyLoads:
+    """Where the load histories come from, and the fields they are labelled with."""
+
+    files: Annotated[
+        list[str] | None, Texts("paths of load files, with fields such as {wind_speed:g} and wildcards")
+    ] = None
+    table: Annotated[str | None, Text("CSV or Parquet table with a column 'file' and one column a field")] = None
+    bundled: Annotated[
+        list[str] | None, Texts("load cases that come with the package; all for the 21, year for every one")
+    ] = None
+    kind: Annotated[str, Choice("what the files hold", lambda: KINDS)] = "hub"
+    units: Annotated[dict[str, str] | None, MappingOf("units of the fields", item=Annotated[str, Text("unit")])] = None
+
+
+_Grid = Annotated[
+    dict[str, GridAxis],
+    MappingOf(
+        "values of each parameter, of which every combination is run",
+        "a section such as {bearing.diametral_clearance: {values: [0, 0.2, 0.4], unit: mm}}",
+        GridAxis,
+        lambda key, axis: [Setting(key, value, axis.unit).checked() for value in axis.values],
+    ),
+]
+
+
+_List = Annotated[list[Any] | None, SettingsList("combinations of values, each of which is run")]
+
+
+@input_section("variations", "parameters that vary")
+class Variations:
+    """Parameters that vary; every combination of the three is run."""
+
+    grid: _Grid = None  # pyright: ignore[reportAssignmentType]
+    list: _List = None
+    sample: Sample | None = None
+
+
+@input_section("study", "many cases")
+class StudyFile:
+    """The keys at the top of a study file."""
+
+    title: Annotated[str, Text("what the study is about", may_be_empty=True)] = ""
+    case: Annotated[dict[str, Any] | None, BaseCase(f"base case: {BaseCase.form}")] = None
+    loads: StudyLoads
+    bearings: Annotated[list[str] | None, Texts("bearings: names of the catalogue, or paths of bearing files")] = None
+    lubricants: Annotated[
+        list[str] | None, Texts("lubricants: names of the catalogue, or paths of lubricant files")
+    ] = None
+    models: Annotated[
+        dict[str, Any],
+        MappingOf(
+            "named choices of the model",
+            item=Annotated[list[Any], Settings("values in place of the base case's")],
+            may_be_empty=True,
+        ),
+    ] = None  # pyright: ignore[reportAssignmentType]
+    variations: Variations = Variations()
+    weights: Weighting | None = None
+    cycles: Annotated[bool, Flag("whether to count the cycles of the bearing's load")] = False
+    keep: Annotated[list[str] | None, Variables("variables of a result to store; all if left out")] = None
+
 
 #: Keys of a case file that a study file does not have at its top.
-_OF_A_CASE = CaseFile.__annotations__.keys() - StudyFile.__annotations__.keys()
-_REMEDY = "Write a study file that runs with: macroslip init --example study"
+_OF_A_CASE = Case.__annotations__.keys() - StudyFile.__annotations__.keys()
 
 
 def read_study(path: str | PathLike[str]) -> Study:
@@ -42,10 +328,6 @@ def read_study(path: str | PathLike[str]) -> Study:
     path : path
         YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
 
-    Returns
-    -------
-    Study
-
     Raises
     ------
     InputError
@@ -57,16 +339,15 @@ def read_study(path: str | PathLike[str]) -> Study:
     keys = [key for key in data if key in _OF_A_CASE]
     # A single one is a misspelling, for which the closest key of a study is named.
     if len(keys) > 1 and "case" not in data:
-        raise InputError(
-            f"the keys {', '.join(keys)} are those of a case",
-            where=str(path),
-            remedy="Run a case file by macroslip run; in a study they belong under the key case.",
-        )
+        remedy = "Run a case file by macroslip run; in a study they belong under the key case."
+        raise InputError(f"the keys {', '.join(keys)} are those of a case", where=str(path), remedy=remedy)
     return _study(data, source, path.parent)
 
 
 def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> Study:
     """A study from the content of a study file as plain data.
+
+    Raises InputError as `read_study`, without file and line.
 
     Parameters
     ----------
@@ -74,11 +355,6 @@ def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> S
         As `yaml` would read it.
     folder : path
         Where relative paths start.
-
-    Raises
-    ------
-    InputError
-        As `read_study`, without file and line.
 
     Examples
     --------
@@ -104,39 +380,38 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
             return None
 
     mapping = values.get("case", {})
-    base, cut = attempt("case", lambda: _base(mapping, source, folder)) or (None, {})
-    loads = attempt("loads", lambda: load_list(values["loads"], folder)) if "loads" in values else None
+    base = attempt("case", lambda: _base(mapping, source, folder))
+    loads = attempt("loads", lambda: load_list(folder, **asdict(values["loads"]))) if "loads" in values else None
     records = {
         noun: attempt(f"{noun}s", lambda noun=noun: _records(RECORDS[noun], values[f"{noun}s"], folder))
         for noun in RECORDS
         if f"{noun}s" in values
     }
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
-    sample = attempt("variations", lambda: _sample(variations, base, records))
+    sample = attempt("variations", lambda: _sample(variations.sample, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))
     heat = attempt("case", lambda: _heat(base, parameters)) if base is not None else None
     weights = values.get("weights")
     if weights is not None and loads is not None:
-        attempt("weights", lambda: _check_weights(weights, heat, loads.loads))
+        attempt("weights", lambda: weights.of(loads.loads))
     if problems:
         raise together(problems)
-    combinations = [
-        [*first, *second, *third]
-        for first in grid(variations.grid or {})
-        for second in variations.list or [[]]
-        for third in (sample.points() if sample else [[]])
-    ]
-    own = {noun: {_name(mapping, noun, getattr(base, noun)): getattr(base, noun)} for noun in RECORDS}
+    combinations = itertools.product(
+        itertools.product(*(variations.grid or {}).values()),
+        variations.list or [[]],
+        sample.points() if sample else [[]],
+    )
+    # The study names the base case's bearing or lubricant as the file does.
+    own = {noun: {mapping.get(noun) or getattr(base, noun).name: getattr(base, noun)} for noun in RECORDS}
     return Study(
         title=values.get("title", ""),
         folder=folder.absolute(),
         case={key: value for key, value in mapping.items() if key not in RECORDS},
-        cut=cut,
         loads=loads,
         bearings=records.get("bearing", own["bearing"]),
         lubricants=records.get("lubricant", own["lubricant"]),
         models=models,
-        variations=combinations,
+        variations=[list(itertools.chain(*one)) for one in combinations],
         parameters=parameters,
         cycles=values.get("cycles", False),
         keep=values.get("keep"),
@@ -146,59 +421,38 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     )
 
 
+def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Case:
+    """The base case, so that a mistake in it is found at once, in its own words and lines."""
+    inner = {keys[1:]: line for keys, line in source.lines.items() if keys[:1] == ("case",) and len(keys) > 1}
+    return template(mapping, [], {}, source=Source(source.file, inner), folder=folder)[0]
+
+
 def _heat(base: Case, parameters: Mapping[str, str] | None) -> Heat | None:
     """How the bearing loses its heat, where the temperature is to balance."""
     if base.temperature != BALANCE:
         return None
     if TEMPERATURE in (parameters or {}):
-        raise InputError(
-            "the temperature is to balance, and it is varied",
-            where=TEMPERATURE,
-            remedy="Vary heat.conductance or heat.ambient, or give the base case a temperature.",
-        )
+        remedy = "Vary heat.conductance or heat.ambient, or give the base case a temperature."
+        raise InputError("the temperature is to balance, and it is varied", where=TEMPERATURE, remedy=remedy)
     return base.heat
 
 
-def _check_weights(weights: Weighting, heat: Heat | None, loads: Sequence[Load]) -> None:
-    if heat is None:
-        raise InputError(
-            "weights are given, and nothing is weighted",
-            allowed="temperature: balance in the base case",
-            remedy="Remove them; macroslip aggregate weights results.",
-        )
-    weights.of(loads)
-
-
-def _sample(variations: Variations, base: Any, records: Mapping[str, Any]) -> Sample | None:
+def _sample(sample: Sample | None, base: Case | None, records: Mapping[str, Any]) -> Sample | None:
     """The sample, with the ranges of the study's bearing and lubricant where it takes them."""
-    sample = variations.sample
     open_nouns = {key.partition(".")[0] for key, one in (sample.ranges if sample else {}).items() if one is None}
     if sample is None or not open_nouns:
         return sample
-    if base is None:  # what is wrong with the case comes first
+    if base is None:  # faults of the case come first
         return None
     found = {}
     for noun in open_nouns:
         known = list((records.get(noun) or {}).values()) or [getattr(base, noun)]
         if len(known) > 1:
-            raise InputError(
-                f"the sample takes ranges from the {noun}'s file, and the study has {len(known)} of them",
-                where="variations.sample.ranges",
-                remedy=f"Make a study of each {noun}, or give low, high and unit.",
-            )
+            what = f"the sample takes ranges from the {noun}'s file, and the study has {len(known)} of them"
+            remedy = f"Make a study of each {noun}, or give low, high and unit."
+            raise InputError(what, where="variations.sample.ranges", remedy=remedy)
         found[noun] = known[0]
     return sample.with_ranges_of(found)
-
-
-def _name(case: Mapping[str, Any], noun: str, record: Record) -> str:
-    """The study's name for the base case's bearing or lubricant."""
-    return case.get(noun) or record.name
-
-
-def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Any:
-    """The base case, so that a mistake in it is found at once, in its own words and lines."""
-    inner = {keys[1:]: line for keys, line in source.lines.items() if keys[:1] == ("case",) and len(keys) > 1}
-    return template(mapping, [], {}, source=Source(source.file, inner), folder=folder)
 
 
 def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Record]:
@@ -208,13 +462,12 @@ def _records(kind: type[Record], names: list[str], folder: Path) -> dict[str, Re
 
 def _parameters(variations: Variations, sample: Sample | None, models: Mapping[str, list[Setting]]) -> dict[str, str]:
     """Units of all parameters; each is varied in one place only, or it would not be clear which value holds."""
-    ranges = sample.ranges if sample else {}
-    grid: dict[str, Any] = dict(variations.grid or {})  # lists of settings, which the reader has made of the axes
+    axes: dict[str, Any] = dict(variations.grid or {})  # lists of settings, which the reader has made of the axes
     places: dict[str, dict[str, str]] = {
-        "grid": {key: settings[0].unit for key, settings in grid.items()},
-        "list": {one.key: one.unit for item in variations.list or [] for one in item},
-        "sample": {key: one.unit for key, one in ranges.items() if one is not None},
-        "models": {one.key: one.unit for settings in models.values() for one in settings},
+        "grid": {key: settings[0].unit for key, settings in axes.items()},
+        "list": {one.key: one.unit for one in itertools.chain(*(variations.list or []))},
+        "sample": {key: one.unit for key, one in (sample.ranges if sample else {}).items() if one is not None},
+        "models": {one.key: one.unit for one in itertools.chain(*models.values())},
     }
     found: dict[str, str] = {}
     for name, units in places.items():

@@ -1,44 +1,71 @@
-"""What the summary keeps of a case: a few numbers for each row of rollers."""
+"""The numbers that a study keeps of a case: of each row of rollers, of the case, of its rating, and cycles of its load."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
-from macroslip.bearing.geometry import orbit_ratio
-from macroslip.integrate.status import Status
-from macroslip.result.thermal_balance import bearing_friction_power
-from macroslip.study.rating_values import VARIABLES as RATING_VARIABLES
-from macroslip.study.rating_values import rating_values
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from macroslip.case.case import Case
+from macroslip.bearing.geometry import ROWS, orbit_ratio
+from macroslip.case.case import Case
+from macroslip.damage.wear import COEFFICIENTS as WEAR_COEFFICIENTS
+from macroslip.errors import InputError
+from macroslip.imposed.status import Status
+from macroslip.loads import BearingLoads
+from macroslip.measures.details import FILM_EDGES
+from macroslip.rating.spectrum import rainflow_ranges
+from macroslip.result.damage import damage
+from macroslip.result.heat_balance import bearing_friction_power
+from macroslip.result.rating import rate_case
 
 _INTERFACES = ("inner", "outer", "cage")
 _OVER = "over all rollers and complete orbits"
+_IN_WINDOW = "energy dissipated by a roller in the window, all interfaces"
+_PER_ORBIT = "energy of a roller per orbit"
+_PEAK = "largest power at any interface per orbit"
+_HERTZ = "load along the roller as in a Hertz contact"
 #: Units and meaning of the numbers of each row of rollers.
 ROW_VARIABLES = {
-    "energy_mean": ("J", "energy dissipated by a roller in the window, all interfaces: mean over rollers"),
-    "energy_min": ("J", "energy dissipated by a roller in the window, all interfaces: smallest roller"),
-    "energy_max": ("J", "energy dissipated by a roller in the window, all interfaces: largest roller"),
+    "energy_mean": ("J", f"{_IN_WINDOW}: mean over rollers"),
+    "energy_min": ("J", f"{_IN_WINDOW}: smallest roller"),
+    "energy_max": ("J", f"{_IN_WINDOW}: largest roller"),
     "energy_inner": ("J", "energy dissipated at the inner raceway in the window, mean over rollers"),
     "energy_outer": ("J", "energy dissipated at the outer raceway in the window, mean over rollers"),
     "energy_cage": ("J", "energy dissipated at the cage in the window, mean over rollers"),
-    "orbit_energy_mean": ("J", f"energy of a roller per orbit, all interfaces: mean {_OVER}"),
-    "orbit_energy_inner": ("J", f"energy of a roller per orbit at the inner raceway: mean {_OVER}"),
-    "orbit_energy_outer": ("J", f"energy of a roller per orbit at the outer raceway: mean {_OVER}"),
-    "orbit_energy_cage": ("J", f"energy of a roller per orbit at the cage: mean {_OVER}"),
-    "orbit_energy_max": ("J", f"energy of a roller per orbit, all interfaces: largest {_OVER}"),
-    "peak_power_mean": ("W", f"largest power at any interface per orbit: mean {_OVER}"),
-    "peak_power_std": ("W", f"largest power at any interface per orbit: standard deviation {_OVER}"),
-    "peak_power_max": ("W", f"largest power at any interface per orbit: largest {_OVER}"),
+    "orbit_energy_mean": ("J", f"{_PER_ORBIT}, all interfaces: mean {_OVER}"),
+    "orbit_energy_inner": ("J", f"{_PER_ORBIT} at the inner raceway: mean {_OVER}"),
+    "orbit_energy_outer": ("J", f"{_PER_ORBIT} at the outer raceway: mean {_OVER}"),
+    "orbit_energy_cage": ("J", f"{_PER_ORBIT} at the cage: mean {_OVER}"),
+    "orbit_energy_max": ("J", f"{_PER_ORBIT}, all interfaces: largest {_OVER}"),
+    "peak_power_mean": ("W", f"{_PEAK}: mean {_OVER}"),
+    "peak_power_std": ("W", f"{_PEAK}: standard deviation {_OVER}"),
+    "peak_power_max": ("W", "largest power at any interface in the window, over all rollers"),
     "lowest_spin_ratio": ("1", "smallest ratio of spin to spin in pure rolling in the window, of all rollers"),
     "failed_rollers": ("1", "number of rollers whose integration failed"),
+    "entry_rate": ("1/s", "entries beyond the slip of a smearing rig, of all rollers of the row, at least"),
+    "largest_entry_slip": ("1", "largest slide-roll ratio at an entry into the load zone"),
+    "pressure_slip_rate": ("W/m2", "mean of pressure times slip over time, e_a, at the place with most"),
+    "wear_rate": ("m/s", "growth of the deepest wear at k = 1e-17 m2/N, unworn contour"),
+    "mixed_film_time": ("1", "share of time of a roller under load with Lambda < 1, raceway with more"),
+}
+#: Those of them that need details of the contacts.
+OF_DETAILS = ("entry_rate", "largest_entry_slip", "pressure_slip_rate", "wear_rate", "mixed_film_time")
+#: The same of the rating of a case.
+RATING_VARIABLES = {
+    "static_safety": ("1", "static safety factor C0/P0, the least"),
+    "equivalent_load": ("N", "mean dynamic equivalent load P"),
+    "basic_life": ("h", "basic rating life L10h, ISO 281"),
+    "modified_life": ("h", "modified rating life, ISO 281"),
+    "reference_life": ("h", f"basic reference rating life, ISO/TS 16281, {_HERTZ}"),
+    "modified_reference_life": ("h", f"modified reference rating life, {_HERTZ}"),
+    "viscosity_ratio": ("1", "viscosity ratio kappa at the mean speed"),
+    "least_film_ratio": ("1", "film ratio Lambda, 5 % of loaded rollers below: least of all raceways"),
+    "largest_pressure": ("Pa", "largest Hertz pressure of all raceways"),
+    "share_below_minimum_load": ("1", "share of time in which P is below the maker's minimum load"),
+    "share_below_fatigue_load_limit": ("1", "share of time in which P is below C_u"),
+    "damage_equivalent_load_4": ("N", "range of the damage-equivalent radial load at 1 Hz, exponent 4"),
+    "damage_equivalent_load_10": ("N", "range of the damage-equivalent radial load at 1 Hz, exponent 10"),
 }
 #: The same of the case as a whole.
 CASE_VARIABLES = {
@@ -52,93 +79,144 @@ CASE_VARIABLES = {
     "simulate_seconds": ("s", "wall time of the simulation where it was computed"),
     "other_seconds": ("s", "wall time of everything else: reading the loads, hashing, summary, storing"),
 }
+#: Units of all columns of numbers; names of columns by row end in the row.
+NUMBERS = {f"{name}_{row}": units for name, (units, _) in ROW_VARIABLES.items() for row in ROWS} | {
+    name: units for name, (units, _) in CASE_VARIABLES.items()
+}
+#: Components whose cycles are counted.
+COMPONENTS = ("radial", "axial")
+#: Classes of ranges, 40 a decade from 1 N to 1e8 N: every load that is accepted, to 6 %.
+RANGE_EDGES = np.logspace(0.0, 8.0, 321)
 
 
-#: Variables that are stored whatever is to be kept: which rollers failed, and how.
-ALWAYS_KEPT = ("status", "end_time", "end_slip")
+def summary_values(result: xr.Dataset, case: Case) -> dict[str, float]:
+    """The numbers of a case by the names of `NUMBERS`, but for times of computation.
 
-
-def kept(result: xr.Dataset, names: Sequence[str] | None) -> xr.Dataset:
-    """What is stored of a result: some of its variables with all coordinates and attributes, or all of them.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `simulate`.
-    names : sequence of str, optional
-        Variables to keep beside `ALWAYS_KEPT`; None: all.
+    Values that a failed roller enters are NaN, and so are means of peaks and energies per orbit without a complete orbit.
     """
-    if names is None:
-        return result
-    return result.drop_vars([name for name in result.data_vars if name not in (*names, *ALWAYS_KEPT)])
-
-
-def row_values(result: xr.Dataset) -> dict[str, list[float]]:
-    """The numbers of each row of rollers, in the order of `row`.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `simulate`.
-
-    Returns
-    -------
-    dict
-        A list by name of `ROW_VARIABLES`. Values that a failed roller enters are NaN, and so are peaks and energies per
-        orbit without a complete orbit.
-    """
-    energy = result.energy.transpose("row", "roller", "interface").values
-    orbit_energy = _orbit_energy(result)
-    orbits = result.orbit_energy.transpose("row", "roller", "orbit", "interface").values.sum(axis=-1)
-    peaks = result.peak_power.transpose("row", "roller", "orbit", "interface").values.max(axis=-1)
-    orbits, peaks = (values.reshape(values.shape[0], -1) for values in (orbits, peaks))
-    total = energy.sum(axis=-1)
-    interfaces = list(result.interface.values)
+    # An orbit without values stands for none.
+    of_orbits = result[["orbit_energy", "peak_power"]].pad(orbit=(0, int(not result.sizes["orbit"])))
+    energy, orbit_energy = result.energy, of_orbits.orbit_energy
+    rollers, samples = ["roller"], ["roller", "orbit"]
+    total = energy.sum("interface", skipna=False)
+    of_orbit = orbit_energy.sum("interface", skipna=False)
+    peaks = of_orbits.peak_power.max("interface", skipna=False)
+    mean_orbit = orbit_energy.mean(samples, skipna=False)
     found = {
-        "energy_mean": total.mean(axis=1),
-        "energy_min": total.min(axis=1),
-        "energy_max": total.max(axis=1),
-        **{f"energy_{name}": energy[..., interfaces.index(name)].mean(axis=1) for name in _INTERFACES},
-        "orbit_energy_mean": _over_samples(np.mean, orbits),
-        **{f"orbit_energy_{name}": orbit_energy[:, interfaces.index(name)] for name in _INTERFACES},
-        "orbit_energy_max": _over_samples(np.max, orbits),
-        "peak_power_mean": _over_samples(np.mean, peaks),
-        "peak_power_std": _over_samples(np.std, peaks),
-        "peak_power_max": _over_samples(np.max, peaks),
-        "lowest_spin_ratio": result.min_spin_ratio.transpose("row", "roller").values.min(axis=1),
-        "failed_rollers": (result.status.transpose("row", "roller").values != Status.COMPLETED).sum(axis=1),
+        "energy_mean": total.mean(rollers, skipna=False),
+        "energy_min": total.min(rollers, skipna=False),
+        "energy_max": total.max(rollers, skipna=False),
+        **{f"energy_{one}": energy.sel(interface=one).mean(rollers, skipna=False) for one in _INTERFACES},
+        "orbit_energy_mean": of_orbit.mean(samples, skipna=False),
+        **{f"orbit_energy_{one}": mean_orbit.sel(interface=one) for one in _INTERFACES},
+        "orbit_energy_max": of_orbit.max(samples, skipna=False),
+        "peak_power_mean": peaks.mean(samples, skipna=False),
+        "peak_power_std": peaks.std(samples, skipna=False),
+        "peak_power_max": result.window_peak_power.max(["roller", "interface"], skipna=False),
+        "lowest_spin_ratio": result.min_spin_ratio.min(rollers, skipna=False),
+        "failed_rollers": (result.status != Status.COMPLETED).sum(rollers),
+        **damage_values(result),
     }
-    return {name: [float(value) for value in values] for name, values in found.items()}
-
-
-def case_values(result: xr.Dataset, case: Case) -> dict[str, float]:
-    """The numbers of the case as a whole, without times of computation."""
-    loads, bearing = case.loads, case.bearing
+    loads = case.loads
     # In an orbit the shaft turns by 2π over the ratio of the speeds.
-    turned = 2.0 * np.pi / orbit_ratio(bearing)
-    return {
+    turned = 2.0 * np.pi / orbit_ratio(case.bearing)
+    failed = bool((result.status != Status.COMPLETED).any())
+    return {f"{name}_{row}": float(values.sel(row=row)) for name, values in found.items() for row in ROWS} | {
         "window_length": float(result.attrs["window_end"] - result.attrs["window_start"]),
         "orbits": float(result.sizes["orbit"]),
         "loads_length": loads.duration,
         "shaft_speed_mean": float(np.mean(loads.shaft_speed)),
-        "contact_torque": bearing.rollers_per_row * float(_orbit_energy(result).sum()) / turned,
-        "friction_power": _friction_power(result),
+        "contact_torque": case.bearing.rollers_per_row * float(mean_orbit.sum(skipna=False)) / turned,
+        "friction_power": math.nan if failed else bearing_friction_power(result),
         **rating_values(case),
     }
 
 
-def _friction_power(result: xr.Dataset) -> float:
-    """Mean friction power of the whole bearing [W]; NaN where a roller failed."""
-    return math.nan if bool((result.status != Status.COMPLETED).any()) else bearing_friction_power(result)
+def damage_values(result: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Rates of damage of each row, as in `macroslip.result.damage`; NaN without details of the contacts."""
+    unknown = xr.DataArray(np.full(result.sizes["row"], np.nan), {"row": result.row}, "row")
+    found: dict[str, xr.DataArray] = dict.fromkeys(OF_DETAILS, unknown)
+    if "surface_work" not in result:
+        return found
+    criteria = damage(result)
+    below_one = list(FILM_EDGES).index(1.0) + 1
+    mixed = result.film_slip_time.isel(film_class=slice(below_one)).sum(["film_class", "slip_class"], skipna=False)
+    length = (result.attrs["window_end"] - result.attrs["window_start"]) * result.sizes["roller"]
+    found["mixed_film_time"] = (mixed / length).max("raceway", skipna=False)
+    found["pressure_slip_rate"] = criteria.pressure_slip_rate.max(["place", "station"], skipna=False)
+    if "entry_rate" in criteria:  # there are orbits
+        # A row into which no roller has entered has no slip; max would warn of it.
+        found["entry_rate"] = criteria.entry_slide_roll_ratio_beyond_least.reduce(np.fmax.reduce, "raceway")
+        found["largest_entry_slip"] = criteria.entry_slide_roll_ratio.reduce(np.fmax.reduce, "raceway")
+    if "asperity_work_rate" in criteria:
+        work = criteria.asperity_work_rate.max(["place", "station"], skipna=False)
+        found["wear_rate"] = WEAR_COEFFICIENTS[1] * work
+    return found
 
 
-def _orbit_energy(result: xr.Dataset) -> np.ndarray:
-    """Energy per orbit over (row, interface) [J], mean over rollers and orbits; NaN without a complete orbit."""
-    energy = result.orbit_energy.transpose("row", "roller", "orbit", "interface").values
-    if not result.sizes["orbit"]:
-        return np.full((energy.shape[0], energy.shape[-1]), np.nan)
-    return energy.mean(axis=(1, 2))
+def rating_values(case: Case) -> dict[str, float]:
+    """The numbers of a rating; NaN for a case without a rating, or a bearing that lacks values for it."""
+    nothing = dict.fromkeys(RATING_VARIABLES, math.nan)
+    if not case.rating:
+        return nothing
+    try:
+        rating = rate_case(case)
+    except InputError:
+        return nothing
+    range_of = rating.damage_equivalent_load.sel(load="radial")
+    hertz = rating.sel(load_along_roller="hertz")
+    derived = {
+        "reference_life": hertz.reference_life,
+        "modified_reference_life": hertz.modified_reference_life,
+        "least_film_ratio": rating.film_ratio_low.min(),
+        "largest_pressure": rating.largest_pressure.max(),
+        "damage_equivalent_load_4": range_of.sel(wohler_exponent=4.0),
+        "damage_equivalent_load_10": range_of.sel(wohler_exponent=10.0),
+    }
+    return {name: float(derived[name] if name in derived else rating[name]) for name in RATING_VARIABLES}
 
 
-def _over_samples(function: Any, samples: np.ndarray) -> np.ndarray:
-    return function(samples, axis=1) if samples.shape[1] else np.full(samples.shape[0], np.nan)
+def load_cycles(loads: BearingLoads) -> xr.Dataset:
+    """Count the cycles of a load history by classes of range.
+
+    Cycles of the axial load move load from one row of rollers to the other and back, and a row that is unloaded is a row
+    that slips; cycles of the radial load load housing, shaft and ring seats.
+
+    Returns
+    -------
+    xarray.Dataset
+        `load_cycles` over (component, load_range): cycles in the whole history, which is taken as repeating, so that
+        every cycle closes. `load_range` is the geometric middle of a class [N].
+
+    Notes
+    -----
+    `fatpack.find_rainflow_ranges`, 256 levels between the smallest and the largest load; smaller ripples do not count.
+    ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17.
+
+    Examples
+    --------
+    >>> from macroslip import BearingLoads
+    >>> time = np.linspace(0.0, 10.0, 1001)
+    >>> force = np.zeros((1001, 3))
+    >>> force[:, 2] = 45e3 * np.sin(2.0 * np.pi * time)
+    >>> found = load_cycles(BearingLoads(time, np.full(1001, 2.0), force, "ten cycles of 90 kN")).sel(component="axial")
+    >>> most = found.load_cycles.argmax("load_range")
+    >>> float(found.load_cycles.sum()), f"{float(found.load_range[most]):.3g} N"
+    (10.0, '9.17e+04 N')
+    """
+    counts = [
+        np.histogram(rainflow_ranges(series) if np.ptp(series) >= RANGE_EDGES[0] else [], RANGE_EDGES)[0].astype(float)
+        for series in (np.hypot(loads.force[:, 0], loads.force[:, 1]), loads.force[:, 2])
+    ]
+    middle = np.sqrt(RANGE_EDGES[1:] * RANGE_EDGES[:-1])
+    about = {"units": "N", "long_name": "range of the cycle, middle of its class"}
+    return xr.Dataset(
+        {
+            "load_cycles": (
+                ("component", "load_range"),
+                counts,
+                {"units": "1", "long_name": "cycles of the bearing's load"},
+            )
+        },
+        {"component": list(COMPONENTS), "load_range": ("load_range", middle, about)},
+    )

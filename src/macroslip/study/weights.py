@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from macroslip.catalogue.forms import Text
-from macroslip.catalogue.input_section import input_section
-from macroslip.catalogue.quantity_forms import Quantity
-from macroslip.catalogue.units import NUMBER
 from macroslip.errors import InputError
+from macroslip.input.fields import IN_FILE, Form, Quantity, Text
+from macroslip.input.fields import Given as Given_
+from macroslip.input.section import MappingOf, form_from, input_section
+from macroslip.input.units import NUMBER
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from pandas.api.typing import DataFrameGroupBy
+    from numpy.typing import ArrayLike
 
     from macroslip.study.loads_list import Load
 
@@ -26,21 +28,20 @@ if TYPE_CHECKING:
 YEAR = 365.25 * 86400.0
 
 
-@dataclass(frozen=True)
+def described(units: str, long_name: str) -> dict[str, str]:
+    """Attributes of a variable."""
+    return {"units": units, "long_name": long_name}
+
+
+_SCALE = Quantity("scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True)
+_SHAPE = Quantity("shape of the Weibull distribution", NUMBER, 0.0, above=True)
+
+
+@input_section("weights.wind.weibull", "Weibull distribution of the wind speed", positional=True)
 class Weibull:
-    """Weibull distribution of the wind speed.
+    """Weibull distribution of the wind speed, of scale A > 0 [m/s] and shape k > 0 [1]; k = 2 is a Rayleigh distribution.
 
-    Parameters
-    ----------
-    scale : float
-        A [m/s], above 0.
-    shape : float
-        k [1], above 0; 2 is a Rayleigh distribution.
-
-    Raises
-    ------
-    InputError
-        For values that are not above 0.
+    Raises InputError for values that are not above 0.
 
     Notes
     -----
@@ -53,36 +54,21 @@ class Weibull:
     0.1079
     """
 
-    scale: float
-    shape: float
-
-    def __post_init__(self) -> None:
-        for name in ("scale", "shape"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"the {name} of the Weibull distribution is {value!r}", allowed="a number above 0")
+    scale: Annotated[float, _SCALE]
+    shape: Annotated[float, _SHAPE]
 
     def probability(self, centre: float, width: float) -> float:
         """Probability of the bin of this centre and width [m/s]."""
         from scipy.stats import weibull_min
 
-        low, high = weibull_min.sf([centre - 0.5 * width, centre + 0.5 * width], self.shape, scale=self.scale)
+        with np.errstate(over="ignore"):  # far beyond the scale, where the probability is 0
+            low, high = weibull_min.sf([centre - 0.5 * width, centre + 0.5 * width], self.shape, scale=self.scale)
         return float(low - high)
 
 
 @dataclass(frozen=True)
 class Given:
-    """Probability of each bin.
-
-    Parameters
-    ----------
-    probabilities : mapping of float to float
-        By the centre of the bin [unit of the field]; 0 or above, together at most 1.
-
-    Raises
-    ------
-    InputError
-    """
+    """Probability of each bin by its centre [unit of the field]; 0 or above, together at most 1, else InputError."""
 
     probabilities: Mapping[float, float]
 
@@ -92,13 +78,7 @@ class Given:
             raise InputError(f"the probabilities are {values!r:.200}", allowed="numbers from 0, together at most 1")
 
     def probability(self, centre: float, width: float) -> float:
-        """Probability of the bin of this centre.
-
-        Raises
-        ------
-        InputError
-            If none is given for it.
-        """
+        """Probability of the bin of this centre; InputError if none is given."""
         for given, probability in self.probabilities.items():
             if abs(given - centre) < 1e-6 * width:
                 return probability
@@ -110,37 +90,122 @@ class Given:
         )
 
 
-Weights = Weibull | Given
+#: Wind speeds of the classes of IEC 61400-1: Rayleigh distributions with a mean of 0.2 times the reference wind speed,
+#: 50, 42.5 and 37.5 m/s.
+IEC_CLASSES = {f"IEC {name}": Weibull(scale=0.2 * speed / math.gamma(1.5), shape=2.0) for name, speed in
+               (("I", 50.0), ("II", 42.5), ("III", 37.5))}  # fmt: skip
 
 
-@input_section("weights", "what each load history counts in the mean friction power, for temperature: balance")
+@dataclass(frozen=True)
+class Rate:
+    """How often an event happens in a year, or for how many hours of it; InputError for numbers below 0."""
+
+    number: float
+    in_hours: bool = False  #: Whether it is hours, not the number of times that the whole record happens
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.number) and self.number >= 0.0):
+            raise InputError(f"the rate of an event is {self.number!r}", allowed="a number from 0")
+
+    @classmethod
+    def written(cls, text: Any) -> Rate:
+        """A rate as a file has it: `300 per year`, `400 h per year`; InputError for anything else.
+
+        Examples
+        --------
+        >>> Rate.written("300 per year"), Rate.written("0.5 h per year")
+        (Rate(number=300.0, in_hours=False), Rate(number=0.5, in_hours=True))
+        """
+        found = re.fullmatch(r"\s*(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(h)?\s+per\s+year\s*", str(text))
+        if not found:
+            raise InputError(f"it is {text!r:.100}", allowed="such as '300 per year' or '400 h per year'")
+        return cls(float(found[1]), bool(found[2]))
+
+    def share(self, length: float) -> float:
+        """Share of all time, of an event whose record is so long [s]."""
+        return self.number * (3600.0 if self.in_hours else length) / YEAR
+
+
+@dataclass(frozen=True)
+class Year:
+    """A year of wind speeds and events. Events take their time first; the distribution of the wind speed holds for the rest."""
+
+    wind: Weibull | Given
+    events: Mapping[str, Rate] = field(default_factory=dict)  #: By the label `event`; others count nothing
+
+
+Weights = Weibull | Given | Year
+
+
+@dataclass(frozen=True)
+class _WeibullOrClass(Form):
+    """Scale and shape, or the name of a class of IEC 61400-1."""
+
+    form = f"a section with the keys scale and shape, or {', '.join(IEC_CLASSES)}"
+
+    def read(self, value: Any, given: Given_) -> Weibull:
+        """The distribution."""
+        if isinstance(value, str) and value in IEC_CLASSES:
+            return IEC_CLASSES[value]
+        if not isinstance(value, Mapping):
+            raise self.wrong(value)
+        return form_from(Weibull).read(value, given)
+
+    def json(self) -> dict[str, Any]:
+        """A class, or an object."""
+        return {"anyOf": [{"enum": list(IEC_CLASSES)}, form_from(Weibull).json()]}
+
+
+@input_section("weights.wind", "how likely each wind speed is")
+class Wind:
+    """How likely each wind speed is."""
+
+    weibull: Annotated[Weibull, _WeibullOrClass("Weibull distribution of the wind speed")]
+
+
+_RATES = MappingOf(
+    "how often each event happens",
+    "a section such as {start-8: 300 per year, idle-6: 400 h per year}",
+    Annotated[str, Text("rate of the event")],
+    lambda _, text: Rate.written(text),
+)
+
+
+@input_section(
+    "weights", "what each load history counts in a year: wind speeds, which the histories of a bin share, and events"
+)
 class Weighting:
-    """How much each load history counts, by how likely its wind speed is.
-
-    Parameters
-    ----------
-    field : str
-        Label of the loads.
-    width : float
-        Of a bin [unit of the field], above 0. Load histories of a bin share its probability.
-    scale, shape : float
-        Of the Weibull distribution of the field.
-    """
+    """How much each load history counts. Scale and shape beside `field` are read as those of `wind.weibull`."""
 
     field: Annotated[str, Text("label of the loads to sort into bins")] = "wind_speed"
     width: Annotated[float, Quantity("width of a bin, in the unit of the field", NUMBER, 0.0, above=True)] = 2.0
-    scale: Annotated[
-        float, Quantity("scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True)
-    ]
-    shape: Annotated[float, Quantity("shape of the Weibull distribution", NUMBER, 0.0, above=True)]
+    wind: Wind | None = None
+    events: Annotated[dict[str, Any] | None, _RATES] = None
+    scale: Annotated[float | None, _SCALE] = None
+    shape: Annotated[float | None, _SHAPE] = None
+
+    def __post_init__(self) -> None:
+        flat = self.scale is not None, self.shape is not None
+        if (self.wind is not None and any(flat)) or (self.wind is None and not all(flat)):
+            raise InputError(
+                "the wind speeds are given twice" if self.wind else "the distribution of the wind speeds is not given",
+                allowed="wind: {weibull: {scale: 9.5, shape: 2}} or wind: {weibull: IEC II}",
+                remedy="The keys scale and shape, both, may stand in its place.",
+            )
+
+    @property
+    def year(self) -> Year:
+        """What a year consists of."""
+        wind = (
+            self.wind.weibull if self.wind else Weibull(scale=float(self.scale or 0.0), shape=float(self.shape or 0.0))
+        )
+        return Year(wind, self.events or {})
 
     def of(self, loads: Sequence[Load]) -> list[float]:
-        """Weight of each load history [1], together 1.
+        """Weight of each load history in the mean friction power [1], together 1.
 
-        Raises
-        ------
-        InputError
-            If loads have no such label, or it is no number.
+        Events count by the hours that they take; those that are given by their number, seconds each, count nothing. Raises
+        InputError if loads have no such label, it is no number, an event is unknown, or no wind speed has any probability.
 
         Examples
         --------
@@ -149,94 +214,189 @@ class Weighting:
         >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
         [0.308, 0.308, 0.384]
         """
+        events = [str(load.fields.get("event") or "") for load in loads]
         known = [load.fields.get(self.field) for load in loads]
-        values = [value for value in known if isinstance(value, int | float)]
-        wrong = [load.name for load, value in zip(loads, known, strict=True) if not isinstance(value, int | float)]
-        if wrong:
-            raise InputError(
-                f"the loads {wrong[0]} have no number as '{self.field}'",
-                where="weights.field",
-                allowed=", ".join(loads[0].fields) or "a field in the names of the load files",
-            )
-        bins = [math.floor(value / self.width + 0.5) for value in values]
-        weibull = Weibull(self.scale, self.shape)
-        shares = [weibull.probability(one * self.width, self.width) / bins.count(one) for one in bins]
-        return [share / sum(shares) for share in shares]
+        values = [value if isinstance(value, int | float) else math.nan for value in known]
+        for load, value, event in zip(loads, values, events, strict=True):
+            if not event and not math.isfinite(value):
+                raise InputError(
+                    f"the loads {load.name} have no number as '{self.field}'",
+                    where="weights.field",
+                    allowed=", ".join(loads[0].fields) or "a field in the names of the load files",
+                )
+        bins = Bins.of(values, events, self.width, dict.fromkeys(events, 0.0))
+        shares = (bins.probabilities(self.year) / np.bincount(bins.bin))[bins.bin]
+        if shares.sum() <= 0.0:
+            raise InputError("no load history has any weight", where="weights", remedy="Give wind speeds or hours.")
+        return (shares / shares.sum()).tolist()
+
+
+def weights_in_use(study: xr.Dataset, wind: Weibull | Given | None = None) -> tuple[Weights | None, str, float]:
+    """The weights of a study, field and width of its bins: those of its file, with another `wind` in place of its own."""
+    stored = stored_weighting(study)
+    if stored is None:
+        return wind, "wind_speed", 2.0
+    return (replace(stored.year, wind=wind) if wind else stored.year), stored.field, stored.width
+
+
+def stored_weighting(study: xr.Dataset) -> Weighting | None:
+    """The weighting in the study file of `open_study`'s dataset; None where there is none."""
+    content = json.loads(study.attrs.get("study", "{}")).get("weights")
+    return None if content is None else form_from(Weighting).read(content, IN_FILE)
+
+
+def bin_numbers(values: ArrayLike, width: float) -> np.ndarray:
+    """Number of the bin of each value; bin k reaches from (k − ½) to (k + ½) widths, its lower edge included.
+
+    Examples
+    --------
+    >>> bin_numbers([10.9, 11.0, 12.9, 13.0], 2.0).tolist()
+    [5.0, 6.0, 6.0, 7.0]
+    """
+    return np.floor(np.asarray(values, dtype=float) / width + 0.5)
 
 
 @dataclass(frozen=True)
-class Binning:
-    """The runs of a study by group and bin.
+class Bins:
+    """Wind speeds in bins, each event in one of its own behind them."""
 
-    Parameters
-    ----------
-    groups : list of dict
-        Labels of each group: runs that differ in more than loads and seeds are not pooled.
-    group : ndarray of int, shape (runs,)
-        Group of each run.
-    centres : ndarray, shape (bins,)
-        [unit of the field].
-    bin : ndarray of int, shape (runs,)
-        Bin of each run.
-    width : float
-        [unit of the field].
-    field : str
-    """
-
-    groups: list[dict[str, Any]]
-    group: np.ndarray
+    #: Middles, shape (bins,), in the unit of the field, as the width; NaN for events, and for one bin of all runs.
     centres: np.ndarray
-    bin: np.ndarray
     width: float
-    field: str
+    #: Name of the event, shape (bins,), empty for bins of wind speeds; and how long its record is [s].
+    events: np.ndarray
+    lengths: np.ndarray
+    #: Bin of each value, shape (values,).
+    bin: np.ndarray
+
+    @classmethod
+    def of(cls, values: ArrayLike, events: Sequence[str], width: float, lengths: Mapping[str, float]) -> Bins:
+        """Sort values into bins, those of events by the event; `lengths` are those of the events' records [s]."""
+        named = np.asarray(events, dtype=object)
+        calm = named == ""
+        numbers, inside = np.unique(bin_numbers(np.asarray(values, dtype=float)[calm], width), return_inverse=True)
+        names = list(dict.fromkeys(named[~calm].tolist()))
+        place = np.empty(named.size, dtype=int)
+        place[calm] = inside
+        place[~calm] = [numbers.size + names.index(one) for one in named[~calm]]
+        return cls(
+            centres=np.concatenate([numbers * width, np.full(len(names), np.nan)]),
+            width=width,
+            events=np.array([""] * numbers.size + names, dtype=object),
+            # An event without a result has no length: any weight above 0 makes what it enters NaN.
+            lengths=np.nan_to_num([0.0] * numbers.size + [lengths[name] for name in names], nan=1.0),
+            bin=place,
+        )
+
+    def probabilities(self, weights: Weights) -> np.ndarray:
+        """Share of all time of each bin, shape (bins,).
+
+        Raises InputError if an event is unknown, events take more than all time, or no wind speed has any probability.
+        """
+        year = weights if isinstance(weights, Year) else Year(weights)
+        known = [name for name in self.events if name]
+        if unknown := [name for name in year.events if name not in known]:
+            raise InputError(
+                f"the weights name the event '{unknown[0]}', which no loads have as their label 'event'",
+                where="weights.events",
+                allowed=", ".join(known) or "none: no loads are events",
+            )
+        rates = [year.events.get(name) for name in self.events]
+        shares = np.array([one.share(length) if one else 0.0 for one, length in zip(rates, self.lengths, strict=True)])
+        if shares.sum() > 1.0:
+            what = f"the events take {shares.sum() * YEAR / 3600.0:.6g} hours of a year"
+            raise InputError(what, where="weights.events", allowed=f"up to {YEAR / 3600.0:g} hours")
+        windy = self.events == ""
+        wind = np.array([year.wind.probability(float(one), self.width) for one in self.centres[windy]])
+        # What the wind speeds share has to be a probability that sums in floating-point numbers can still tell from 0.
+        if wind.size and not wind.sum() > _LEAST:
+            first, last = self.centres[windy][[0, -1]]
+            raise InputError(
+                f"the wind speeds from {first:g} to {last:g} have no probability at all",
+                where="weights.wind",
+                allowed="a distribution with some of its probability there",
+                remedy="Check scale and shape, and that both have the unit of the label.",
+            )
+        shares[windy] = (1.0 - shares.sum()) * wind
+        return shares
+
+
+@dataclass(frozen=True)
+class Binning(Bins):
+    """The runs of a study by group and bin."""
+
+    #: Labels of each group: runs that differ in more than loads and seeds are not pooled.
+    groups: pd.DataFrame
+    #: Group of each run, shape (runs,).
+    group: np.ndarray
+    field: str | None
+
+    def probabilities(self, weights: Weights | None) -> np.ndarray:
+        """As those of `Bins`; without weights all time is in the one bin of all runs."""
+        return np.ones(1) if weights is None else super().probabilities(weights)
 
     def coordinates(self, study: xr.Dataset, *, bins: bool = True) -> dict[str, Any]:
         """Coordinates of a dataset over `group` and `bin`."""
-        import pandas as pd
-
         found: dict[str, Any] = {}
-        for name in self.groups[0] if self.groups else ():
-            values = [group[name] for group in self.groups]
-            texts = any(isinstance(value, str) for value in values)
-            array = pd.Series(values, dtype=object if texts else None).to_numpy()
-            found[name] = ("group", array, dict(study[name].attrs))
-        if bins:
+        for name, column in self.groups.items():
+            kind = None if column.dtype.kind in "biuf" else object
+            found[str(name)] = ("group", column.to_numpy(dtype=kind), dict(study[str(name)].attrs))
+        if bins and self.field is None:
+            found["bin"] = ("bin", self.centres, described("1", "all cases alike"))
+        elif bins:
             units = study[self.field].attrs["units"]
-            about = {"units": units, "long_name": f"centre of the bin of {self.field}, {self.width:g} {units} wide"}
-            found["bin"] = ("bin", self.centres, about)
+            about = f"centre of the bin of {self.field}, {self.width:g} {units} wide"
+            found["bin"] = ("bin", self.centres, described(units, about))
+        if bins and any(self.events):
+            found["event"] = ("bin", self.events, described("1", "event in place of a wind speed"))
         return found
 
-    def by_cell(self, values: np.ndarray) -> DataFrameGroupBy:
-        """Values (runs, k) or (runs,) by group and bin."""
-        import pandas as pd
+    def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Mean of the values of each run in each cell, over runs without NaN; numbers of these and of the others.
 
-        return pd.DataFrame(values).groupby([self.group, self.bin])
+        Values are taken one run after the other, so that a large study need not fit into memory.
 
-    def as_array(self, cells: pd.DataFrame, empty: float = math.nan) -> np.ndarray:
-        """What was made of each cell's values, shape (groups, bins, k); `empty` where a cell has no runs."""
-        import pandas as pd
-
+        Returns
+        -------
+        ndarray, shape (groups, bins, ...)
+            Means; NaN in a cell without runs.
+        ndarray, ndarray, shape (groups, bins)
+            Number of runs in the mean, and of runs left out.
+        """
         shape = len(self.groups), self.centres.size
-        every = pd.MultiIndex.from_product(map(range, shape))
-        return cells.reindex(every, fill_value=empty).to_numpy(dtype=float).reshape(*shape, -1)
+        used, left_out = np.zeros(shape), np.zeros(shape)
+        total = np.zeros(shape)
+        for cell, value in zip(zip(self.group, self.bin, strict=True), map(np.asarray, values), strict=True):
+            if total.ndim == 2 and value.ndim:
+                total = np.zeros((*shape, *value.shape))
+            if np.isfinite(value).all():
+                total[cell] += value
+                used[cell] += 1
+            else:
+                left_out[cell] += 1
+        with np.errstate(invalid="ignore"):
+            return total / used.reshape(*shape, *[1] * (total.ndim - 2)), used, left_out
 
-    def probabilities(self, weights: Weights) -> np.ndarray:
-        """Probability of each bin, shape (bins,)."""
-        return np.array([weights.probability(float(centre), self.width) for centre in self.centres])
+
+def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
+    """Sum of values (groups, bins, ...) over bins by their probability; a bin of no weight may be NaN."""
+    some = probability > 0.0
+    return np.tensordot(probability[some], values[:, some], axes=(0, 1))
 
 
-def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) -> Binning:
+def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequence[str] = ()) -> Binning:
     """Sort the runs of a study into groups and bins.
 
-    A bin is centred on a multiple of its width. A group has one bearing, lubricant, model and set of parameters; other
-    labels, such as seeds, are pooled unless they are named in `by`.
+    A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group has
+    one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are named in
+    `by`.
 
     Parameters
     ----------
     study : xarray.Dataset
         From `open_study`.
-    field : str
-        Label to sort by, a number: `wind_speed`.
+    field : str or None
+        Label to sort by, a number: `wind_speed`. None: one bin holds all runs.
     width : float
         Of a bin [unit of the field], above 0.
     by : sequence of str
@@ -249,32 +409,41 @@ def binned(study: xr.Dataset, field: str, width: float, by: Sequence[str] = ()) 
     """
     import pandas as pd
 
-    labels = [name for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
-    for name in (field, *by):
+    labels = [str(name) for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
+    for name in (*([field] if field else []), *by):
         if name not in labels:
-            raise InputError(f"the study has no label '{name}'", allowed=", ".join(map(str, labels)))
-    if study[field].dtype.kind not in "if":
-        raise InputError(
-            f"the label '{field}' is not a number", remedy="Read it as one: {" + field + ":g} in the pattern."
-        )
+            raise InputError(f"the study has no label '{name}'", allowed=", ".join(labels))
+    if field and study[field].dtype.kind not in "if":
+        remedy = "Read it as one: {" + field + ":g} in the pattern."
+        raise InputError(f"the label '{field}' is not a number", remedy=remedy)
     if not (math.isfinite(width) and width > 0.0):
         raise InputError(f"the width of the bins is {width!r}", allowed="a number above 0")
-    parameters = [name for name in labels if "." in str(name)]
-    separate = [*_CHOICES, *parameters, *(name for name in by if name not in _CHOICES)]
+    separate = list(dict.fromkeys([*CHOICES, *(name for name in labels if is_parameter(study, name)), *by]))
     labels_of_runs = pd.DataFrame({name: study[name].values for name in separate})
-    distinct = labels_of_runs.drop_duplicates()
-    values = np.floor(study[field].values / width + 0.5)
-    found = np.unique(values)
+    count = study.sizes["case"]
+    events = [str(one) for one in study["event"].values] if field and "event" in labels else [""] * count
+    lengths = study["window_length"].to_series().groupby(events).mean() if any(events) else {}
+    if field is None:
+        bins = Bins(np.array([np.nan]), width, np.array([""], dtype=object), np.zeros(1), np.zeros(count, dtype=int))
+    else:
+        bins = Bins.of(study[field].values, events, width, lengths)
     return Binning(
-        groups=[dict(zip(distinct, row, strict=True)) for row in distinct.itertuples(index=False, name=None)],
+        **vars(bins),
+        groups=labels_of_runs.drop_duplicates(ignore_index=True),
         # A parameter that a run leaves as it is in the base case is NaN, and the same in all such runs.
         group=labels_of_runs.groupby(separate, sort=False, dropna=False).ngroup().to_numpy(),
-        centres=found * width,
-        bin=np.searchsorted(found, values),
-        width=width,
         field=field,
     )
 
 
-_CHOICES = ("bearing", "lubricant", "model")
+def is_parameter(study: xr.Dataset, label: str) -> bool:
+    """Whether the study varies what a label names, as it does `drivetrain.tilt` or `oil_supply`; fields of loads have no dot."""
+    varied = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
+    keys = (varied.get("grid") or {}, (varied.get("sample") or {}).get("ranges") or {}, *(varied.get("list") or []))
+    return "." in label or any(label in one for one in keys)
+
+
+CHOICES = ("bearing", "lubricant", "model")
 _NO_LABELS = ("case", "run", "loads", "outcome", "reason", "key")
+#: Probability of all wind speeds of a study below which it counts as none: 1e-9 of a year is 30 ms.
+_LEAST = 1e-9

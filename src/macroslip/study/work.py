@@ -1,34 +1,77 @@
-"""What a worker does: one run, from its load file to a stored result. The same for threads, processes and clusters."""
+"""One run of a study, from its load file to a stored result: the same in threads, processes and clusters."""
 
 from __future__ import annotations
 
 import functools
+import hashlib
+import json
 import time
 import traceback
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import xarray as xr
+
 from macroslip.case.case import Case
+from macroslip.case.parts import Traces, Window
+from macroslip.contact.registry import own_laws
 from macroslip.errors import InputError, MacroslipError
-from macroslip.files import is_special, write_durably
-from macroslip.loads import BearingLoads, HubLoads, main_bearing_load
+from macroslip.files import write_durably
+from macroslip.fingerprint import KERNEL_PARTS, RESULT_PARTS, fingerprint
+from macroslip.imposed.status import Status
+from macroslip.loads import BearingLoads, HubLoads
 from macroslip.loads.source_file import without_folders
-from macroslip.study.build import read_loads, template
-from macroslip.study.key import case_key, program
-from macroslip.study.outcome import Outcome
-from macroslip.study.settings import RECORDS, Setting
-from macroslip.study.store import case_path, checksum, layout, read_manifest, to_bytes
-from macroslip.study.summary import case_values, kept, row_values
+from macroslip.study.settings import RECORDS, Setting, read_loads, template
+from macroslip.study.store import Outcome, case_path, checksum, layout, read_manifest, to_bytes
+from macroslip.study.study_file import Study
+from macroslip.study.summary import COMPONENTS, RANGE_EDGES, load_cycles, summary_values
+
+#: Parts that only use results elsewhere, and decide what a study stores.
+_STORED_PARTS = ("damage", "study/summary")
+#: Variables that are stored whatever is to be kept: which rollers failed, and how.
+ALWAYS_KEPT = ("status", "end_time", "end_slip")
+#: Runs that are tried for an estimate, and the time of each that is simulated [s]; half of it as well, for the slope.
+_LOOKED_AT, _STRETCH = 3, 60.0
+#: A run in database and tables [bytes], and counts of cycles in a result [bytes].
+_RECORD_BYTES, _CYCLES_BYTES = 2500, 8 * (len(COMPONENTS) + 1) * RANGE_EDGES.size
 
 
 class StoreError(MacroslipError):
     """A result cannot be stored; no fault of the case, so the study stops."""
 
 
+def program() -> str:
+    """Hash of the program as far as results depend on it: its sources, and registered laws of the user's own."""
+    parts = fingerprint(*KERNEL_PARTS, *RESULT_PARTS, *_STORED_PARTS)
+    return hashlib.sha256("\0".join([parts, *own_laws()]).encode()).hexdigest()
+
+
+def case_key(case: Case, options: Mapping[str, Any]) -> str:
+    """Hash of the full input of a case, of the program, and of all that is stored beyond the result of `simulate`.
+
+    Only the numbers of the loads enter, not their source: a file may be moved, renamed or converted.
+
+    Examples
+    --------
+    >>> from macroslip import BearingLoads, Case
+    >>> loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 10.0)
+    >>> key = case_key(Case(loads=loads), {})
+    >>> len(key), key == case_key(Case(loads=loads, drag=False), {})
+    (64, False)
+    """
+    given = case.as_dict()
+    loads = {name: value for name, value in given["loads"].items() if name != "source"}
+    content = {"case": given | {"loads": loads}, "program": program(), "options": options}
+    return hashlib.sha256(json.dumps(content, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
+
+
 def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
     """Do one run.
+
+    Raises StoreError if the result cannot be stored: the disk is full, for example.
 
     Parameters
     ----------
@@ -37,19 +80,14 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
         `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
         compute even if a result is there.
     progress : callable, optional
-        As for `macroslip.simulate`; what it raises ends the run.
+        As for `macroslip.simulate`; an exception in it ends the run.
 
     Returns
     -------
     dict
-        The record for the journal: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `size`,
-        `layout`, `values`; and `program`, by which the study verifies that a worker runs the same version. With `found`
-        true nothing was computed: a result of that key is there, and the journal decides whether it is sound.
-
-    Raises
-    ------
-    StoreError
-        If the result cannot be stored: the disk is full, for example.
+        For the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `layout`, `values`; and
+        `program`, by which the study verifies that a worker runs the same version. With `found` true nothing was
+        computed: a result of that key is there, and the database decides whether it is sound.
     """
     started = time.perf_counter()
     record: dict[str, Any] = {"run": task["run"], "program": program()}
@@ -59,8 +97,9 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
         options = {name: setup[name] for name in ("cycles", "keep")}
         record["key"] = case_key(case, options)
         path = case_path(Path(task["directory"]), record["key"])
-        if not task["again"] and (stored := _stored(path)) is not None:
-            return record | {"found": True, "detail": checksum(stored)}
+        with suppress(OSError):  # what cannot be read is computed again
+            if not task["again"] and path.is_file():
+                return record | {"found": True, "detail": checksum(path.read_bytes())}
         result, values = _computed(case, options, task["threads"], progress)
     except StoreError:
         raise
@@ -80,27 +119,17 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
     except OSError as error:
         raise StoreError(f"{path}: the result cannot be stored ({error.strerror or error})") from None
     values["other_seconds"] = time.perf_counter() - started - values["simulate_seconds"]
-    failed = int(sum(values["failed_rollers"]))
+    reason = _failed_rollers(result)
     return record | {
-        "outcome": Outcome.ROLLERS_FAILED if failed else Outcome.COMPLETED,
-        "reason": _failed_rollers(result) if failed else "",
-        "detail": checksum(content),
-        "size": len(content),
-        "layout": layout(result),
-        "values": values,
-    }
+        "outcome": Outcome.ROLLERS_FAILED if reason else Outcome.COMPLETED, "reason": reason,
+        "detail": checksum(content), "layout": layout(result), "values": values,
+    }  # fmt: skip
 
 
 def work_several(
     tasks: list[dict[str, Any]], progress: Callable[[int, int], None] | None = None
 ) -> list[dict[str, Any]]:
-    """Do several runs, one after the other; after one that cannot be stored, the others are not begun.
-
-    Returns
-    -------
-    list of dict
-        What `work` returns, or `stop` with the reason why the study has to stop.
-    """
+    """Do runs one after the other; after one that cannot be stored, whose `stop` has the reason, no other is begun."""
     found: list[dict[str, Any]] = []
     for task in tasks:
         try:
@@ -112,8 +141,11 @@ def work_several(
 
 @functools.lru_cache(maxsize=2)
 def _setup(directory: str, expected: str) -> dict[str, Any]:
-    """What all runs of a study share, from its manifest."""
-    manifest, found = read_manifest(Path(directory))
+    """Settings common to all runs of a study, from its manifest."""
+    try:
+        manifest, found = read_manifest(Path(directory))
+    except InputError as error:
+        raise StoreError(f"a worker does not find the study: {error}") from None
     if found != expected:
         raise StoreError(f"{directory}: the manifest is not that of this study; another one was begun there.")
     setup = manifest["setup"]
@@ -132,9 +164,8 @@ def _case(setup: dict[str, Any], task: dict[str, Any]) -> Case:
     try:
         return replace(case, loads=loads)
     except InputError as problem:
-        raise InputError(
-            problem.what, where=f"{loads.source}, {problem.where}", allowed=problem.allowed, remedy=problem.remedy
-        ) from None
+        where = f"{loads.source}, {problem.where}"
+        raise InputError(problem.what, where=where, allowed=problem.allowed, remedy=problem.remedy) from None
 
 
 @functools.lru_cache(maxsize=2)
@@ -143,42 +174,92 @@ def _loads(session: str, source: str, path: str, cut: tuple[tuple[str, float], .
     return read_loads(source, path, dict(cut))
 
 
-def _stored(path: Path) -> bytes | None:
-    try:
-        return None if is_special(path) else path.read_bytes()
-    except OSError:
-        return None
-
-
 def _computed(
-    case: Case, options: dict[str, Any], threads: int | None, progress: Callable[[int, int], None] | None
-) -> tuple[Any, dict]:
-    """What is stored of a case, and the numbers of its summary."""
+    case: Case, options: Mapping[str, Any], threads: int | None, progress: Callable[[int, int], None] | None
+) -> tuple[xr.Dataset, dict[str, float]]:
+    """Stored dataset of a case, and the numbers of its summary."""
     from macroslip.result.simulate import simulate
 
     started = time.perf_counter()
     result = simulate(case, threads=threads, progress=progress)
     seconds = time.perf_counter() - started
-    values: dict[str, Any] = row_values(result) | case_values(result, case)
-    values["simulate_seconds"] = seconds
-    result = kept(result, options["keep"])
+    values = summary_values(result, case) | {"simulate_seconds": seconds}
+    if options["keep"] is not None:
+        result = result.drop_vars([name for name in result.data_vars if name not in (*options["keep"], *ALWAYS_KEPT)])
     if options["cycles"]:
-        from macroslip.study.cycles import counted
-
-        loads = case.loads
-        on_bearing = loads if isinstance(loads, BearingLoads) else main_bearing_load(loads, case.drivetrain)
-        result = result.merge(counted(on_bearing))
+        result = result.merge(load_cycles(case.bearing_loads))
     return result, values
 
 
-def _failed_rollers(result: Any) -> str:
-    """Which rollers failed, and how the first of them."""
-    from macroslip.integrate.status import Status
-
+def _failed_rollers(result: xr.Dataset) -> str:
+    """Which rollers failed, and how the first of them; empty if none did."""
     failed = [one for one in result.status.stack(one=("row", "roller")) if one != Status.COMPLETED]
+    if not failed:
+        return ""
     first = failed[0]
     ended = float(result.end_time.sel(row=first.row, roller=first.roller))
     return (
         f"{len(failed)} of {result.status.size} rollers failed; "
         f"roller {int(first.roller)} of the {first.row.item()} row at t = {ended:.6g} s: {Status(int(first)).sentence}"
     )
+
+
+@dataclass(frozen=True)
+class StudyEstimate:
+    """Time and disk of a study, from `looked_at` of its runs; without any the numbers are NaN."""
+
+    runs: int
+    looked_at: int
+    #: Length of one load history, mean of those [s].
+    simulated_seconds: float
+    #: Computing time of all runs on one processor [s], and size on the disk [bytes].
+    seconds: float
+    bytes: float
+    #: Why others of those could not be begun.
+    problems: tuple[str, ...]
+
+
+def estimate_study(study: Study) -> StudyEstimate:
+    """Begin a few runs, spread over the study, and scale time and size to all of them.
+
+    Each is simulated for 30 and for 60 s of its loads, with one thread; what grows is scaled to its whole length. Loads
+    of other lengths, and parameters that change the work, are not accounted for. The first use of the kernels is left out.
+    """
+    from macroslip.result.plausibility import doubtful_loads
+
+    found, problems = [], []
+    chosen = {round(part * (len(study) - 1) / (_LOOKED_AT - 1)) for part in range(_LOOKED_AT)}
+    for run in (run for number, run in enumerate(study.runs()) if number in chosen):
+        try:
+            case, cut = study.case_of(run)
+            case = replace(case, loads=read_loads(study.loads.source, study.place(run.load), cut))
+            problems += [f"{case.loads.source}: doubtful: {one}" for one in doubtful_loads(case.loads, case.bearing)]
+            if not found:
+                _measured(case, 1.0)  # compiles
+            first, last = float(case.loads.time[0]), float(case.loads.time[-1])
+            length = last - first if case.window.end is None else case.window.end - first
+            stretch = min(_STRETCH, length)
+            (short_time, short_size), (seconds, size) = _measured(case, 0.5 * stretch), _measured(case, stretch)
+        except InputError as problem:
+            problems.append(str(problem))
+            continue
+        more = (length - stretch) / (0.5 * stretch)
+        found.append((length, seconds + more * max(seconds - short_time, 0.0), size + more * max(size - short_size, 0)))
+    count, runs = len(found), len(study)
+    mean = [sum(column) / count for column in zip(*found, strict=True)] if found else [float("nan")] * 3
+    others = _RECORD_BYTES + (_CYCLES_BYTES if study.cycles else 0)
+    return StudyEstimate(runs, count, mean[0], runs * mean[1], runs * (mean[2] + others), tuple(problems))
+
+
+def _measured(case: Case, length: float) -> tuple[float, int]:
+    """Time [s] and size [bytes] of the first part of a case."""
+    from macroslip.result.rating import with_rating
+    from macroslip.result.simulate import simulate
+
+    first, last = float(case.loads.time[0]), float(case.loads.time[-1])
+    end = min(max(first + length, float(case.loads.time[1])), last)  # at least two samples
+    traces = Traces(step=case.traces.step) if case.traces else None
+    part = replace(case, loads=case.loads.window(None, end), window=Window(), traces=traces)
+    started = time.perf_counter()
+    result = with_rating(simulate(part, threads=1), part)
+    return time.perf_counter() - started, len(to_bytes(result))

@@ -1,86 +1,339 @@
-"""Workers: this process, or those of a Dask cluster. Both take tasks and return their results."""
+"""Who does the runs: threads of this process, processes of this machine, or the workers of a Dask scheduler.
+
+A bounded number of runs is under way, whatever the size of the study.
+"""
 
 from __future__ import annotations
 
-from collections import deque
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from threading import Event
-from typing import Any, Protocol
+import asyncio
+import importlib.util
+import logging
+import math
+import multiprocessing
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    CancelledError,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)  # fmt: skip
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager, suppress
+from multiprocessing import resource_tracker
+from threading import Event, Thread
+from typing import Any
 
+from macroslip.errors import InputError, MacroslipError
+from macroslip.machine import process_environment
+from macroslip.study.store import Outcome
 from macroslip.study.work import work_several
 
-Done = tuple[dict[str, Any], dict[str, Any]]
-"""A task and what `work` returned for it."""
-
-
-class Workers(Protocol):
-    """Does tasks, of which it takes a bounded number at a time."""
-
-    def free_places(self) -> int:
-        """How many more tasks it takes now."""
-        ...
-
-    def submit(self, tasks: list[dict[str, Any]]) -> None:
-        """Hand over tasks, at most as many as there are free places."""
-
-    def wait(self) -> list[Done]:
-        """Wait until something is done; nothing when nothing was handed over."""
-        ...
+Task = dict[str, Any]
+Done = list[tuple[Task, dict[str, Any]]]
+#: Worker processes that may die of one run before it counts as failed; Dask has the same number.
+_DEATHS = 4
+#: Longest wait for the end of a process that has died [s].
+_PATIENCE = 5.0
+_NO_GUARD = (
+    "the worker processes end as they start: each of them imports this script, so call run_study(..., workers=...) below "
+    'the main guard, if __name__ == "__main__":'
+)
+#: Tasks in flight for each thread of a worker elsewhere: one under way, one waiting.
+_AHEAD = 2
+#: Tasks a second given to one scheduler and one client, which can do some five times as many; longest time until a
+#: scheduler responds, and time between looks at who has joined [s].
+_TASKS_PER_SECOND, _ANSWER, _LOOK = 100.0, 20.0, 1.0
+_GONE = "the scheduler is gone. Nothing that was reported done is lost; go on with --resume."
 
 
 class ThisProcess:
-    """One run after the other, here; its rollers in threads."""
+    """Several runs at once in threads of this process, or one after the other in the thread that waits.
 
-    def __init__(self) -> None:
-        self._tasks: deque[dict[str, Any]] = deque()
-
-    def free_places(self) -> int:
-        """One at a time."""
-        return 1 - len(self._tasks)
-
-    def submit(self, tasks: list[dict[str, Any]]) -> None:
-        """Keep the tasks until `wait`."""
-        self._tasks.extend(tasks)
-
-    def wait(self) -> list[Done]:
-        """Do the next task."""
-        if not self._tasks:
-            return []
-        task = self._tasks.popleft()
-        return [(task, work_several([task])[0])]
-
-
-class ThreadsHere:
-    """Several runs at once in threads of this process, where the rollers of one run do not fill its processors.
-
-    Parameters
-    ----------
-    runs : int
-        Runs at once.
+    All workers have `free_places`, how many more runs they take now; `submit`, to begin at most as many; and `wait`, until
+    something is done: runs with their results, nothing when nothing is under way.
     """
 
-    def __init__(self, runs: int):
-        self._pool, self._runs, self._ended = ThreadPoolExecutor(runs), runs, Event()
-        self._under_way: dict[Future, dict[str, Any]] = {}
+    def __init__(self, count: int):
+        self._count, self._ended = count, Event()
+        self._pool = ThreadPoolExecutor(count) if count > 1 else None
+        self._under_way: dict[Future, Task] = {}
 
-    def close(self) -> None:
-        """No more is wanted: runs that have not begun never will, and those under way end within a second."""
+    def __enter__(self) -> ThisProcess:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """End: runs that have not begun never will, and those under way end within a second."""
         self._ended.set()
-        self._pool.shutdown(cancel_futures=True)
+        if self._pool:
+            self._pool.shutdown(cancel_futures=True)
 
     def free_places(self) -> int:
         """As many as run at once."""
-        return self._runs - len(self._under_way)
+        return self._count - len(self._under_way)
 
-    def submit(self, tasks: list[dict[str, Any]]) -> None:
-        """Begin the tasks."""
-        self._under_way |= {self._pool.submit(work_several, [task], self._go_on): task for task in tasks}
+    def submit(self, tasks: list[Task]) -> None:
+        """Begin runs."""
+        for task in tasks:
+            future = self._pool.submit(work_several, [task], self._go_on) if self._pool else Future()
+            self._under_way[future] = task
 
-    def wait(self) -> list[Done]:
-        """Wait until one or more are done."""
+    def wait(self) -> Done:
+        """Wait until something is done."""
+        if not self._pool:
+            for future, task in self._under_way.items():
+                future.set_result(work_several([task]))
         done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
         return [(self._under_way.pop(future), future.result()[0]) for future in done]
 
     def _go_on(self, done: int, total: int) -> None:
         if self._ended.is_set():
             raise KeyboardInterrupt
+
+
+def end_in_worker() -> None:
+    """End without a word in a worker that imports a script without main guard: the process that began it reports it."""
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        sys.exit(1)
+
+
+class Processes:
+    """Processes of this machine, each a pool of its own, so that a death concerns one run only; `note` writes to the log."""
+
+    def __init__(self, count: int, note: Callable[[str], None]):
+        self._note = note
+        self._under_way: dict[Future, tuple[_Seat, Task]] = {}
+        self._deaths: dict[str, int] = {}
+        self._idle: list[_Seat] = []
+        self._count = count
+
+    def __enter__(self) -> Processes:
+        self._idle = [_Seat() for _ in range(self._count)]
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """End every process at once, in the middle of its run if need be."""
+        seats = [*self._idle, *(seat for seat, _ in self._under_way.values())]
+        for seat in seats:
+            seat.kill()
+        for seat in seats:
+            seat.pool.shutdown(cancel_futures=True)
+
+    def free_places(self) -> int:
+        """As many as there are idle processes."""
+        return len(self._idle)
+
+    def submit(self, tasks: list[Task]) -> None:
+        """Begin runs."""
+        for task in tasks:
+            seat = self._idle.pop()
+            try:
+                future = seat.pool.submit(work_several, [task])
+            except BrokenProcessPool:  # it has died while it was idle
+                seat = self._another(seat)
+                future = seat.pool.submit(work_several, [task])
+            self._under_way[future] = seat, task
+
+    def wait(self) -> Done:
+        """Wait until something is done; another process takes the place of one that has died."""
+        found: Done = []
+        while self._under_way and not found:
+            done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
+            for future in done:
+                seat, task = self._under_way.pop(future)
+                try:
+                    found.append((task, future.result()[0]))
+                    self._idle.append(seat)
+                except BrokenProcessPool:
+                    self._idle.append(self._another(seat))
+                    deaths = self._deaths[task["run"]] = self._deaths.get(task["run"], 0) + 1
+                    if deaths < _DEATHS:
+                        self.submit([task])
+                    else:
+                        found.append((task, _killed(task)))
+        return found
+
+    def _another(self, seat: _Seat) -> _Seat:
+        # Whoever kills a process leaves a signal; without a main guard it ends by itself.
+        if not seat.has_started() and not seat.was_killed():
+            raise MacroslipError(_NO_GUARD) from None
+        self._note("a worker process has died; another takes over")
+        seat.pool.shutdown(wait=False)
+        return _Seat()
+
+
+class _Seat:
+    """One process."""
+
+    def __init__(self) -> None:
+        before = set(multiprocessing.active_children())
+        with _safe_start():
+            self.pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), _end_with_parent)
+            self._ready = self.pool.submit(os.getpid)  # starts the process
+        self._process = next(iter(set(multiprocessing.active_children()) - before), None)
+
+    def has_started(self) -> bool:
+        return self._ready.done() and not self._ready.cancelled() and self._ready.exception() is None
+
+    def was_killed(self) -> bool:
+        """Whether the process, which has ended, was ended by a signal."""
+        if self._process is None:
+            return False
+        self._process.join(_PATIENCE)
+        return (self._process.exitcode or 0) < 0
+
+    def kill(self) -> None:
+        if self._process is not None:
+            with suppress(OSError, ValueError):
+                self._process.kill()
+
+
+@contextmanager
+def _safe_start() -> Iterator[None]:
+    """Processes started in the block find no module in the current folder, and leave Ctrl-C to this process."""
+    safe, path = process_environment(), list(sys.path)
+    before = {name: os.environ.get(name) for name in safe}
+    os.environ.update(safe)
+    sys.path[:] = [entry for entry in path if entry]
+    # It would be started with the first process, and then let Ctrl-C through again.
+    resource_tracker.ensure_running()
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        sys.path[:] = path
+        for name, value in before.items():
+            os.environ.pop(name) if value is None else os.environ.update({name: value})
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+def _end_with_parent() -> None:
+    """Have this worker end at once when the process that started it does, however that ends."""
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    Thread(target=watch, daemon=True).start()
+
+
+def _killed(task: Task) -> dict[str, Any]:
+    reason = "the workers that began with it died, one after the other; is their memory too small?"
+    return {"run": task["run"], "outcome": Outcome.FAILED, "reason": reason}
+
+
+def look_for(scheduler: str) -> None:
+    """Check that a scheduler responds, before there is a client: one that cannot connect cannot be closed either.
+
+    Raises InputError if there is none at the address, and MacroslipError if Dask is not installed.
+    """
+    if importlib.util.find_spec("distributed") is None:
+        remedy = "pip install 'macroslip[cluster]', or leave out the scheduler."
+        raise MacroslipError(f"a scheduler needs distributed, not installed here: {remedy}")
+    from distributed.comm import connect
+    from distributed.security import Security
+
+    async def knock() -> None:
+        async with asyncio.timeout(_ANSWER):
+            comm = await connect(scheduler, timeout=_ANSWER, **Security().get_connection_args("client"))
+            await comm.close()
+
+    # In a thread of its own: in a notebook this one has a running loop already.
+    with ThreadPoolExecutor(1) as thread:
+        try:
+            thread.submit(asyncio.run, knock()).result()
+        except (OSError, ValueError, TypeError) as error:  # the last without what TLS needs
+            what = f"no scheduler answers at '{scheduler}' ({str(error) or f'nothing is heard for {_ANSWER:g} s'})"
+            raise InputError(what, remedy="Start one with `dask scheduler`, and look at its address.") from None
+
+
+@contextmanager
+def dask_workers(scheduler: str, note: Callable[[str], None]) -> Iterator[Dask]:
+    """The workers of a Dask scheduler at an address such as `tcp://10.0.0.1:8786`."""
+    from distributed import Client
+
+    # The study itself reports the important part of Dask's own messages.
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    try:
+        # Not Dask's default: that is the user's own, and whatever they compute meanwhile would come here.
+        client = Client(scheduler, timeout=_ANSWER, set_as_default=False)
+    except OSError:
+        raise MacroslipError(_GONE) from None
+    with client:
+        yield Dask(client, note)
+
+
+class Dask:
+    """The workers of a Dask scheduler, as many as there are at any moment; `note` writes to the log."""
+
+    def __init__(self, client: Any, note: Callable[[str], None]):
+        self._client, self._note = client, note
+        self._pool = client.get_executor(pure=False)  # not pure: Dask must not take two runs for one
+        self._under_way: dict[Future, list[Task]] = {}
+        self._looked, self._threads = -math.inf, 0
+        self._names: set[str] = set()
+        if not self._look():
+            note("no worker has joined yet; waiting for one")
+
+    def free_places(self) -> int:
+        """Fills a window of two tasks for each thread of all workers that are there."""
+        return max(max(_AHEAD * self._look(), _AHEAD) - len(self._under_way), 0) * self._bundle()
+
+    def submit(self, tasks: list[Task]) -> None:
+        """Send runs, several together where they are short."""
+        size = self._bundle()
+        for start in range(0, len(tasks), size):
+            part = tasks[start : start + size]
+            self._under_way[self._pool.submit(work_several, part)] = part
+
+    def wait(self) -> Done:
+        """Wait until something is done; raises MacroslipError if the scheduler is gone or a worker cannot work."""
+        from distributed import KilledWorker
+
+        found: Done = []
+        while self._under_way and not found:
+            done, _ = wait(self._under_way, return_when=FIRST_COMPLETED)
+            for future in done:
+                tasks = self._under_way.pop(future)
+                try:
+                    results = future.result()
+                except CancelledError:
+                    raise MacroslipError(_GONE) from None
+                except KilledWorker:
+                    if len(tasks) == 1:
+                        found.append((tasks[0], _killed(tasks[0])))
+                    else:  # one of them is the cause
+                        self._under_way |= {self._pool.submit(work_several, [task]): [task] for task in tasks}
+                except Exception as error:
+                    what = f"a worker cannot work: {type(error).__name__}: {error}. Is macroslip installed there?"
+                    raise MacroslipError(what) from None
+                else:
+                    found += zip(tasks, results, strict=False)  # fewer only where the study has to stop
+        return found
+
+    def _look(self) -> int:
+        """Number of threads of all workers, looked up from time to time; notes the workers that have joined and left."""
+        if time.monotonic() - self._looked > _LOOK:
+            threads = self._client.nthreads()
+            names = set(threads)
+            if self._looked > -math.inf:
+                for name in sorted(names - self._names):
+                    self._note(f"worker {name} has joined")
+                for name in sorted(self._names - names):
+                    self._note(f"worker {name} is gone; others take over what it had")
+            self._names, self._threads, self._looked = names, sum(threads.values()), time.monotonic()
+        return self._threads
+
+    def _bundle(self) -> int:
+        """Runs that are sent together, so that with runs of a second or longer the scheduler keeps up."""
+        return max(1, round(self._threads / _TASKS_PER_SECOND))
+
+
+Workers = ThisProcess | Processes | Dask

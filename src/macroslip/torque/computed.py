@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.errors import InputError
 from macroslip.result.run_input import run_input
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from macroslip.bearing import Bearing
-    from macroslip.roller.model import RollerModel
+from macroslip.roller.model import RollerModel
 
 
 def computed_torque(result: xr.Dataset) -> xr.Dataset:
@@ -23,7 +17,7 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
         T = (Σ P + Σ P_r + P_drag)/Ω_in,    P_drag = Σ F_d,x' r~ |Ω|,    F_d,x' = ½ C_D ρ_eff 2 r l (Ω r~)²    (24), (33)
 
     The sums run over the rollers of both rows; P is ∫τ v dA in a contact with microslip and |F Δu| in one without, P_r the
-    power of rolling resistance. It is the torque a drive has to supply for what is dissipated at that moment. Kinetic
+    power of rolling resistance. It is the torque a drive has to supply for the dissipation of that moment. Kinetic
     energy of the rollers and the work of their weight, whose mean over an orbit vanishes, are left out, and so is what the
     model does not have: churning beyond the rollers' drag, hysteresis of the steel, seals.
 
@@ -36,20 +30,15 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     Parameters
     ----------
     result : xarray.Dataset
-        From `macroslip.simulate`, of all rollers of both rows, with traces.
+        From `macroslip.simulate`, of all rollers of both rows, with traces; InputError without.
 
     Returns
     -------
     xarray.Dataset
         Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque
-        [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: what it consists of;
-        ring_torque [N m] over (raceway, time): what the contacts exert on inner and outer ring, positive along the
+        [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: its parts;
+        ring_torque [N m] over (raceway, time): torque of the contacts on inner and outer ring, positive along the
         orbit. NaN where the shaft is at rest, or from where a roller failed.
-
-    Raises
-    ------
-    InputError
-        If there are no traces, or rollers are missing.
 
     Examples
     --------
@@ -59,22 +48,18 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     >>> print(f"{torque.drag_torque[-1]:.2f} N m of drag")
     2.91 N m of drag
     """
-    import xarray as xr
-
     if "power" not in result or "time" not in result.power.dims or not result.sizes["time"]:
         what = "the result has no traces"
         raise InputError(what, where="friction torque", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
-    bearing, models, _ = run_input(result)
+    given = run_input(result)
+    bearing, models = given.bearing, given.models
     missing = bearing.rollers_per_row - result.sizes["roller"]
     if missing or len(models) < 2:
-        raise InputError(
-            f"{missing} rollers of each row are missing" if missing else "a row is missing",
-            where="friction torque",
-            allowed="a result of all rollers of both rows",
-            remedy="Simulate with rollers: all.",
-        )
+        what = f"{missing} rollers of each row are missing" if missing else "a row is missing"
+        allowed = "a result of all rollers of both rows"
+        raise InputError(what, where="friction torque", allowed=allowed, remedy="Simulate with rollers: all.")
     model = next(iter(models.values()))
-    # Every roller has the same speed in pure rolling; that of a failed one is NaN.
+    # Every roller has the same speed in pure rolling; a failed roller has NaN.
     spin = np.nan_to_num(result.spin_pure.values.reshape(-1, result.sizes["time"]))
     spin = spin[np.argmax(np.abs(spin).max(axis=1))]
     orbital = -spin * model.radius / model.outer_radius
@@ -91,35 +76,34 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     rings = _ring_torques(result, bearing, model)
     rings.attrs = {"units": "N m", "long_name": "torque of the contacts on the ring, positive along the orbit"}
     total = sum(one.sum(("row", "interface"), skipna=False) for one in (contacts, rolling)) + drag
+
+    def over_time(values: object, units: str, long_name: str) -> tuple:
+        return "time", np.asarray(values), {"units": units, "long_name": long_name}
+
+    known = {name: result.attrs[name] for name in ("model", "oil") if name in result.attrs}
     return xr.Dataset(
         {
-            "shaft_speed": _over_time(shaft, "rad/s", "speed of the inner ring"),
-            "torque": _over_time(total, "N m", "friction torque of the bearing, against the rotation"),
+            "shaft_speed": over_time(shaft, "rad/s", "speed of the inner ring"),
+            "torque": over_time(total, "N m", "friction torque of the bearing, against the rotation"),
             "contact_torque": contacts,
             "rolling_torque": rolling,
             "ring_torque": rings,
-            "drag_torque": _over_time(drag, "N m", "torque of the lubricant's drag on the rollers"),
+            "drag_torque": over_time(drag, "N m", "torque of the lubricant's drag on the rollers"),
         },
-        attrs={"title": f"Friction torque: {result.attrs['title']}", "model": result.attrs["model"]},
+        attrs={"title": f"Friction torque: {result.attrs['title']}", **known},
     )
-
-
-def _over_time(values: object, units: str, long_name: str) -> tuple:
-    return "time", np.asarray(values), {"units": units, "long_name": long_name}
 
 
 def _per_speed(power: xr.DataArray, per_power: np.ndarray) -> xr.DataArray:
     """Torque over (row, interface, time) of the power of all rollers."""
     total = power.sum("roller", skipna=False).transpose("row", "interface", "time")
     total = total.drop_vars("start_angle", errors="ignore") * per_power
-    # In the order in which files hold it: sums over what was stored and read give the same digits.
+    # In the order of files, so that sums over a stored result give the same digits.
     return total.copy(data=np.ascontiguousarray(total.values))
 
 
 def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> xr.DataArray:
     """Torque on inner and outer ring about +Z0 over (raceway, time)."""
-    import xarray as xr
-
     orbit = -result.spin_pure * model.radius / model.outer_radius
     shaft = orbit / model.orbit_ratio
     # In the whole bearing every roller has an orbit of its own.
@@ -127,7 +111,7 @@ def _ring_torques(result: xr.Dataset, bearing: Bearing, model: RollerModel) -> x
         orbit = orbit + result.orbit_speed_deviation
     roller = (result.spin * model.radius).transpose("row", "roller", "time")
     found = []
-    # Positive speeds are those of a ring that turns back at the inner raceway, forth at the outer one.
+    # At a positive speed the ring turns back at the inner raceway, forth at the outer raceway.
     for name, arm, turning in (
         ("inner", -geometry.inner_contact_radius(bearing), shaft),
         ("outer", geometry.outer_contact_radius(bearing), 0.0),

@@ -1,6 +1,6 @@
 """Friction torque of spherical roller bearings by the handbooks: Palmgren's formula and the SKF model.
 
-Both are stated in mm, N, r/min and mm²/s, and give N mm; `_Operation` is the one place where SI is converted.
+Both are stated in mm, N, r/min and mm²/s, and give N mm; only `_Operation` converts from SI.
 """
 
 from __future__ import annotations
@@ -8,19 +8,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from macroslip.bearing import Bearing
+from macroslip.contact.rolling import replenishment
 from macroslip.errors import InputError
+from macroslip.loads import BearingLoads
 from macroslip.lubricant import Lubricant
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from macroslip.loads import BearingLoads
 
 PALMGREN_SERIES: dict[str, tuple[float, float, float]] = {
     "213": (3.5, 0.0005, 0.33),
@@ -112,42 +110,31 @@ def _operation(
 def _need(bearing: Bearing, *keys: str) -> list[Any]:
     missing = [key for key in keys if getattr(bearing, key) is None]
     if missing:
-        raise InputError(
-            f"{bearing.name} has no {', no '.join(missing)}",
-            where=_WHERE,
-            remedy="Add what is missing to the bearing's file: handbook estimates rest on catalogue data.",
-        )
+        remedy = "Add what is missing to the bearing's file: handbook estimates rest on catalogue data."
+        raise InputError(f"{bearing.name} has no {', no '.join(missing)}", where=_WHERE, remedy=remedy)
     return [getattr(bearing, key) for key in keys]
 
 
 def _constants(series: str, table: Mapping[str, tuple]) -> tuple:
     if series not in table:
-        raise InputError(
-            f"there are no constants for series {series!r}",
-            where=_WHERE,
-            allowed=", ".join(table),
-            remedy="The series is the beginning of the bearing's designation: 240 for 240/600.",
-        )
+        what = f"there are no constants for series {series!r}"
+        remedy = "The series is the beginning of the bearing's designation: 240 for 240/600."
+        raise InputError(what, where=_WHERE, allowed=", ".join(table), remedy=remedy)
     return table[series]
+
+
+_Torque = float | NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PalmgrenTorque:
-    """Friction torque [N m] by Palmgren, against the rotation; floats, or arrays of the shape of the input.
+    """Friction torque [N m] by Palmgren, against the rotation; floats, or arrays of the shape of the input."""
 
-    Attributes
-    ----------
-    viscous : float | array
-        M0, which the oil causes without load: shear and churning [N m].
-    load : float | array
-        M1, which the load causes at any speed: hysteresis of the steel and sliding within the contacts [N m].
-    """
-
-    viscous: float | NDArray[np.float64]
-    load: float | NDArray[np.float64]
+    viscous: _Torque  #: M0, which the oil causes without load: shear and churning
+    load: _Torque  #: M1, which the load causes at any speed: hysteresis of the steel and sliding within the contacts
 
     @property
-    def total(self) -> float | NDArray[np.float64]:
+    def total(self) -> _Torque:
         """M0 + M1 [N m]."""
         return self.viscous + self.load
 
@@ -173,25 +160,13 @@ def palmgren_torque(
     Parameters
     ----------
     bearing : Bearing
-        With bore and outside diameter, static load rating and the axial factors e and Y0.
+        With bore and outside diameter, static load rating and the axial factors e and Y0; InputError without.
     lubricant : Lubricant
         Oil, or base oil of the grease, at operating temperature.
-    radial_load, axial_load : array_like [N]
-        Load on the bearing; signs are dropped.
-    shaft_speed : array_like [rad/s]
-        Speed of the inner ring; its sign is dropped.
+    radial_load, axial_load, shaft_speed : array_like
+        Load on the bearing [N] and speed of the inner ring [rad/s], finite; signs are dropped.
     series : str
         Dimension series: a key of `PALMGREN_SERIES`.
-
-    Returns
-    -------
-    PalmgrenTorque
-        [N m], not negative.
-
-    Raises
-    ------
-    InputError
-        An unknown series, a number that is not finite, or a bearing without the catalogue data.
 
     Notes
     -----
@@ -230,22 +205,14 @@ def palmgren_torque(
 class OilBath:
     """The oil in which the lowest rollers stand.
 
-    Parameters
-    ----------
-    level : float [m]
-        H: height of the oil above the lowest place of the outer raceway while the bearing is at rest, ≥ 0. The
-        formula is for up to 1.2 times the mean diameter; a higher level counts as this one.
-    drag_variable : float
-        V_M [-], read from the catalogue's diagram for roller bearings over H/d_m, 0 to 0.01. The diagram has no
-        formula. It belongs to the churning term, which is small in a slow bearing.
-
-    Raises
-    ------
-    InputError
-        A value outside its range.
+    InputError for a value outside its range.
     """
 
+    #: H: height of the oil above the lowest place of the outer raceway while the bearing is at rest [m], ≥ 0. The
+    #: formula is for up to 1.2 times the mean diameter; a higher level counts as this one.
     level: float
+    #: V_M [-], read from the catalogue's diagram for roller bearings over H/d_m, 0 to 0.01. The diagram has no formula.
+    #: It belongs to the churning term, which is small in a slow bearing.
     drag_variable: float
 
     def __post_init__(self) -> None:
@@ -258,32 +225,17 @@ class OilBath:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SkfTorque:
-    """Friction torque [N m] by the SKF model, against the rotation; floats, or arrays of the shape of the input.
+    """Friction torque [N m] of an open bearing by the SKF model, against the rotation; floats or arrays as input."""
 
-    Attributes
-    ----------
-    rolling : float | array
-        φ_ish φ_rs M_rr: resistance of the oil that the contacts squeeze at their inlets [N m].
-    sliding : float | array
-        M_sl: sliding within the contacts [N m].
-    drag : float | array
-        M_drag: the rollers' way through an oil bath [N m].
-    seal : float | array
-        M_seal: seals of the bearing itself [N m]; zero, for open bearings have none.
-    out_of_range : tuple of str
-        What lies outside the range for which the model is stated; empty if nothing does.
-    """
-
-    rolling: float | NDArray[np.float64]
-    sliding: float | NDArray[np.float64]
-    drag: float | NDArray[np.float64]
-    seal: float | NDArray[np.float64]
-    out_of_range: tuple[str, ...]
+    rolling: _Torque  #: φ_ish φ_rs M_rr: resistance of the oil that the contacts squeeze at their inlets
+    sliding: _Torque  #: M_sl: sliding within the contacts
+    drag: _Torque  #: M_drag: the rollers' way through an oil bath
+    out_of_range: tuple[str, ...]  #: Values outside the range for which the model is stated
 
     @property
-    def total(self) -> float | NDArray[np.float64]:
+    def total(self) -> _Torque:
         """Sum of the parts [N m]."""
-        return self.rolling + self.sliding + self.drag + self.seal
+        return self.rolling + self.sliding + self.drag
 
 
 def skf_torque(
@@ -313,29 +265,18 @@ def skf_torque(
     Parameters
     ----------
     bearing : Bearing
-        With bore, outside diameter and width.
+        With bore, outside diameter and width; InputError without.
     lubricant : Lubricant
         Oil, or base oil of the grease, at operating temperature.
-    radial_load, axial_load : array_like [N]
-        Load on the bearing; signs are dropped.
-    shaft_speed : array_like [rad/s]
-        Speed of the inner ring; its sign is dropped. At zero speed the torque is that of starting, with μ_bl = 0.15.
+    radial_load, axial_load, shaft_speed : array_like
+        Load on the bearing [N] and speed of the inner ring [rad/s], finite; signs are dropped. At zero speed it is the
+        torque of starting, with μ_bl = 0.15.
     series : str
         Dimension series: a key of `SKF_SERIES`.
     oil : str
         A key of `FILM_FRICTION`.
     bath : OilBath, optional
         The oil bath; without one the bearing is lubricated by grease and has no drag.
-
-    Returns
-    -------
-    SkfTorque
-        [N m], not negative.
-
-    Raises
-    ------
-    InputError
-        An unknown series or oil, a number that is not finite, or a bearing without boundary dimensions.
 
     Notes
     -----
@@ -347,7 +288,7 @@ def skf_torque(
     ----------
     SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "The SKF model for calculating the frictional moment".
     Formulas and constants from memory, then confirmed in public excerpts of the catalogue and in transcriptions of it,
-    except for what is tagged R or E.
+    except for numbers tagged R or E.
 
     Examples
     --------
@@ -359,7 +300,7 @@ def skf_torque(
     """
     rolling_constants, sliding_constants = _constants(series, SKF_SERIES)
     if oil not in FILM_FRICTION:
-        raise InputError(f"there is no oil {oil!r}", where=_WHERE, allowed=", ".join(FILM_FRICTION))
+        raise InputError(f"there is no oil {oil!r}", where="friction torque", allowed=", ".join(FILM_FRICTION))
     case = _operation(bearing, lubricant, radial_load, axial_load, shaft_speed)
     if bath is None:
         starvation, drag = STARVATION["grease"], np.zeros_like(case.speed)
@@ -368,7 +309,7 @@ def skf_torque(
         starvation, drag = 0.0 if covered else STARVATION["low oil bath"], _oil_bath_drag(case, bath)
     rolling = _skf_rolling(case, rolling_constants, starvation)
     sliding = _skf_sliding(case, sliding_constants, FILM_FRICTION[oil])
-    parts = np.broadcast_arrays(rolling * _NEWTON_METRE, sliding * _NEWTON_METRE, drag * _NEWTON_METRE, 0.0)
+    parts = np.broadcast_arrays(rolling * _NEWTON_METRE, sliding * _NEWTON_METRE, drag * _NEWTON_METRE)
     low, high = VISCOSITY_RANGE
     note = f"viscosity is {case.viscosity:.4g} mm2/s; the model is stated for {low:g} to {high:g} mm2/s"
     return SkfTorque(*(part[()] for part in parts), out_of_range=() if low <= case.viscosity <= high else (note,))
@@ -380,8 +321,11 @@ def _skf_rolling(case: _Operation, constants: tuple, starvation: float) -> NDArr
     d_m, radial, axial, flow = case.mean_diameter, case.radial_load, case.axial_load, case.viscosity * case.speed
     least = np.minimum(r1 * d_m**1.85 * (radial + r2 * axial) ** 0.54, r3 * d_m**2.3 * (radial + r4 * axial) ** 0.31)
     heating = 1 / (1 + 1.84e-9 * (case.speed * d_m) ** 1.28 * case.viscosity**0.64)
-    shape = (case.bore + case.outside) * np.sqrt(TYPE_FACTOR / (2 * (case.outside - case.bore)))
-    return heating * np.exp(-starvation * flow * shape) * least * flow**0.6
+    filled = replenishment(
+        case.viscosity * 1e-6, case.speed * math.pi / 30.0, case.bore * 1e-3, case.outside * 1e-3,
+        constant=starvation, type_factor=TYPE_FACTOR,
+    )  # fmt: skip
+    return heating * filled * least * flow**0.6
 
 
 def _skf_sliding(case: _Operation, constants: tuple, film: float) -> NDArray[np.float64]:
@@ -440,21 +384,10 @@ class TorqueHistory(NamedTuple):
 def torque_histories(
     computed: Mapping[str, xr.Dataset], loads: BearingLoads, bearing: Bearing, lubricant: Lubricant
 ) -> dict[str, TorqueHistory]:
-    """Torque under every model and by the handbooks' formulas, over the times the computed ones have.
+    """Torque by `computed_torque` under models, and by the handbooks' formulas over the same times.
 
-    Parameters
-    ----------
-    computed : mapping
-        From `computed_torque`, by model, under these loads.
-    loads : BearingLoads
-    bearing, lubricant : Bearing, Lubricant
-        As `skf_torque` and `palmgren_torque` need them, which also say what they refuse.
-
-    Returns
-    -------
-    dict
-        By name: the models, "SKF, sliding", "SKF, all" and "Palmgren, all". The formulas hold for steady running; over
-        time they are a chain of steady states.
+    By name: the models, "SKF, sliding", "SKF, all" and "Palmgren, all". The formulas hold for steady running; over
+    time they are a chain of steady states.
 
     Examples
     --------

@@ -1,0 +1,69 @@
+"""Numbers of damage.md: criteria of the 21 bundled cases under `physical`, three rollers a row, over temperature and starvation.
+
+python docs/damage_study.py 40          # oil at 40 degC
+python docs/damage_study.py 40 0.5      # and a starvation factor of its own
+python docs/damage_study.py figure      # figures/damage.svg, of 14B at 35 degC
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from macroslip import Case, HubLoads, Laws, Lubricant, bundled_cases, simulate
+from macroslip.result.damage import CRITERIA, YEAR, damage
+
+ROLLERS = [0, 9, 18]
+
+
+def main(temperature: float, starvation: float | None = None) -> None:
+    oil = Lubricant.read("vg460-pao")
+    if starvation is not None:
+        oil = oil.replace(starvation=starvation)
+    names = [one.name for one in CRITERIA]
+    values, entries, wear = [], [], []
+    for name in bundled_cases():
+        case = Case(
+            loads=HubLoads.bundled(name),
+            lubricant=oil,
+            laws=Laws.physical(),
+            rollers=ROLLERS,
+            temperature=temperature + 273.15,
+        )
+        found = damage(simulate(case))
+        values.append(found.value.values)
+        entries.append((found.entry_rate * YEAR).values)
+        wear.append((found.wear_time.sel(depth=1e-5) / YEAR).min(("row", "place")).values)
+        print(
+            name, *(f"{one}={value:.3g}" for one, value in zip(names, values[-1], strict=True)), entries[-1], flush=True
+        )
+    values = np.array(values)
+    print(f"{temperature:g} degC, starvation {oil.starvation:g}")
+    for k, one in enumerate(names):
+        if np.isnan(values[:, k]).all():
+            continue
+        low, middle, high = np.nanmin(values[:, k]), np.nanmedian(values[:, k]), np.nanmax(values[:, k])
+        print(f"{one:26s} {low:10.3g} {middle:10.3g} {high:10.3g}  {bundled_cases()[int(np.nanargmax(values[:, k]))]}")
+    print("entries a year, downwind and upwind, least and most:", np.min(entries, axis=0), np.max(entries, axis=0))
+    print("years to 10 um, least of the cases, by k:", np.min(wear, axis=0))
+
+
+def figure() -> None:
+    from matplotlib import pyplot
+
+    case = Case(loads=HubLoads.bundled("14B"), laws=Laws.physical(), rollers=ROLLERS)
+    result = simulate(case)
+    drawn, axes = pyplot.subplots(1, 2, figsize=(9.0, 3.2), layout="constrained")
+    result.macroslip.plot.damage(axes=axes[0])
+    result.macroslip.plot.wear(axes=axes[1])
+    pyplot.rcParams["svg.hashsalt"] = "macroslip"
+    drawn.savefig(Path(__file__).parent / "figures" / "damage.svg", metadata={"Date": None})
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["figure"]:
+        figure()
+    else:
+        main(*map(float, sys.argv[1:]))

@@ -1,0 +1,125 @@
+"""Draws skew-maps.svg of skew.md: the rest of a roller, its power and axial force over osculation, load and film.
+
+python docs/skew_maps.py
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import matplotlib
+import numpy as np
+from matplotlib.colors import TwoSlopeNorm
+from matplotlib.figure import Figure
+
+from macroslip import Bearing, Laws, Lubricant
+from macroslip.contact.laws import prepare
+from macroslip.roller.skew import equilibrium, pocket, raceways
+
+BASE, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+#: u2 at 20.463 rpm [m/s], load of the maps over osculation [N], and skews [rad] up to the stop of a pocket with 0.5 mm play.
+SPEED, LOAD = -0.39594, 40e3
+STOP = pocket(BASE, "conforming-pocket", 0.5e-3).largest
+SKEWS = 2e-4 * np.sinh(np.linspace(0.0, np.arcsinh(STOP / 2e-4), 13))
+INNER, OUTER = np.linspace(0.96, 0.985, 5), np.linspace(0.96, 0.985, 5)
+LOADS, TEMPERATURES = np.geomspace(5e3, 120e3, 9), np.linspace(20.0, 90.0, 6)
+PHYSICAL = Laws.physical()
+ROWS = {
+    "Eyring, 35 °C": (PHYSICAL, 35.0),
+    "limiting shear, 35 °C": (PHYSICAL.but(rheology="limiting-shear"), 35.0),
+    "Eyring, mixed film, 80 °C": (PHYSICAL, 80.0),
+}
+
+
+class Rest(NamedTuple):
+    """Where a straight roller turns to: skew [mrad], power over that without skew, axial force over load [%]."""
+
+    skew: np.ndarray
+    power: np.ndarray
+    axial: np.ndarray
+
+
+def rest(bearing: Bearing, laws: Laws, celsius: float, load: np.ndarray) -> Rest:
+    """The rests of rollers of the downwind row that no spar presses on; the shaft turns forward."""
+    prepared = prepare(laws, bearing, OIL.at(celsius + 273.15), 1)
+    pair, found, last = raceways(prepared, bearing, 1), [], None
+    both = np.array([-1.0, 1.0])[:, None]
+    for skew in SKEWS:
+        last = equilibrium(pair, prepared, load, SPEED, both * skew, last)
+        found.append(np.stack([last.moment, last.power.sum(axis=-1), last.axial], axis=-1))
+    moment, power, axial = np.moveaxis(np.array(found), -1, 0)  # each over (skew, side, load)
+    columns = []
+    for k in range(load.size):
+        side = int(moment[0, 1, k] > 0.0)
+        sign = 2 * side - 1
+        against = np.flatnonzero(sign * moment[:, side, k] <= 0.0)
+        angle = STOP
+        if against.size:
+            n = against[0]
+            one, other = moment[n - 1 : n + 1, side, k]
+            angle = SKEWS[n - 1] + (SKEWS[n] - SKEWS[n - 1]) * one / (one - other)
+        here = [np.interp(angle, SKEWS, values[:, side, k]) for values in (power, axial)]
+        columns.append((1e3 * sign * angle, here[0] / power[0, side, k], 100.0 * here[1] / load[k]))
+    return Rest(*np.array(columns).T)
+
+
+def over_osculation(laws: Laws, celsius: float) -> Rest:
+    """Over outer and inner osculation."""
+    lines = [
+        [
+            rest(BASE.replace(osculation_inner=float(i), osculation_outer=float(o)), laws, celsius, np.array([LOAD]))
+            for i in INNER
+        ]
+        for o in OUTER
+    ]
+    return Rest(*(np.array([[getattr(one, name)[0] for one in line] for line in lines]) for name in Rest._fields))
+
+
+def over_load() -> Rest:
+    """Over temperature and load, with the base bearing under Eyring's law."""
+    lines = [rest(BASE, PHYSICAL, celsius, LOADS) for celsius in TEMPERATURES]
+    return Rest(*(np.array([getattr(one, name) for one in lines]) for name in Rest._fields))
+
+
+def draw(axes, x, y, found: Rest, labels: tuple[str, str]) -> None:
+    """Three maps."""
+    norms = (
+        TwoSlopeNorm(0.0, -1e3 * STOP, 1e3 * STOP), TwoSlopeNorm(1.0, 0.7, 2.0), TwoSlopeNorm(0.0, -2.0, 2.0),
+    )  # fmt: skip
+    for one, values, norm, text in zip(axes, found, norms, ("%.1f", "%.2f", "%.1f"), strict=True):
+        one.pcolormesh(x, y, values, norm=norm, cmap="RdBu_r", shading="nearest")
+        for (j, i), value in np.ndenumerate(values):
+            dark = abs(float(norm(value)) - 0.5) > 0.3
+            one.text(
+                x[i], y[j], text % value, ha="center", va="center", fontsize=6.5, color="white" if dark else "black"
+            )
+        one.set_xlabel(labels[0], fontsize=8)
+        one.set_ylabel(labels[1], fontsize=8)
+        one.tick_params(labelsize=7)
+
+
+def main() -> None:
+    """Print the maps and write the picture beside this file."""
+    matplotlib.rcParams["svg.hashsalt"] = "skew"
+    figure = Figure(figsize=(11, 13), layout="constrained")
+    axes = figure.subplots(4, 3)
+    for line, (name, (laws, celsius)) in zip(axes, ROWS.items(), strict=False):
+        found = over_osculation(laws, celsius)
+        draw(line, INNER, OUTER, found, ("inner osculation", f"{name}\nouter osculation"))
+        print(name, np.round(found.skew, 2).tolist(), flush=True)
+    found = over_load()
+    draw(axes[3], LOADS / 1e3, TEMPERATURES, found, ("load [kN]", "Eyring, .98/.98\ntemperature [°C]"))
+    for one in axes[3]:
+        one.set_xscale("log")
+    print("over load", np.round(found.skew, 2).tolist())
+    for one, title in zip(
+        axes[0], ("skew at rest [mrad]", "power / power without skew", "axial force / load [%]"), strict=True
+    ):
+        one.set_title(title, fontsize=9)
+    figure.savefig(Path(__file__).with_name("skew-maps.svg"), metadata={"Date": None})
+
+
+if __name__ == "__main__":
+    sys.exit(main())

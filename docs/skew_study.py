@@ -1,0 +1,106 @@
+"""Numbers of skew.md: skew over the orbit of bundled cases, and what it adds to power and thrust.
+
+python docs/skew_study.py               # 12A, 14B, 18C and 24A, two rollers a row, the first 60 s
+python docs/skew_study.py 14B 24A
+python docs/skew_study.py check 14B     # powers of a result against contacts at the slip that a skewed roller has
+python docs/skew_study.py speed 14B
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from dataclasses import replace
+
+import numpy as np
+from macroslip.result.row_loads import row_loads
+
+from macroslip import Case, HubLoads, Laws, Traces, Window, simulate
+from macroslip.bearing.geometry import roller_radius
+from macroslip.contact.laws import prepare
+from macroslip.contact.skewed import resultants
+from macroslip.roller.skew import equilibrium, placed, raceways
+from macroslip.whole.cage import Cage
+
+END, ROLLERS = 60.0, [0, 14]
+SKEWED = Laws.physical().but(skew="quasi-static")
+VARIANTS = {
+    "eyring": {"laws": SKEWED},
+    "limiting shear": {"laws": SKEWED.but(rheology="limiting-shear")},
+    "half film": {"laws": SKEWED, "oil_supply": 0.5},
+}
+CAGES = {"pressing spar": Cage(), "stop only": Cage(alignment="none")}
+
+
+def main(names: list[str]) -> None:
+    for name in names:
+        loads = HubLoads.bundled(name)
+        base = Case(loads=loads, rollers=ROLLERS, window=Window(end=float(loads.time[0]) + END), contact_details=False)
+        straight = replace(base, laws=Laws.physical())
+        for variant, changes in VARIANTS.items():
+            for cage, described in CAGES.items():
+                found = simulate(replace(base, cage=described, **changes))
+                energy = found.energy.sel(interface=["inner", "outer"]).sum(("interface", "roller")).values
+                added = found.skew_energy.sum(("raceway", "roller")).values
+                skew = 1e3 * found.skew_by_position.values
+                rows = row_loads(straight, *(float(found.attrs[f"window_{end}"]) for end in ("start", "end")))
+                low, high = np.fmin.reduce(skew, axis=1), np.fmax.reduce(skew, axis=1)
+                thrust, axial = found.frictional_thrust.values, float(rows.thrust)
+                print(
+                    f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)}  skew "
+                    + " ".join(f"{a:.2f}..{b:.2f}" for a, b in zip(low, high, strict=True))
+                    + f" mrad  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN",
+                    flush=True,
+                )
+
+
+def speed(name: str) -> None:
+    """Processor time of a case with all rollers, straight and skewed."""
+    base = Case(loads=HubLoads.bundled(name), window=Window(end=2.0 * END), contact_details=False)
+    seconds = []
+    for laws in (Laws.physical(), SKEWED):
+        simulate(replace(base, laws=laws, rollers=[0]))  # its tables
+        began = time.process_time()
+        simulate(replace(base, laws=laws))
+        seconds.append(time.process_time() - began)
+    print(f"{name}: {seconds[0]:.2f} s straight, {seconds[1]:.2f} s with skew")
+
+
+def check(name: str) -> None:
+    """Compare powers at samples of a case with those of the contacts themselves, at the skewed roller's own slip.
+
+    What the cage and inertia make of a roller's slip beside the equilibrium is taken over from the result.
+    """
+    case = Case(
+        loads=HubLoads.bundled(name), rollers=ROLLERS, window=Window(end=END), laws=SKEWED, traces=Traces(step=0.71)
+    )
+    bearing = case.bearing
+    found = simulate(case).sel(row="downwind").stack(state=("roller", "time"))
+    found = found.isel(state=np.flatnonzero(found.roller_load.values > 2e3))
+    load, slip, skew = (found[one].values for one in ("roller_load", "slip", "skew_angle"))
+    speed = found.spin_pure.values * roller_radius(bearing)
+    laws = prepare(SKEWED, bearing, case.oil, 1)
+    pair = raceways(laws, bearing, 1)
+    straight, turned = (equilibrium(pair, laws, load, speed, one) for one in (0.0, skew))
+    tilt, _, middles = placed(pair, load, turned.tractions)
+    off = slip - straight.slip
+    exact = np.array(
+        [resultants(one, load, speed, turned.slip + off, skew, middles[i], tilt).power for i, one in enumerate(pair)]
+    )
+    used = found.power.sel(interface=["inner", "outer"]).transpose("interface", "state").values
+    print(f"{name}: {load.size} states, power with skew {used.mean(axis=1)} W, by the contacts {exact.mean(axis=1)} W")
+    print(
+        "sum is off by", used.sum() / exact.sum() - 1.0, "single states, median", np.median(np.abs(used / exact - 1.0))
+    )
+    print(
+        "slip over speed of the rings, straight and skewed, mean:",
+        (straight.slip / speed).mean(),
+        (turned.slip / speed).mean(),
+    )
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] in (["check"], ["speed"]):
+        {"check": check, "speed": speed}[sys.argv[1]](sys.argv[2])
+    else:
+        main(sys.argv[1:] or ["12A", "14B", "18C", "24A"])

@@ -1,0 +1,161 @@
+"""Tables and figures of a-year.md, from the two studies of the page.
+
+macroslip study examples/year.yaml -o year
+macroslip study examples/year_variants.yaml -o variants
+python docs/year_study.py year variants
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+
+from macroslip import open_study
+from macroslip.report.style import BLUE, GREEN, GREY, ORANGE, finish, log_ticks, new_figure
+from macroslip.study.weights import weights_in_use
+from macroslip.study.year import coverage, year
+
+#: Of energy and entries both rows count, of wear the row and place with most.
+QUANTITIES = {"energy": BLUE, "wear": ORANGE, "entries": GREEN}
+NAMES = {"energy": "energy", "wear": "wear", "entries": "entries under slip"}
+VARIANTS = ["as it is", "oil_supply flooded", "oil_supply skf", "oil_supply 0.5", "oil at 25 °C", "oil at 50 °C"]
+MODELS = {"straight rollers": {"marker": "o", "mfc": "white"}, "skewed rollers": {"marker": "o"}}
+
+
+def of_a_year(folder: str) -> tuple[xr.Dataset, xr.DataArray, np.ndarray]:
+    """The year of a study; energy [J], wear [m] and entries over (quantity, group, bin); names of the bins."""
+    study = open_study(folder)
+    weights, field, width = weights_in_use(study)
+    found = year(study, weights, field=field, width=width)
+    worse = found.wear.sum("bin", skipna=False).fillna(0.0).idxmax("row")
+    # Entries are counted by orbits, of which idling and parked rotors complete none.
+    entries = found.entries.where(~found.event.isin(["idle-6", "idle-25", "parked-12"]), 0.0)
+    drawn = [found.energy.sum("row", skipna=False), found.wear.sel(row=worse), entries.sum("row", skipna=False)]
+    values = xr.concat(drawn, "quantity", coords="minimal")
+    wind = [f"{speed:g}" for speed in found.bin.values]
+    names = np.where(found.event.values == "", wind, found.event.values)
+    return found, values.assign_coords(quantity=list(QUANTITIES)), names
+
+
+def parts_of(found: xr.Dataset) -> dict[str, np.ndarray]:
+    """Bins of the parts of a year."""
+    event, speed = found.event.values != "", found.bin.values
+    return {"4 to 10 m/s": speed < 11.0, "12 to 24 m/s": speed > 11.0, "events": event}
+
+
+def parts_figure(values: xr.DataArray, names: np.ndarray, parts: dict[str, np.ndarray]) -> Figure:
+    """Shares of the year by wind speed, and of all events together."""
+    figure, (axes,) = new_figure(7.6, 3.0)
+    shares = 100.0 * values.isel(group=0) / values.isel(group=0).sum("bin")
+    windy = ~parts["events"]
+    for k, (name, colour) in enumerate(QUANTITIES.items()):
+        one = shares.sel(quantity=name).values
+        heights = np.append(one[windy], one[~windy].sum())
+        axes.bar(np.arange(heights.size) + 0.27 * (k - 1), heights, 0.25, color=colour, label=NAMES[name])
+    axes.set_xticks(np.arange(heights.size), [*names[windy], "events"])
+    axes.axvspan(3.5, 10.5, color=GREY, alpha=0.12, linewidth=0, zorder=0, label="the paper's range")
+    axes.legend(frameon=False)
+    finish(axes, "wind speed [m/s]", "share of a year [%]")
+    return figure
+
+
+def events_figure(found: xr.Dataset, values: xr.DataArray, names: np.ndarray, parts: dict[str, np.ndarray]) -> Figure:
+    """Share of a year of every event, and what an hour of it does over an hour of the mean wind speed."""
+    figure, (left, right) = new_figure(8.4, 3.8, columns=2, sharey=True)
+    one = values.isel(group=0)
+    windy, some = ~parts["events"], parts["events"]
+    share = 100.0 * one / one.sum("bin")
+    hourly = (one / found.hours) / (one.isel(bin=windy).sum("bin") / found.hours[windy].sum())
+    order = np.flatnonzero(some)[np.argsort(found.energy.isel(group=0).sum("row").values[some])]
+    for axes, shown, label in ((left, share, "share of a year [%]"), (right, hourly, "an hour over one of production")):
+        for k, (name, colour) in enumerate(QUANTITIES.items()):
+            at = shown.sel(quantity=name).values[order]
+            places = np.arange(order.size) + 0.2 * (1 - k)
+            axes.plot(
+                np.where(at > 0.0, at, np.nan),
+                places,
+                marker="osD"[k],
+                color=colour,
+                linestyle="none",
+                label=NAMES[name],
+            )
+        axes.set_xscale("log")
+        axes.grid(axis="y", color=GREY, alpha=0.2)
+        finish(axes, label, "")
+    left.set_xlim(1e-4, 20.0)
+    right.set_xlim(1e-3, 30.0)
+    left.set_yticks(np.arange(order.size), names[order])
+    right.axvline(1.0, color=GREY, linewidth=0.8)
+    handles, labels = left.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+    return figure
+
+
+def variants_figure(table: pd.DataFrame) -> Figure:
+    """Energy, wear and entries of every variant over those of the base turbine."""
+    figure, panels = new_figure(8.4, 3.2, columns=3, sharey=True)
+    for axes, (name, colour) in zip(panels, QUANTITIES.items(), strict=True):
+        for model, style in MODELS.items():
+            axes.plot(table.loc[model, name], VARIANTS, color=colour, linestyle="none", label=model, **style)
+        axes.axvline(1.0, color=GREY, linewidth=0.8)
+        axes.grid(axis="y", color=GREY, alpha=0.2)
+        finish(axes, "over the base turbine [1]", "", NAMES[name])
+    log_ticks(panels[1], "x")
+    panels[0].invert_yaxis()
+    panels[0].legend(frameon=False, fontsize=8)
+    return figure
+
+
+def variants_table(folder: str) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Sums of a year of every variant by model and name; and shares of them [%] by part of the year."""
+    found, values, _ = of_a_year(folder)
+    supply, at = found["oil_supply"].values, found["lubricant.at"].values
+    names = [
+        f"oil_supply {s}" if s else "as it is" if np.isnan(t) else f"oil at {t:g} °C"
+        for s, t in zip(supply.astype(str), at, strict=True)
+    ]
+    index = pd.MultiIndex.from_arrays([found.model.values, names])
+    table = pd.DataFrame(values.sum("bin", skipna=False).transpose("group", "quantity").values, index, list(QUANTITIES))
+    for name in ("peak", "entry_slip"):
+        table[name] = found[name].max(("bin", "row")).values
+    shares = {
+        f"{quantity}, {name}": 100.0
+        * values.sel(quantity=quantity)[:, part].sum("bin", skipna=False).values
+        / table[quantity]
+        for quantity in QUANTITIES
+        for name, part in parts_of(found).items()
+    }
+    return table, pd.DataFrame(shares, index)
+
+
+def main(base: str, variants: str) -> None:
+    found, values, names = of_a_year(base)
+    parts, one = parts_of(found), values.isel(group=0)
+    table = pd.DataFrame(one.transpose("bin", "quantity").values, names, list(QUANTITIES))
+    hours = pd.Series(found.hours.values, names)
+    for name, part in parts.items():
+        table.loc[name], hours[name] = table[: names.size][part].sum(), hours[: names.size][part].sum()
+    whole = one.sum("bin", skipna=False).to_series()
+    print(coverage(found), whole.to_string(), sep="\n")
+    shown = (100.0 * table / whole).join(table.div(hours, axis=0).add_suffix(" an hour")).assign(hours=hours)
+    every, shares = variants_table(variants)
+    over = every / every.loc["straight rollers", "as it is"]
+    for one in (shown, every, over, shares):
+        print(one.to_string(float_format=lambda value: f"{value:.3g}"))
+    matplotlib.rcParams["svg.hashsalt"] = "macroslip"
+    for name, figure in (
+        ("parts", parts_figure(values, names, parts)),
+        ("events", events_figure(found, values, names, parts)),
+        ("variants", variants_figure(over)),
+    ):
+        figure.savefig(Path(__file__).parent / "figures" / f"year_{name}.svg", metadata={"Date": None})
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,259 @@
+"""The paper's study in one call: what is computed, judged, drawn and written."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+import macroslip
+from macroslip.report.style import save
+from macroslip.result.stored import to_netcdf
+from macroslip.study.reader import stored_results
+from macroslip.study.study_file import study_of
+from macroslip.torque import TorqueHistory, computed_torque, torque_histories
+from paper import figures as draw
+from paper import studies
+from paper.experiments import STATIC_LOADS, experiments, turns, varying_load
+from paper.page import page
+from paper.publish import published_together
+from paper.studies import DETAILED_CASE, MODELS, PAPER
+from paper.uncertainty import uncertainty, uncertainty_summary
+from paper.verdicts import Statement, statements
+
+SUMMARY, REPORT, STUDIES = "summary.json", "report.html", "studies"
+Report = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelRun:
+    """What was computed under one model; `parts` and `uncertainty` only of contacts with microslip."""
+
+    study: xr.Dataset
+    numbers: xr.Dataset
+    turns: dict[str, dict[str, xr.Dataset]]
+    detail_failed: int
+    torque: xr.Dataset
+    parts: xr.Dataset | None = None
+    uncertainty: xr.Dataset | None = None
+
+    @property
+    def failures(self) -> dict[str, int]:
+        """Failed integrations by place."""
+        return {
+            "study": int((self.study.status != 0).sum()),
+            "single_rollers": sum(turn.status != 0 for group in self.turns.values() for turn in group.values()),
+            "detailed_case": self.detail_failed,
+            "uncertainty": self.uncertainty.attrs["failed"] if self.uncertainty is not None else 0,
+        }
+
+
+def of_model(name: str, model: str) -> str:
+    """Name of a figure or file of one model; those of the paper's have no ending."""
+    return name if model == PAPER else f"{name}_{model}"
+
+
+def compute_model(name: str, directory: Path, threads: int | None, report: Report, reused: list[str]) -> ModelRun:
+    """Compute one model; studies go on from what is there of them, and `reused` takes the names of those that were whole."""
+    laws, found = MODELS[name], {}
+
+    def results(prefix: str, stage: str, *, may_fail: bool = False) -> Path:
+        study, folder = study_of(studies.content(prefix, name)), directory / f"{prefix}_{name}"
+        progress = partial(report, f"{stage} ({name})")
+        if not studies.compute(study, folder, may_fail=may_fail, threads=threads, progress=progress):
+            reused.append(folder.name)
+        return folder
+
+    study = studies.paper_study(results("study", "study"))
+    _, detail = next(stored_results(results("detail", "one case in detail")))
+    traced = turns(detail, laws, threads, partial(report, f"single rollers ({name})"))
+    if laws.microslip:
+        sample = uncertainty(results("uncertainty", "uncertainty", may_fail=True))
+        found = {"parts": studies.dissipation(study), "uncertainty": uncertainty_summary(sample)}
+    return ModelRun(
+        study=study,
+        numbers=studies.paper_numbers(study),
+        turns=traced,
+        detail_failed=int((detail.status != 0).sum()),
+        torque=computed_torque(detail),
+        **found,
+    )
+
+
+def bearing_torques(runs: Mapping[str, ModelRun]) -> dict[str, TorqueHistory]:
+    """Friction torque of the bearing in the detailed case under every model, and by handbooks."""
+    case = macroslip.Case(loads=macroslip.HubLoads.bundled(DETAILED_CASE))
+    computed = {name: run.torque for name, run in runs.items()}
+    return torque_histories(computed, varying_load(), case.bearing, case.lubricant)
+
+
+def all_figures(
+    runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset], torques: Mapping[str, TorqueHistory]
+) -> dict[str, Callable[[], Figure]]:
+    """How each figure is drawn, by file name; `made` has the experiments."""
+    found: dict[str, Callable[[], Figure]] = {
+        "figure_A1": partial(draw.stability_figure, made["A1"]),
+        "nonlinear_tolerance": partial(draw.nonlinear_tolerance_figure, made["nonlinear_tolerance"]),
+        "step_size": partial(draw.step_size_figure, made["step_size"]),
+        "friction_torque": partial(draw.torque_figure, torques, *draw.TORQUE_WINDOW),
+        "figures_4_5_models": partial(draw.models_figure, {name: run.numbers for name, run in runs.items()}),
+    }
+    for name, run in runs.items():
+        static = {f"{title} load": run.turns["static"][f"{title}, downwind"] for title in STATIC_LOADS}
+        of_run = {
+            "figure_3a": partial(draw.turns_figure, static),
+            "figure_3b": partial(draw.turns_figure, run.turns["typical"]),
+            "figure_3b_peak": partial(draw.turns_figure, run.turns["peak"]),
+            "figure_4a": partial(draw.energy_figure, run.numbers),
+            "figure_4b": partial(draw.ratio_figure, run.numbers, "energy_ratio"),
+            "figure_5a": partial(draw.peak_power_figure, run.numbers),
+            "figure_5b": partial(draw.ratio_figure, run.numbers, "peak_power_ratio"),
+        }
+        if run.parts is not None:
+            of_run["mechanisms"] = partial(draw.mechanisms_figure, run.parts)
+        if run.uncertainty is not None:
+            of_run["uncertainty"] = partial(draw.uncertainty_figure, run.uncertainty)
+        found |= {of_model(title, name): figure for title, figure in of_run.items()}
+    return found
+
+
+def failed_integrations(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dict[str, int]:
+    """Failed integrations by place, all models together. Explicit Euler may fail in A1: it is there to show that."""
+    counts = [run.failures for run in runs.values()]
+    beside = sum(made["A1"].attrs[f"status_{name}"] != 0 for name in ("backward", "converged"))
+    for name in ("nonlinear_tolerance", "step_size"):
+        beside += sum(int(one.sum()) for key, one in made[name].data_vars.items() if str(key).startswith("failed"))
+    return {place: sum(count[place] for count in counts) for place in counts[0]} | {"experiments": beside}
+
+
+def headline(judged: Mapping[str, Mapping[str, Statement]], failed: Mapping[str, int], total: int) -> list[str]:
+    """What failed, and each statement with what every model gives, a line each."""
+    counts = ", ".join(f"{count} in {place.replace('_', ' ')}" for place, count in failed.items() if count)
+    lines = [
+        f"{f'FAILED INTEGRATIONS: {counts}' if counts else 'No integration failed, explicit Euler in A1 not counted'} (the study has {total} rollers)."
+    ]
+    for subject, first in next(iter(judged.values())).items():
+        found = "; ".join(f"{model}: {one[subject].verdict} ({one[subject].found})" for model, one in judged.items())
+        lines.append(f"Paper: {first.paper}. {found}.")
+    return lines
+
+
+def told(judged: Mapping[str, Mapping[str, Statement]]) -> list[dict[str, Any]]:
+    """Statements as plain data: what the paper states, each with what every model gives."""
+    return [
+        {
+            "paper": first.paper,
+            "models": {
+                model: {name: getattr(one[subject], name) for name in ("verdict", "found", "because", "numbers")}
+                for model, one in judged.items()
+            },
+        }
+        for subject, first in next(iter(judged.values())).items()
+    ]
+
+
+def plotted(runs: Mapping[str, ModelRun], made: Mapping[str, xr.Dataset]) -> dict[str, Any]:
+    """Every plotted number, by figure, as plain data with units; of the torque the means."""
+    found: dict[str, Any] = {}
+    for model, run in runs.items():
+        of_run: dict[str, Any] = {
+            name: {title: turn.to_dict(data="list") for title, turn in run.turns[group].items()}
+            for name, group in (("3a", "static"), ("3b", "typical"), ("3b_peak", "peak"))
+        }
+        for name, shown in (("4a", "energy$|energy_(?!ratio)|both"), ("5a", "peak_power_(mean|std)")):
+            of_run[name] = run.numbers[[one for one in run.numbers if re.match(shown, str(one))]].to_dict(data="list")
+        for name, shown in (("4b", "energy_ratio"), ("5b", "peak_power_ratio")):
+            of_run[name] = run.numbers[[shown]].to_dict(data="list")
+        torque = run.torque.mean("time", keep_attrs=True)
+        tables = {"friction_torque": torque, "mechanisms": run.parts, "uncertainty": run.uncertainty}
+        of_run |= {name: one.to_dict(data="list") for name, one in tables.items() if one is not None}
+        found |= {of_model(name, model): value for name, value in of_run.items()}
+    return found | {name: one.to_dict(data="list") for name, one in made.items()}
+
+
+def plain(value: Any) -> Any:
+    """Lists, dicts, text and numbers only; NaN and infinity, which JSON lacks, become None."""
+    if isinstance(value, dict):
+        return {str(key): plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [plain(one) for one in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def as_json(summary: dict[str, Any]) -> str:
+    """Indented, with every list of numbers on one line."""
+    text = json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False)
+    return re.sub(r"\[[\s\d.eE+\-,nul]+\]", lambda found: " ".join(found.group().split()), text) + "\n"
+
+
+def reproduce(directory: Path, *, threads: int | None = None, progress: Report | None = None) -> dict[str, Any]:
+    """Compute, judge and draw the paper's study; return what `summary.json` holds, where NaN is None.
+
+    Its studies are computed as any study is: a run that was stopped goes on where it ended, and what an earlier run into
+    the same folder computed is used again as long as its inputs and the program are the same. All other files are written
+    at the end, over those of an earlier run. `progress` is called as progress(stage, done, total).
+    """
+    clock, seconds = time.perf_counter(), {}
+
+    def report(stage: str, done: int, total: int) -> None:
+        nonlocal clock
+        if done == total:
+            seconds[stage] = round(seconds.get(stage, 0.0) + time.perf_counter() - clock, 2)
+            clock = time.perf_counter()
+        if progress:
+            progress(stage, done, total)
+
+    directory = Path(directory)
+    reused: list[str] = []
+    with published_together(directory, SUMMARY) as folder:
+        runs = {name: compute_model(name, directory / STUDIES, threads, report, reused) for name in MODELS}
+        _, detail = next(stored_results(directory / STUDIES / f"detail_{PAPER}"))
+        made = experiments(detail, threads, partial(report, "experiments"))
+        judged = {
+            name: statements(name, run.study, run.numbers, run.turns["static"], made["A1"] if name == PAPER else None)
+            for name, run in runs.items()
+        }
+        for name, run in runs.items():
+            # In memory first: the HDF5 library may bring the whole process down when the disk is full.
+            (folder / f"{of_model('study', name)}.nc").write_bytes(to_netcdf(run.study))
+        failed, total = failed_integrations(runs, made), sum(run.study.status.size for run in runs.values())
+        by_case = {}
+        for name, run in runs.items():
+            counts = (run.study.status != 0).sum(("row", "roller"))
+            by_case |= {of_model(str(one.case.item()), name): int(one) for one in counts if one}
+        summary = plain(
+            {
+                "program": f"macroslip {macroslip.__version__}",
+                "headline": headline(judged, failed, total),
+                "statements": told(judged),
+                "failed_rollers": failed | {"study_by_case": by_case, "study_total": total},
+                "conventions": (Path(__file__).parent / "conventions.txt").read_text(encoding="utf-8").splitlines(),
+                "seconds": seconds,
+                "reused": reused,
+                "figures": plotted(runs, made),
+                "study": {name: run.study.to_dict(data="list") for name, run in runs.items()},
+            }
+        )
+        torques = bearing_torques(runs)
+        jobs = all_figures(runs, made, torques)
+        for done, (name, figure) in enumerate(jobs.items(), start=1):
+            save(figure(), folder, name)
+            report("figures", done, len(jobs))
+        summary["seconds"] = dict(seconds)
+        (folder / REPORT).write_text(page(folder, runs, made, judged, torques, summary), encoding="utf-8")
+        report("report", 1, 1)
+        summary["seconds"] = dict(seconds)
+        (folder / SUMMARY).write_text(as_json(summary), encoding="utf-8")
+    return summary

@@ -1,0 +1,111 @@
+"""The section `loads` of a case file: where the loads come from, and what to read of them."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Quantity, Text, Vector
+from macroslip.input.section import input_section
+from macroslip.input.units import FORCE, MOMENT, SPEED, TIME
+from macroslip.loads import BearingLoads, HubLoads, RollerLoads, bundled_cases
+
+LOAD_SOURCES = ("bundled", "file", "bearing_file", "roller_loads", "hub", "main_bearing")
+
+# Advice for programs, in the words of a case file.
+_ADVICE = {
+    "read it with BearingLoads.read": "name it under bearing_file",
+    "read it with HubLoads.read, then main_bearing_load": "name it under file",
+    "become bearing loads by main_bearing_load(HubLoads.read(path), Drivetrain())": "belong under file",
+    "(start=, end=)": "(loads.start, loads.end)",
+}
+_Force = Annotated[list[float], Vector("three components of the force", FORCE)]
+_Moment = Annotated[list[float], Vector("three components of the moment", MOMENT)]
+_Speed = Annotated[float, Quantity("shaft speed", SPEED)]
+_Duration = Annotated[float, Quantity("time for which the loads act", TIME)]
+
+
+@input_section("loads.hub", "constant hub loads")
+class ConstantHubLoads:
+    """Arguments of `HubLoads.constant`."""
+
+    force: _Force
+    shaft_speed: _Speed
+    duration: _Duration
+    moment: _Moment
+
+
+@input_section("loads.main_bearing", "constant main-bearing load")
+class ConstantBearingLoads:
+    """Arguments of `BearingLoads.constant`."""
+
+    force: _Force
+    shaft_speed: _Speed
+    duration: _Duration
+
+
+@input_section("loads", "loads, from exactly one source", one_of=LOAD_SOURCES)
+class LoadSource:
+    """Where the loads come from, and what to read of them."""
+
+    bundled: Annotated[str | None, Choice("load case that comes with the package", lambda: bundled_cases("year"))] = (
+        None
+    )
+    file: Annotated[str | None, Text("hub loads: output of OpenFAST, Bladed or HAWC2, or a table")] = None
+    bearing_file: Annotated[str | None, Text("main-bearing loads: a table (.parquet, .csv)")] = None
+    roller_loads: Annotated[
+        str | None,
+        Text("loads of the rollers: a table of time_s, shaft_speed_rpm, row, angle_deg, load_N (.parquet, .csv)"),
+    ] = None
+    hub: ConstantHubLoads | None = None
+    main_bearing: ConstantBearingLoads | None = None
+    start: Annotated[float | None, Quantity("first time to read", TIME)] = None
+    end: Annotated[float | None, Quantity("last time to read", TIME)] = None
+    shaft_speed: Annotated[
+        float | None, Quantity("constant shaft speed in place of the one in the file", SPEED, -100.0, 100.0)
+    ] = None
+
+    @property
+    def key(self) -> str:
+        """The key of the source."""
+        return next(key for key in LOAD_SOURCES if getattr(self, key) is not None)
+
+    @property
+    def cut(self) -> dict[str, float]:
+        """Part of the series to read [s], and the speed of files that have none [rad/s], as far as they are given."""
+        return {key: getattr(self, key) for key in ("start", "end", "shaft_speed") if getattr(self, key) is not None}
+
+    def series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
+        """Read or make the loads; relative paths start at `folder`."""
+        try:
+            return self._series(folder)
+        except InputError as problem:
+            remedy = problem.remedy
+            for programs_words, words in _ADVICE.items():
+                remedy = remedy.replace(programs_words, words)
+            raise InputError(problem.what, where=problem.where, allowed=problem.allowed, remedy=remedy) from None
+
+    def _series(self, folder: Path) -> HubLoads | BearingLoads | RollerLoads:
+        key, cut = self.key, self.cut
+        value: Any = getattr(self, key)
+        if "shaft_speed" in cut and key != "file":
+            raise InputError(
+                f"shaft_speed is given, but {key} has its own",
+                remedy="Remove loads.shaft_speed; it serves hub loads from a file only.",
+            )
+        if key in ("hub", "main_bearing"):
+            if cut:
+                raise InputError(
+                    f"{' and '.join(cut)} would cut a series, but these loads are constant",
+                    remedy=f"Remove them; loads.{key}.duration says how long.",
+                )
+            return (HubLoads if key == "hub" else BearingLoads).constant(**asdict(value))
+        if key == "bundled":
+            return HubLoads.bundled(value).window(cut.get("start"), cut.get("end"))
+        if not (folder / value).exists():
+            remedy = f"Relative paths start at {folder.resolve()}."
+            raise InputError(f"there is no file '{value}'", remedy=remedy)
+        kinds = {"file": HubLoads, "bearing_file": BearingLoads, "roller_loads": RollerLoads}
+        return kinds[key].read(folder / value, **cut)

@@ -1,0 +1,125 @@
+"""How much oil the inlets of the contacts get: one choice of a case, from which films, rolling and idle contacts follow.
+
+The state of all inlets is the gap from which on they are full of oil [m]. In a contact of film h it is S = gap/h, from which
+film and rolling resistance follow (`macroslip.contact.starvation`), and the rigid film of an idle contact (`contact.gap`).
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.errors import InputError
+from macroslip.input.fields import Form, Given
+from macroslip.input.units import is_finite_number
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.contact.mechanisms import Laws
+    from macroslip.loads import BearingLoads
+    from macroslip.lubricant import Lubricant
+
+FLOODED, SKF = WORDS = ("flooded", "skf")
+#: Least film over flooded film.
+_LEAST = 0.3
+
+
+@dataclass(frozen=True)
+class OilSupply(Form):
+    """A word, or the film over the flooded film."""
+
+    form = f"{FLOODED}, {SKF}, or film / flooded film at the inner raceway under the mean load, {_LEAST:g} to 1"
+
+    def read(self, value: Any, given: Given) -> str | float:
+        """The word, or the number."""
+        if value in WORDS:
+            return value
+        if not is_finite_number(value) or not _LEAST <= value <= 1.0:
+            raise self.wrong(value)
+        return float(value)
+
+    def json(self) -> dict[str, Any]:
+        """The words, or the number."""
+        return {"anyOf": [{"enum": list(WORDS)}, {"type": "number", "minimum": _LEAST, "maximum": 1}]}
+
+
+def check_supply(supply: str | float | None, bearing: Bearing) -> None:
+    """Refuse a bearing that lacks a diameter, which SKF's replenishment needs."""
+    missing = [key for key in ("bore_diameter", "outside_diameter") if getattr(bearing, key) is None]
+    if supply == SKF and missing:
+        raise InputError(
+            f"SKF's replenishment factor goes with the bearing's size, and {bearing.name} has no {' and no '.join(missing)}",
+            where="oil_supply",
+            allowed=f"{SKF} with both diameters; otherwise {FLOODED}, or a number from {_LEAST:g} to 1",
+            remedy="Add them to the bearing file, or give the film over the flooded film as a number.",
+        )
+
+
+def oil_gap(supply: str | float, bearing: Bearing, oil: Lubricant, loads: BearingLoads, laws: Laws) -> float:
+    """The gap from which on inlets are full [m], from the state of the inner raceway under the mean load and speed.
+
+    The supply is `flooded`; `skf`: as much as makes the rolling resistance SKF's replenishment factor times the flooded
+    one; or film over flooded film. The mean load is that of the loaded rollers of the row with the larger share, under the
+    mean force on the inner ring. 1 m counts as flooded, without load or motion as well.
+    """
+    force, speed = tuple(map(float, loads.force.mean(axis=0))), float(np.mean(np.abs(loads.shaft_speed)))
+    return _gap(supply, bearing, oil, laws, force, speed)
+
+
+@functools.lru_cache(maxsize=64)
+def _gap(
+    supply: str | float, bearing: Bearing, oil: Lubricant, laws: Laws, force: tuple[float, ...], speed: float
+) -> float:
+    """`oil_gap` from the mean force [N] and the mean size of the shaft's speed [rad/s]."""
+    from macroslip.contact.laws import prepare
+    from macroslip.contact.rolling import replenishment
+    from macroslip.contact.starvation import FLOODED as FULL
+    from macroslip.contact.starvation import film_factor, inlet_for_film, inlet_for_rolling
+
+    if supply in (FLOODED, 1.0) or speed == 0.0:
+        return FULL
+    if supply == SKF:
+        diameters = bearing.bore_diameter, bearing.outside_diameter
+        filled = float(replenishment(oil.viscosity / oil.density, speed, *diameters))
+        inlet = inlet_for_rolling(filled) if filled < 1.0 else math.inf
+    else:
+        inlet = inlet_for_film(float(supply))
+    load, entrainment = _inner_raceway(bearing, oil, force, speed)
+    if not load > 0.0 or math.isinf(inlet):
+        return FULL
+    flooded = float(prepare(laws, bearing, oil.supplied(FULL), 1).inner.film_thickness(load, entrainment))
+    return min(inlet * float(film_factor(inlet)) * flooded, FULL)
+
+
+def _inner_raceway(bearing: Bearing, oil: Lubricant, force: tuple[float, ...], speed: float) -> tuple[float, float]:
+    """Mean load of a loaded roller under a force on the ring [N], and entrainment speed of the inner raceway [m/s]."""
+    from macroslip.ring.balance import balance, roller_loads
+    from macroslip.roller.model import ring_geometry, roller_model
+
+    model = roller_model(bearing, oil, 1, tilt=0.0)
+    ring, place = ring_geometry(bearing, model), np.zeros(3)
+    balance(ring, 0.0, np.array(force), place)
+    found = np.empty(ring.cosine.size)
+    roller_loads(ring, 0.0, place, found)
+    row = max(found.reshape(2, -1), key=np.sum)
+    loaded = row[row > 0.0]
+    return (float(loaded.mean()) if loaded.size else 0.0), speed * model.orbit_ratio * model.outer_radius
+
+
+def supply_note(supply: str | float | None, oil: Lubricant, laws: Laws) -> str:
+    """A sentence on the state of the inlets, for a result; empty where no law depends on it."""
+    if supply is not None:
+        gap = oil.oil_gap or 0.0
+        known = "flooded inlets" if gap >= 1.0 else f"inlets are full from a gap of {1e6 * gap:.3g} um on"
+        return f"oil_supply {supply}: {known}; the lubricant's starvation, inlet_film and fullness do not count"
+    if not laws.starvation and laws.rolling == "none":
+        return ""
+    return (
+        f"the lubricant's starvation {oil.starvation or 1.0:g}, inlet_film {oil.inlet_film or math.inf:g} and fullness "
+        f"{oil.fullness or 1.0:g} are three numbers for one inlet and go with the next version; oil_supply: "
+        f"{max(oil.starvation or 1.0, _LEAST):g} in the case takes the place of all three"
+    )

@@ -1,0 +1,110 @@
+"""`macroslip damage`: criteria of damage of a result on disk."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from macroslip.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from macroslip.result.damage import Threshold
+
+
+def damage(
+    result: Annotated[Path, typer.Argument(help="A file that `macroslip run` wrote.")],
+    k: Annotated[
+        list[float] | None,
+        typer.Option("--k", help="Coefficient of wear [m2/N]; with --hardness dimensionless. Repeatable, rising."),
+    ] = None,
+    hardness: Annotated[
+        str | None, typer.Option(help="Hardness '7 GPa' by which the coefficients of wear are divided.")
+    ] = None,
+    threshold: Annotated[
+        list[str] | None,
+        typer.Option(help="Threshold of your own, 'entry_flash_temperature=120 K, our rig'. Repeatable."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print it as JSON.")] = False,
+) -> None:
+    """Criteria of damage by slip: smearing, friction energy, micropitting, wear, each with what it is compared with."""
+    from macroslip.cli.catalogue import si
+    from macroslip.cli.printing import print_json, print_table
+    from macroslip.input.units import PRESSURE
+    from macroslip.report.accessor import open_result
+    from macroslip.result.damage import YEAR, criterion_lines
+    from macroslip.result.damage import damage as computed
+
+    own = dict(map(_threshold, threshold or ()))
+    found = computed(
+        open_result(result), wear_coefficients=k or None, hardness=si("--hardness", hardness, PRESSURE), thresholds=own
+    )
+    lines, missing = criterion_lines(found)
+    if as_json:
+        named = {name: found.attrs[name] for name in ("title", "model", "oil")}
+        print_json(named | {"criteria": lines, "wear": _wear(found), "not kept": missing})
+        return
+    print_criteria(lines, missing, title=found.attrs["title"])
+    if "wear_time" in found:
+        years = (found.wear_time / YEAR).values
+        rows = [
+            [row, place, *(" to ".join(f"{one:.2g}" for one in {line[-1]: 0, line[0]: 0}) for line in years[i, j])]
+            for i, row in enumerate(found.row.values.tolist())
+            for j, place in enumerate(found.place.values.tolist())
+        ]
+        title = f"years of wear at k = {', '.join(f'{one:.2g}' for one in found.wear_coefficient.values[::-1])} m²/N"
+        headings = [("row", False), ("place", False), *((f"{1e6 * one:g} µm", True) for one in found.depth.values)]
+        print_table(title, headings, rows)
+
+
+def print_criteria(lines: list[dict[str, Any]], missing: list[str], *, title: str) -> None:
+    """Print a line for every criterion, and a sentence for what is missing."""
+    from macroslip.cli.printing import print_table
+    from macroslip.report.result_numbers import criteria_table
+
+    if lines:
+        shown = criteria_table(lines)
+        print_table(title, [(heading, heading in ("value", "ratio")) for heading in shown.headings], shown.rows)
+    for one in missing:
+        typer.echo(one)
+
+
+def _wear(found: xr.Dataset) -> list[dict[str, Any]]:
+    """Years to each depth by row and place, over the coefficients of wear."""
+    if "wear_time" not in found:
+        return []
+    from macroslip.result.damage import YEAR
+
+    return [
+        {
+            "row": row, "place": place, "depth [m]": depth, "wear coefficients [m2/N]": found.wear_coefficient.values.tolist(),
+            "years": (found.wear_time.sel(row=row, place=place, depth=depth).values / YEAR).tolist(),
+        }
+        for row in found.row.values.tolist()
+        for place in found.place.values.tolist()
+        for depth in found.depth.values.tolist()
+    ]  # fmt: skip
+
+
+def _threshold(text: str) -> tuple[str, Threshold]:
+    """Name and threshold from 'name=value unit, source'."""
+    from fractions import Fraction
+
+    from macroslip.input.units import NUMBER, Dimension, Unit, parse_quantity
+    from macroslip.result.damage import CRITERIA, Threshold
+
+    name, _, rest = text.partition("=")
+    value, _, source = rest.partition(",")
+    units = {one.name: one.unit for one in CRITERIA}
+    if name.strip() not in units or not source.strip():
+        allowed = f"'NAME=VALUE UNIT, SOURCE' with a name of {', '.join(units)}"
+        raise InputError(f"the threshold '{text}' cannot be read", where="--threshold", allowed=allowed)
+    unit = units[name.strip()]
+    known = {unit: Unit(Fraction(1))} | ({f"{unit[0]}/mm2": Unit(Fraction(10**6))} if unit.endswith("/m2") else {})
+    dimension = NUMBER if unit == "1" else Dimension(known)
+    return name.strip(), Threshold(
+        dimension.to_si(*parse_quantity(value, dimension, name, "--threshold")), source.strip()
+    )

@@ -1,0 +1,223 @@
+"""The paper's traction in closed form: a Newtonian Barus film with Crook's shear heating, over the Hertz ellipse.
+
+With p = p0 √(1 − ρ²) the integral over the ellipse is one-dimensional: F = 2π a b (η0 Δu/h) Φ, with
+
+    Φ(P, B0) = ∫₀¹ s e^{Ps} g(B0 e^{Ps}) ds,   g(B) = asinh √B/√(B(1 + B)),   P = α_p p0,   B0 = β η0 Δu²/(8k).
+
+Put q = √B0 e^{Ps/2} and u = asinh q. Then Φ = I/(h² q0²) with h = P/2, q0 = √B0 and
+
+    I = ∫₀^h y w(x0 + y) dy = h u1²/2 − [M(u1) − M(u0)]/2,   w = u tanh u,   M(u) = ∫₀^u t² coth t dt,
+
+in which x = ln q, and u0, u1 belong to s = 0 and s = 1. M has a power series for small u and a polylogarithm form for
+large u. For small P the bracket cancels, and Φ is taken by a Gauss rule with the weight s: the integrand's singularities,
+B = −1, lie π/P or more from the interval, so that the error of n nodes is of order (4π/P)^(−2n), below round-off. For small
+B0 e^P the power series of g is integrated term by term. The same I gives the derivatives: dI/dx0 = h w1 − (u1² − u0²)/2 and
+dI/dh = h w1.
+
+Scalars are for kernels, arrays for everything else; both follow the same formulas.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from scipy.special import roots_jacobi, zeta
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.interface import Interface
+from macroslip.contact.traction import thermal_reduction
+
+#: Power series of g, (−4)^n (n!)²/(2n + 1)!, and B up to which it is used; what its last term leaves out is below 1e-16.
+_G_SERIES = np.array([(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)])
+_COOL = 0.02
+#: Coefficients of M(u)/u² in powers of u²: B_2n 2^2n/((2n)! (2n + 2)) = −(−1)^n 2 ζ(2n)/(π^2n (2n + 2)), and u up to which
+#: they are used. By Riemann's zeta: SciPy's own Bernoulli numbers are good to 12 digits only.
+_TERMS = np.arange(1, 18)
+_M_SERIES = np.concatenate(
+    [[0.5], -((-1.0) ** _TERMS) * zeta(2.0 * _TERMS) / (math.pi ** (2.0 * _TERMS) * (_TERMS + 1.0))]
+)
+_SMALL_U, _HALF_ZETA_3 = 1.1, 0.6010284515797971
+#: Largest P served by the Gauss rule, its nodes and weights of ∫₀¹ s f(s) ds.
+_LARGEST_P = 1.2
+_RULE = roots_jacobi(8, 0.0, 1.0)
+_PLACES, _WEIGHTS = (1.0 + _RULE[0]) / 2.0, _RULE[1] / 4.0
+
+
+@jit_inline
+def moment_of_coth(u):
+    """M(u) = ∫₀^u t² coth t dt for u ≥ 0, to a few units in the last place [-].
+
+    Examples
+    --------
+    >>> float(round(moment_of_coth(1.0), 12))
+    0.579874655329
+    """
+    total = 0.0
+    if u < _SMALL_U:
+        for k in range(_M_SERIES.size - 1, -1, -1):
+            total = total * u * u + _M_SERIES[k]
+        return total * u * u
+    decay = power = math.exp(-2.0 * u)
+    n = 1.0
+    while power > 1e-18:
+        total += power * (u * u + (u + 0.5 / n) / n) / n
+        power *= decay
+        n += 1.0
+    return u * u * u / 3.0 + _HALF_ZETA_3 - total
+
+
+@jit_inline
+def _reduction(heating):
+    """G(B) and its logarithmic slope B g'(B)."""
+    if heating < _COOL:
+        g = slope = 0.0
+        for n in range(_G_SERIES.size - 1, -1, -1):
+            g = g * heating + _G_SERIES[n]
+            slope = slope * heating + n * _G_SERIES[n]
+        return g, slope
+    root = math.sqrt(heating)
+    g = math.asinh(root) / (root * math.sqrt(1.0 + heating))
+    return g, 0.5 * (1.0 - (1.0 + 2.0 * heating) * g) / (1.0 + heating)
+
+
+@jit_inline
+def _patch_by_rule(p, heating):
+    value = by_slip = by_pressure = 0.0
+    for k in range(_PLACES.size):
+        growth = math.exp(p * _PLACES[k])
+        g, slope = _reduction(heating * growth)
+        share = growth * _WEIGHTS[k]
+        value += share * g
+        by_slip += share * 2.0 * slope
+        by_pressure += share * (g + slope) * _PLACES[k]
+    return value, by_slip, by_pressure
+
+
+@jit_inline
+def _patch_by_series(p, heating, exp_p):
+    value = by_slip = by_pressure = 0.0
+    # (B0 e^P)^n e^P and e^{−(n+1)P} keep every factor within floating point.
+    power, decay = exp_p, 1.0
+    for n in range(_G_SERIES.size):
+        decay /= exp_p
+        x = (n + 1.0) * p
+        weight = _G_SERIES[n] * power
+        term = weight * (x - 1.0 + decay) / (x * x)
+        value += term
+        by_slip += 2.0 * n * term
+        by_pressure += (weight - 2.0 * term) / p
+        if abs(term) < 1e-17 * value:
+            break
+        power *= heating * exp_p
+    return value, by_slip, by_pressure
+
+
+@jit
+def patch_integral(pressure_exponent, root_heating):
+    """Patch integral Φ of Crook's traction over the Hertz ellipse and its derivatives [-], of numbers.
+
+    Parameters
+    ----------
+    pressure_exponent : float
+        P = α_p p0, 0 to 60.
+    root_heating : float
+        q0 = √B0 = |Δu| √(β η0/(8k)), 0 to 1e5.
+
+    Returns
+    -------
+    value : float
+        Φ = F/(2π a b η0 Δu/h).
+    slope_log_slip : float
+        ∂Φ/∂ ln q0 at fixed P; dF/dΔu at fixed film is 2π a b (η0/h)(Φ + slope_log_slip).
+    slope_pressure : float
+        ∂Φ/∂P at fixed q0.
+
+    Notes
+    -----
+    Relative error of the value below 1e-12 over P in [0, 60] and B0 in [1e-40, 1e10].
+
+    References
+    ----------
+    Derivation in the module's docstring; Crook (1961), doi:10.1098/rsta.1961.0014, for the local law.
+
+    Examples
+    --------
+    >>> round(patch_integral(5.0, 1.0)[0], 12)
+    1.160551948246
+    """
+    p, heating = pressure_exponent, root_heating * root_heating
+    if p < _LARGEST_P:
+        return _patch_by_rule(p, heating)
+    growth = math.exp(0.5 * p)
+    q1 = root_heating * growth
+    if q1 * q1 < _COOL:
+        return _patch_by_series(p, heating, growth * growth)
+    h = 0.5 * p
+    u0, u1 = math.asinh(root_heating), math.asinh(q1)
+    w1 = u1 * (q1 / math.sqrt(1.0 + q1 * q1))
+    integral = 0.5 * (h * u1 * u1 - (moment_of_coth(u1) - moment_of_coth(u0)))
+    slope = h * w1 - 0.5 * (u1 - u0) * (u1 + u0)
+    scale = 1.0 / (h * h * heating)
+    value = integral * scale
+    return value, slope * scale - 2.0 * value, 0.5 * w1 * h * scale - value / h
+
+
+def patch_values(pressure_exponent, root_heating):
+    """Φ of `patch_integral` [-] for arrays.
+
+    Examples
+    --------
+    >>> [float(round(value, 12)) for value in patch_values(np.array([0.5, 5.0]), np.array([1e-8, 1.0]))]
+    [0.7025574586, 1.160551948246]
+    """
+    p, q0 = np.broadcast_arrays(np.asarray(pressure_exponent, dtype=float), np.asarray(root_heating, dtype=float))
+    exp_p, found = np.exp(p), np.empty(p.shape)
+    light = p < _LARGEST_P
+    cool = ~light & (q0 * q0 * exp_p < _COOL)
+    growth = np.exp(p[light][:, None] * _PLACES)
+    found[light] = (growth * thermal_reduction(q0[light][:, None] ** 2 * growth)) @ _WEIGHTS
+    n = np.arange(1.0, _G_SERIES.size + 1.0)
+    x = n * p[cool][:, None]
+    powers = _G_SERIES * (q0[cool] ** 2 * exp_p[cool])[:, None] ** (n - 1.0)
+    found[cool] = exp_p[cool] * (powers * (x - 1.0 + np.exp(-x)) / (x * x)).sum(axis=1)
+    hot = ~light & ~cool
+    half, start = 0.5 * p[hot], q0[hot]
+    u0, u1 = np.arcsinh(start), np.arcsinh(start * np.exp(half))
+    found[hot] = 0.5 * (half * u1 * u1 - (_moments(u1) - _moments(u0))) / (half * start) ** 2
+    return found[()]
+
+
+def _moments(u: np.ndarray) -> np.ndarray:
+    """`moment_of_coth` for an array."""
+    square, large = u * u, np.maximum(u, _SMALL_U)
+    n = np.arange(1.0, 20.0)
+    rest = np.exp(-2.0 * large[:, None] * n) * (large[:, None] ** 2 + (large[:, None] + 0.5 / n) / n) / n
+    series = square * np.polynomial.polynomial.polyval(np.minimum(square, _SMALL_U**2), _M_SERIES)
+    return np.where(u < _SMALL_U, series, u * square / 3.0 + _HALF_ZETA_3 - rest.sum(axis=1))
+
+
+class BarusCrook(NamedTuple):
+    """The law for one interface."""
+
+    conductance: float  #: 2π a b η0 per Q^(2/3) [N^(1/3) s]: force per slip at unit film, without the patch integral
+    pressure_exponent: float  #: P = α_p p0 per Q^(1/3) [N^(-1/3)]
+    heating: float  #: √(β η0/(8k)) [s/m], so that q0 = heating·|Δu|
+
+
+def prepare_barus_crook(interface: Interface) -> BarusCrook:
+    """The law for an interface of given Hertz coefficients and lubricant."""
+    hertz, oil = interface.hertz, interface.lubricant
+    return BarusCrook(
+        conductance=2.0 * math.pi * hertz.semi_axis_across * hertz.semi_axis_along * oil.viscosity,
+        pressure_exponent=oil.pressure_viscosity * hertz.pressure,
+        heating=math.sqrt(oil.temperature_viscosity * oil.viscosity / (8.0 * oil.thermal_conductivity)),
+    )
+
+
+def barus_crook_traction(law: BarusCrook, load, film_thickness, slip):
+    """Force [N] with the sign of the slip, at loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]."""
+    root = np.cbrt(load)
+    patch = patch_values(law.pressure_exponent * root, law.heating * np.abs(slip))
+    return law.conductance * root * root / film_thickness * patch * slip

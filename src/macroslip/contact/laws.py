@@ -1,0 +1,209 @@
+"""The laws of a roller's three contacts, from the choice of mechanisms: values on arrays, from which tables are made."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from macroslip.bearing import geometry
+from macroslip.constants import MECHANISMS
+from macroslip.contact import asperities, film, rolling, traction
+from macroslip.contact.closed_form import BarusCrook, barus_crook_traction, prepare_barus_crook
+from macroslip.contact.flash import effusivity
+from macroslip.contact.gap import GapShape
+from macroslip.contact.interface import ContactShape, Interface, contact_shape, interfaces
+from macroslip.contact.mechanisms import check_lubricant
+from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
+from macroslip.contact.rolling import RollingNumbers, prepare_rolling
+from macroslip.contact.starvation import FLOODED, film_factor, inlet_at_gap
+from macroslip.contact.traction import Fluid, chord_table, film_traction, prepare_fluid
+from macroslip.errors import InputError
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.contact.mechanisms import Laws
+    from macroslip.lubricant import Lubricant
+
+#: Entrainment speed below which a film is that at this speed [m/s].
+LOWEST_ENTRAINMENT_SPEED = 1e-6
+#: Largest gap between a roller and the spar that pushes it [m]: half of a diametral clearance of 0.5 mm, an engineering
+#: estimate; 0.2 to 1 mm is usual.
+POCKET_GAP = 0.25e-3
+#: Largest inlet film of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an engineering estimate.
+_POCKET_INLET = 7.0
+
+
+@dataclass(frozen=True)
+class ContactLaws:
+    """The laws of one contact of a roller."""
+
+    name: str  #: `inner`, `outer` or `cage`
+    interface: Interface
+    shape: ContactShape
+    film_name: str  #: Name of the film law
+    starvation: float  #: Film thickness over the film of a flooded contact, above 0 and at most 1 [-]
+    oil_gap: (
+        float  #: Gap where the inlet begins to be full [m], from which the film follows; infinite: from `starvation`
+    )
+    thermal_loading: float  #: Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out
+    fluid: Fluid | None  #: The sheared film; None for the paper's closed form and for a traction law of one's own
+    closed_form: BarusCrook | None  #: The paper's traction
+    traction_name: str  #: `mechanisms`, or the name of a registered traction law
+    asperity_name: str  #: Law for the share of the load that asperities carry; `none` at a cage whose roller floats
+    boundary_friction: float  #: µ_b [-]; 0 without asperities
+    full_slip: float  #: Slip from which on asperities slide [m/s]
+    effusivity: float  #: Of the steel [J/(m² K √s)]; NaN where unknown
+    rolling: RollingNumbers | None  #: Rolling resistance
+    #: Whether the contact needs more than one force per slip: asperities, or a film that is summed over the patch.
+    curved: bool
+
+    def film_thickness(self, load, entrainment_speed) -> np.ndarray:
+        """Film thickness [m] with starvation and inlet heating, at loads Q > 0 [N] and entrainment speeds u_e [m/s].
+
+        The speed is floored at `LOWEST_ENTRAINMENT_SPEED`.
+        """
+        speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
+        height = self.starvation * FILM_LAWS.named(self.film_name)(self.interface, load, speed)
+        if self.thermal_loading:
+            height = height * film.inlet_heating_factor(self.thermal_loading * speed * speed)
+        return height * film_factor(inlet_at_gap(self.oil_gap, height)) if math.isfinite(self.oil_gap) else height
+
+    def film_in_range(self, load, entrainment_speed) -> np.ndarray:
+        """Whether the film law, without its corrections, is in its range."""
+        speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
+        return FILM_LAWS.named(self.film_name).inside(self.interface, load, speed)
+
+    def asperity_share(self, load, entrainment_speed, film_thickness) -> np.ndarray:
+        """Share of the load that asperities carry [-], 0 to 1, at Q [N], u_e [m/s] and h [m] > 0."""
+        speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
+        return asperities.asperity_share(self.asperity_name, self.interface, load, speed, film_thickness)
+
+    def uniform_traction(self, load, film_thickness, slip) -> np.ndarray:
+        """Force of the film [N] with the sign of the slip, which is the same all over the contact.
+
+        At loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s].
+        """
+        if self.closed_form is not None:
+            return barus_crook_traction(self.closed_form, load, film_thickness, slip)
+        if self.fluid is not None:
+            return film_traction(chord_table(self.fluid), self.interface.hertz, load, film_thickness, slip)
+        size = np.maximum(np.abs(slip), LEAST_SLIP)
+        return TRACTION_LAWS.named(self.traction_name)(self.interface, load, film_thickness, size) * (slip / size)
+
+    @property
+    def own_sources(self) -> str:
+        """Text that changes whenever a law of one's own in this contact may; empty without such laws."""
+        own = TRACTION_LAWS.named(self.traction_name).source if self.traction_name != MECHANISMS else ""
+        return FILM_LAWS.named(self.film_name).source + own
+
+
+class RollerLaws(NamedTuple):
+    """The laws of a roller's three contacts."""
+
+    inner: ContactLaws
+    outer: ContactLaws
+    cage: ContactLaws
+
+
+def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int) -> RollerLaws:
+    """The laws of the contacts of a roller.
+
+    Raises InputError for a law that does not exist, values the lubricant lacks, or curvatures that do not make a Hertz
+    contact.
+
+    Parameters
+    ----------
+    laws : Laws
+        Chosen mechanisms.
+    bearing : Bearing
+    lubricant : Lubricant
+    axial_sign : int
+        +1 for the downwind row, −1 for the upwind row.
+
+    Examples
+    --------
+    >>> from macroslip import Bearing, Laws, Lubricant
+    >>> found = prepare(Laws.paper(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1)
+    >>> height = found.inner.film_thickness(2e4, 0.4)
+    >>> float(round(1e6 * height, 3)), float(round(found.inner.uniform_traction(2e4, height, 1e-4), 2))
+    (1.324, 7379.33)
+    """
+    check_lubricant(laws, lubricant)
+    FILM_LAWS.named(laws.film)
+    if laws.traction != MECHANISMS:
+        TRACTION_LAWS.named(laws.traction)
+    supplied = lubricant.oil_gap is not None
+    given = math.inf if lubricant.oil_gap is None else float(lubricant.oil_gap)
+    oil_gap = given if given < FLOODED else math.inf
+    starvation = float(lubricant.starvation) if laws.starvation and not supplied else 1.0
+    if not 0.0 < starvation <= 1.0:
+        what = f"the starvation factor is {starvation!r}"
+        remedy = "It is film thickness over that of a flooded contact; 1 means flooded"
+        raise InputError(what, where="starvation", allowed="a number above 0 and at most 1", remedy=remedy)
+    sheared = laws.traction == MECHANISMS and not laws.is_closed_form
+    fluid = prepare_fluid(laws, lubricant) if sheared else None
+    known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None
+    steel = (
+        float(effusivity(bearing.thermal_conductivity, bearing.density, bearing.specific_heat)) if known else math.nan
+    )
+    curvatures = (
+        geometry.inner_curvatures(bearing),
+        geometry.outer_curvatures(bearing),
+        geometry.cage_curvatures(bearing),
+    )
+    contacts = []
+    for interface, curved in zip(interfaces(bearing, lubricant), curvatures, strict=True):
+        cage = interface.name == "cage"
+        inlet = lubricant.inlet_film if laws.rolling != "none" and not supplied else math.inf
+        gap = GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length)
+        contacts.append(
+            ContactLaws(
+                name=interface.name,
+                interface=interface,
+                shape=contact_shape(bearing, interface, axial_sign, microslip=laws.microslip),
+                film_name=laws.film,
+                starvation=starvation,
+                oil_gap=oil_gap,
+                thermal_loading=film.thermal_loading(interface) if laws.inlet_heating else 0.0,
+                fluid=fluid,
+                closed_form=prepare_barus_crook(interface) if laws.is_closed_form else None,
+                traction_name=laws.traction,
+                # The film of a roller in its pocket is tens of micrometres thick: no asperity touches.
+                asperity_name="none" if cage and laws.rolling != "none" else laws.asperities,
+                boundary_friction=lubricant.boundary_friction if laws.asperities != "none" else 0.0,
+                full_slip=asperities.FULL_SLIP,
+                effusivity=steel,
+                rolling=prepare_rolling(
+                    laws.rolling,
+                    interface,
+                    gap,
+                    geometry.roller_radius(bearing),
+                    fullness=lubricant.fullness if laws.rolling != "none" and not supplied else 1.0,
+                    oil_gap=oil_gap,
+                    inlet_film=min(inlet, _POCKET_INLET) if cage else inlet,
+                    heating=laws.inlet_heating,
+                ),
+                curved=laws.asperities != "none" or sheared,
+            )
+        )
+    return RollerLaws(*contacts)
+
+
+def references(laws: Laws) -> list[str]:
+    """Works to cite for the chosen mechanisms."""
+    found = [FILM_LAWS.named(laws.film).reference]
+    if laws.inlet_heating:
+        found.append(film.INLET_HEATING_REFERENCE)
+    if laws.traction != MECHANISMS:
+        found.append(TRACTION_LAWS.named(laws.traction).reference)
+    else:
+        chosen = (laws.viscosity, laws.rheology, "heating" if laws.heating else "")
+        found += [traction.REFERENCES[name] for name in chosen if name in traction.REFERENCES]
+    if laws.asperities != "none":
+        found.append(asperities.REFERENCES[laws.asperities])
+    if laws.rolling != "none":
+        found.append(rolling.REFERENCES[laws.rolling])
+    return found

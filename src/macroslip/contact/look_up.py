@@ -1,0 +1,167 @@
+"""Look-ups in the tables of a contact, for compiled code: traction of a raceway, oil, film, and the cage's contact.
+
+A raceway's traction depends on load Q, ring speed u2 and slip v. With U = |u2|, c = v sign u2, the speed
+w = √(U² + c²/4 + w0²) and the slip ratio y = c/w, which is between −2 and 2 whatever the roller does, a table has the
+coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0), and the quantities pull/Q, lag/Q^(5/3), skew/Q^(4/3) and power of
+asperities/(Q^(5/3) w). Traction is odd under (u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
+
+Other tables are planes over ln Q and the logarithm of a speed. Beyond the lightest load and the slowest speed of a table its
+values there serve; `macroslip.contact.table` makes tables that hold all heavier and faster states of a case.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.contact.spline import CHANNELS, splines_in_cube, splines_in_square
+
+#: w0 [m/s]: speed below which a contact counts as at rest.
+REST_SPEED = 1e-6
+#: Least speed whose logarithm is taken [m/s], and least load [N].
+_LEAST_SPEED, _LEAST_LOAD = 1e-12, 1e-12
+
+AXIS = np.dtype([("first", "f8"), ("per_spacing", "f8"), ("cells", "i8")])
+#: Where a plane stands in the flat array of tables, and its axes.
+PLANE = np.dtype([("start", "i8"), ("load", AXIS), ("speed", AXIS)])
+#: The same of a raceway's traction; `rising` is where the slip ratios stand up to which it rises, over loads and speeds, `stretch` is k [N^(−1/3)], `middle` y_m, `scale` y_0, and `side` the sign of the tilt of the
+#: roller's axis, which is that of the skew moment.
+TRACTION = np.dtype(
+    [
+        ("start", "i8"), ("rising", "i8"), ("load", AXIS), ("speed", AXIS), ("ratio", AXIS),
+        ("stretch", "f8"), ("middle", "f8"), ("scale", "f8"), ("side", "f8"),
+    ]
+)  # fmt: skip
+
+
+class Traction(NamedTuple):
+    """Traction of a raceway contact on the roller."""
+
+    pull: float  #: ∫τ dA [N], with the sign of the slip
+    lag: float  #: ∫τ h/r dA [N]: by so much the moment about the roller's axis, over r, falls short of the pull
+    skew: float  #: ∫τ ζ dA [N m]
+    asperity_power: float  #: Part of the frictional power that asperities dissipate [W]
+    #: ∂/∂v at constant u2 and ∂/∂u2 at constant v [N s/m].
+    pull_by_slip: float
+    lag_by_slip: float
+    pull_by_speed: float
+    lag_by_speed: float
+    #: ∂/∂Q [-].
+    pull_by_load: float
+    lag_by_load: float
+
+
+@jit_inline
+def cell_of(axis, coordinate):
+    """Cell of a coordinate, the place in it, and its derivative by the coordinate: 0 beyond the ends, where it stays there."""
+    place = (coordinate - axis.first) * axis.per_spacing
+    last = float(axis.cells)
+    if place <= 0.0:
+        return 0, 0.0, 0.0
+    if place >= last:
+        return axis.cells - 1, 1.0, 0.0
+    cell = int(place)
+    return cell, place - cell, axis.per_spacing
+
+
+@jit_inline
+def log_load(load):
+    """Ln Q of a load [N] that may be none."""
+    return math.log(max(load, _LEAST_LOAD))
+
+
+@jit_inline
+def log_speed(speed):
+    """Ln |u| of a speed [m/s] that may be none."""
+    return math.log(max(abs(speed), _LEAST_SPEED))
+
+
+@jit_inline
+def in_plane(plane, tables, log_load, log_speed):
+    """Four quantities of a plane at ln Q and ln |u|, and their derivatives by both.
+
+    Returns
+    -------
+    tuple of 4 float, three times
+    """
+    i, t, by_first = cell_of(plane.load, log_load)
+    j, u, by_second = cell_of(plane.speed, log_speed)
+    stride = CHANNELS * (plane.speed.cells + 3)
+    value, first, second = splines_in_square(tables, plane.start + i * stride + CHANNELS * j, stride, t, u)  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    return (
+        value,
+        (first[0] * by_first, first[1] * by_first, first[2] * by_first, first[3] * by_first),
+        (second[0] * by_second, second[1] * by_second, second[2] * by_second, second[3] * by_second),
+    )
+
+
+@jit_inline
+def traction(table, tables, load, log_load, ring_speed, slip):
+    """Traction of a raceway contact from its table.
+
+    Parameters
+    ----------
+    table : record of `TRACTION`
+    tables : ndarray
+        The flat array.
+    load, log_load : float
+        Q > 0 [N] and ln Q.
+    ring_speed, slip : float
+        u2 and v [m/s], each of either sign.
+
+    Returns
+    -------
+    Traction
+    """
+    sign = math.copysign(1.0, ring_speed)
+    along, sliding = abs(ring_speed), slip * sign
+    speed = math.sqrt(along * along + 0.25 * sliding * sliding + REST_SPEED * REST_SPEED)
+    per_speed = 1.0 / speed
+    ratio = sliding * per_speed
+    z = (ratio - table.middle) / table.scale
+    size = math.sqrt(z * z + 1.0)
+    root_speed, root = math.sqrt(math.sqrt(speed)), math.exp(log_load * (1.0 / 3.0))
+    i, t, load_slope = cell_of(table.load, log_load + table.stretch * root)
+    k, s, speed_slope = cell_of(table.speed, root_speed)
+    j, u, ratio_slope = cell_of(table.ratio, math.copysign(math.log(abs(z) + size), z))
+    inner = CHANNELS * (table.ratio.cells + 3)
+    outer = inner * (table.speed.cells + 3)
+    start = table.start + i * outer + k * inner + CHANNELS * j
+    value, first, second, third = splines_in_cube(tables, start, (outer, inner), (t, s, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    # Derivatives of the coordinates: by Q, by w and by y; of w and y by v and by u2, less the sign that both take.
+    load_slope *= (1.0 + table.stretch * root * (1.0 / 3.0)) / load
+    speed_slope *= 0.25 * root_speed / speed
+    ratio_slope /= table.scale * size
+    if along == 0.0 and slip == 0.0:
+        # At rest nothing slips; the table has its slowest speed.
+        value = (0.0, 0.0, 0.0, 0.0)
+    w_by_slip, w_by_speed = 0.25 * ratio, along * per_speed
+    y_by_slip, y_by_speed = per_speed * (1.0 - 0.25 * ratio * ratio), -ratio * along * per_speed * per_speed
+    pull_by_w, pull_by_y = load * second[0] * speed_slope, load * third[0] * ratio_slope
+    heavy = load * root * root
+    lag_by_w, lag_by_y = heavy * second[1] * speed_slope, heavy * third[1] * ratio_slope
+    return Traction(
+        sign * load * value[0],
+        sign * heavy * value[1],
+        sign * table.side * load * root * value[2],
+        heavy * speed * value[3],
+        pull_by_w * w_by_slip + pull_by_y * y_by_slip,
+        lag_by_w * w_by_slip + lag_by_y * y_by_slip,
+        pull_by_w * w_by_speed + pull_by_y * y_by_speed,
+        lag_by_w * w_by_speed + lag_by_y * y_by_speed,
+        sign * (value[0] + load * first[0] * load_slope),
+        sign * root * root * ((5.0 / 3.0) * value[1] + load * first[1] * load_slope),
+    )
+
+
+@jit_inline
+def rising_slip(table, tables, load, speed):
+    """Slip [m/s] up to which the moment on the roller rises with slip, at Q [N] and ring speeds up to `speed` [m/s]."""
+    ln_load = log_load(load)
+    i, t, _ = cell_of(table.load, ln_load + table.stretch * math.exp(ln_load * (1.0 / 3.0)))
+    k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(speed)))
+    place = (i + (1 if t > 0.5 else 0)) * (table.speed.cells + 1) + k + (1 if s > 0.5 else 0)
+    return tables[table.rising + place] * speed

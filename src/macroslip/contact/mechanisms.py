@@ -1,0 +1,232 @@
+"""Which physics a case uses inside its contacts, chosen mechanism by mechanism, with two named sets.
+
+`Laws.paper()` is the model of Hart et al.; `Laws.physical()` switches on all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields, replace
+from importlib import import_module
+from typing import TYPE_CHECKING, Annotated, Any
+
+from macroslip.constants import MECHANISMS
+from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Flag
+from macroslip.input.messages import unknown_name
+from macroslip.input.section import input_section
+
+if TYPE_CHECKING:
+    from macroslip.lubricant import Lubricant
+
+_OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
+
+
+def _names(module: str, holder: str, *first: str) -> Callable[[], list[str]]:
+    """Names of laws, looked up only when a file or a call gives one: kernels need not be imported to read a case."""
+
+    def found() -> list[str]:
+        laws = getattr(import_module(f"macroslip.contact.{module}"), holder)
+        return [*first, *(laws if isinstance(laws, dict) else laws.names())]
+
+    return found
+
+
+@input_section("laws", "physics in the contacts: a named set, and mechanisms that differ from it")
+class Laws:
+    """Mechanisms in the contacts of a roller. The defaults are the paper's model.
+
+    Parameters
+    ----------
+    film : str
+        Name of a film law.
+    starvation : bool
+        Whether the film is thinner by the lubricant's `starvation` factor.
+    inlet_heating : bool
+        Whether shear in the inlet warms the oil and thins the film.
+    viscosity : "barus" or "roelands"
+        How viscosity rises with pressure; both have the slope `pressure_viscosity` at ambient pressure.
+    rheology : "newtonian", "limiting-shear" or "eyring"
+        How the film's stress falls behind the Newtonian one: not at all, limited to `limiting_shear` times pressure, or
+        by Eyring's law with `eyring_stress`.
+    heating : bool
+        Whether shear heats the film and lowers its viscosity (Crook).
+    microslip : bool
+        Whether slip varies along the roller, by the contact's curvature and by the contact angle.
+    asperities : str
+        Name of a law for the share of the load that asperities carry, with `boundary_friction`; "none" without them.
+    rolling : "none", "inlet" or "whole-film"
+        Rolling resistance of the contacts and the cage, with the films of rollers that have play: none, that of the
+        inlets as published, or that of whole films; with the lubricant's `fullness` and `inlet_film`.
+    skew : "none" or "quasi-static"
+        Whether rollers are held straight, or turn about their contacts' normal until nothing drives them on or the cage holds
+        them; with microslip.
+    traction : str
+        "mechanisms": built from the choices above. Otherwise the name of a registered traction law, which replaces
+        viscosity, rheology, heating and microslip.
+
+    Raises
+    ------
+    InputError
+        For a choice that does not exist, or one that a law of one's own makes void.
+
+    Examples
+    --------
+    >>> Laws.physical().rheology, Laws.paper().rheology
+    ('eyring', 'newtonian')
+    >>> Laws.paper().but(rheology="limiting-shear", viscosity="roelands").name
+    'paper, but rheology limiting-shear, viscosity roelands'
+    """
+
+    film: Annotated[str, Choice("film thickness", _names("registry", "FILM_LAWS"), _OWN_LAW)] = "masjedi-khonsari"
+    starvation: Annotated[bool, Flag("film thinned by the lubricant's starvation factor")] = False
+    inlet_heating: Annotated[bool, Flag("film thinned by shear heating in the inlet")] = False
+    viscosity: Annotated[str, Choice("how viscosity rises with pressure", lambda: VISCOSITY_LAWS)] = "barus"
+    rheology: Annotated[
+        str, Choice("how the film's stress falls behind the Newtonian one", _names("traction", "RHEOLOGIES"))
+    ] = "newtonian"
+    heating: Annotated[bool, Flag("shear heating of the film")] = True
+    microslip: Annotated[bool, Flag("slip that varies along the roller")] = False
+    asperities: Annotated[
+        str, Choice("share of the load that asperities carry", _names("asperities", "REFERENCES"))
+    ] = "none"
+    rolling: Annotated[
+        str, Choice("rolling resistance, and films of rollers with play", _names("rolling", "REFERENCES"))
+    ] = "none"
+    skew: Annotated[str, Choice("whether rollers turn about the normals of their contacts", lambda: SKEWS)] = "none"
+    traction: Annotated[
+        str,
+        Choice(
+            "mechanisms, or a traction law of your own in their place",
+            _names("registry", "TRACTION_LAWS", MECHANISMS),
+            _OWN_LAW,
+        ),
+    ] = MECHANISMS
+
+    def __post_init__(self) -> None:
+        if self.skew != "none" and not self.microslip:
+            raise InputError(
+                "skew follows from how slip lies over a contact, and these laws have the same slip all over it",
+                where="laws.skew",
+                allowed="none, or laws with microslip",
+                remedy="Choose model: physical, or set microslip: true beside model: paper.",
+            )
+        if self.traction != MECHANISMS:
+            void = [name for name in _REPLACED if getattr(self, name) != _DEFAULTS[name]]
+            if void:
+                chosen = " and ".join(f"{name} ({_word(getattr(self, name))})" for name in void)
+                beside = ", ".join(f"{name}: {_written(_DEFAULTS[name])}" for name in void)
+                raise InputError(
+                    f"the traction law '{self.traction}' has no {chosen}, which stand beside it: a traction law of one's "
+                    "own takes the place of these mechanisms",
+                    where="laws.traction",
+                    allowed=f"{MECHANISMS}, or a law of one's own without these",
+                    remedy="With your law, set model: paper and name the mechanisms you want to add to it, or keep "
+                    f"the model and set {beside}",
+                )
+
+    @classmethod
+    def paper(cls) -> Laws:
+        """The model of the paper: rough film, Newtonian Barus oil heated by its own shear, one slip a contact."""
+        return cls()
+
+    @classmethod
+    def physical(cls) -> Laws:
+        """All mechanisms.
+
+        Film for every load, starved and heated in the inlet; Roelands; Eyring's law; microslip; asperities; rolling
+        resistance of whole films.
+
+        Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils keeps rising with the
+        shear rate and reaches no limit; that of polyglycols does, so for them `rheology` is to be "limiting-shear".
+
+        References
+        ----------
+        Vengudusamy, Enekes and Spallek, Friction (2019), doi:10.1007/s40544-019-0267-5; Jacod, Venner and Lugt,
+        J. Tribol. 123 (2001) 248, doi:10.1115/1.1308021.
+        """
+        return cls(**PRESETS["physical"])
+
+    @classmethod
+    def named(cls, name: str) -> Laws:
+        """The set called `name`: paper or physical.
+
+        Raises
+        ------
+        InputError
+            For any other name.
+        """
+        if name not in PRESETS:
+            problem = unknown_name(name, list(PRESETS))
+            raise InputError(problem.what, where="laws.model", allowed=problem.allowed, remedy=problem.remedy)
+        return cls(**PRESETS[name])
+
+    def but(self, **changes: Any) -> Laws:
+        """The same with some choices changed."""
+        return replace(self, **changes)
+
+    @property
+    def name(self) -> str:
+        """The set's name, or the one it is nearest to with what differs."""
+        differences = {}
+        for model in PRESETS:
+            other = Laws.named(model)
+            names = [one.name for one in fields(self) if getattr(self, one.name) != getattr(other, one.name)]
+            differences[model] = sorted(f"{name} {_word(getattr(self, name))}" for name in names)
+        nearest = min(differences, key=lambda model: len(differences[model]))
+        return nearest + (f", but {', '.join(differences[nearest])}" if differences[nearest] else "")
+
+    @property
+    def is_closed_form(self) -> bool:
+        """Whether traction is the paper's, for which there is a closed form."""
+        return all(getattr(self, name) == _DEFAULTS[name] for name in (*_REPLACED, "traction"))
+
+
+#: Mechanisms that a traction law of one's own replaces.
+_REPLACED = ("viscosity", "rheology", "heating", "microslip")
+_DEFAULTS: dict[str, Any] = {one.name: one.default for one in fields(Laws)}
+SKEWS = ("none", "quasi-static")
+VISCOSITY_LAWS = ("barus", "roelands")
+#: Choices of each named set that differ from the defaults.
+PRESETS: dict[str, dict[str, Any]] = {
+    "paper": {},
+    "physical": {
+        "film": "masjedi-khonsari-moes",
+        "starvation": True,
+        "inlet_heating": True,
+        "viscosity": "roelands",
+        "rheology": "eyring",
+        "microslip": True,
+        "asperities": "masjedi-khonsari",
+        "rolling": "whole-film",
+    },
+}
+
+
+def _word(value: Any) -> str:
+    return ("on" if value else "off") if isinstance(value, bool) else str(value)
+
+
+def _written(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
+    """Refuse a lubricant that lacks a value the chosen mechanisms need.
+
+    Raises
+    ------
+    InputError
+        Naming the values and the mechanisms.
+    """
+    needed = {
+        "starvation": "starvation" if laws.starvation and lubricant.oil_gap is None else "",
+        "limiting_shear": "limiting shear" if laws.rheology == "limiting-shear" else "",
+        "eyring_stress": "Eyring's rheology" if laws.rheology == "eyring" else "",
+        "boundary_friction": "asperity friction" if laws.asperities != "none" else "",
+        "fullness": "rolling resistance" if laws.rolling != "none" and lubricant.oil_gap is None else "",
+        "inlet_film": "rolling resistance" if laws.rolling != "none" and lubricant.oil_gap is None else "",
+    }
+    keys = [key for key, mechanism in needed.items() if mechanism and getattr(lubricant, key) is None]
+    if keys:
+        lubricant.require(*keys, purpose=" and ".join(dict.fromkeys(needed[key] for key in keys)))

@@ -1,0 +1,289 @@
+"""Traction of a curved and tilted contact, summed over its chords: values for tables, and power by station for maps.
+
+With the station ζ along the roller's axis and the drop of the common contour h = ζ²/(2 R_d) slip is
+
+    v(ζ) = Δu + κ h − s ζ,
+
+where κ = ω_rel − (Ω_in − Ω) cos α and s = −(Ω_in − Ω) sin α at the inner raceway, κ = ω_rel + Ω cos α and s = −Ω sin α
+at the outer one of the downwind row, with ζ along z'; in the upwind row sin α is negative. Where v passes through zero
+the roller rolls purely. A film that grips changes its stress from one limit to the other there within a small part of
+the contact's length, the smaller the higher the load, so the quadrature is divided at these lines and graded towards
+them. Stress along a chord is that of the oil's table (`macroslip.contact.traction`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.asperities import asperity_patch
+from macroslip.contact.spline import spline_value
+from macroslip.contact.traction import Fluid, chord_stress
+
+_asperity_patch = jit(asperity_patch)
+#: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below round-off of the rest.
+_NO_SLIP = 1e-30
+#: Part of the half length below which a piece of the contact is left out.
+_SHORTEST = 1e-12
+
+
+class Patch(NamedTuple):
+    """A contact ellipse over which slip varies, as a compiled function takes it.
+
+    Attributes
+    ----------
+    microslip : bool
+        Whether slip varies; otherwise the middle's serves everywhere.
+    contour_radius, roller_radius, half_length : float
+        R_d, r and half the roller's length [m].
+    curvature_ratio, spin_ratio : float
+        κ/u2 and s/u2 in pure rolling [1/m].
+    across, along : float
+        Semi-axes of the ellipse per Q^(1/3) [m/N^(1/3)].
+    pressure : float
+        p0 per Q^(1/3) [Pa/N^(1/3)].
+    boundary_friction, full_slip : float
+        µ_b [-], and slip from which on asperities slide [m/s].
+    """
+
+    microslip: bool
+    contour_radius: float
+    roller_radius: float
+    half_length: float
+    curvature_ratio: float
+    spin_ratio: float
+    across: float
+    along: float
+    pressure: float
+    boundary_friction: float
+    full_slip: float
+
+
+def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
+    """Quadrature on [0, 1], graded towards both ends: nodes m and weights.
+
+    Gauss-Legendre in t with m = 3t² − 2t³. At a line of pure rolling this resolves how fast stress turns there; at the end
+    of an ellipse it makes the root of the chord's length smooth.
+    """
+    t, weights = np.polynomial.legendre.leggauss(nodes)
+    t, weights = 0.5 * (t + 1.0), 0.5 * weights
+    return t * t * (3.0 - 2.0 * t), weights * 6.0 * t * (1.0 - t)
+
+
+_NODES, _WEIGHTS = graded_rule(10)
+_FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
+
+
+class Chords(NamedTuple):
+    """Stress along chords of one oil's film, as a compiled function looks it up; see `macroslip.contact.traction`.
+
+    Attributes
+    ----------
+    rheology : int
+        0 Newtonian, 1 limiting shear, 2 Eyring.
+    characteristic : float
+        τ_L/p [-] or τ_E [Pa].
+    heating : float
+        β/(8k) [m/W].
+    lowest_pressure, highest_pressure : float
+        Of the table [Pa].
+    pressure_spacing : float
+        In p1^¼ [Pa^¼].
+    lowest_film, film_spacing, lowest_slip, slip_spacing : float
+        In the logarithms [-].
+    shape : tuple of 3 int
+        Of the coefficients, over pressures, films and slips.
+    coefficients, log_viscosities : ndarray, 1 dimension
+        Of the splines of ln stress, and of ln η over pressures.
+    """
+
+    rheology: int
+    characteristic: float
+    heating: float
+    lowest_pressure: float
+    highest_pressure: float
+    pressure_spacing: float
+    lowest_film: float
+    film_spacing: float
+    lowest_slip: float
+    slip_spacing: float
+    shape: tuple[int, int, int]
+    coefficients: np.ndarray
+    log_viscosities: np.ndarray
+
+
+@jit_inline
+def _node(count, place):
+    """Cell of a place in nodes, kept within a spline of `count` coefficients, and the place in it."""
+    inside = min(max(place, 0.0), count - 3.0)
+    cell = min(int(inside), count - 4)
+    return cell, inside - cell
+
+
+@jit_inline
+def _on_line(coefficients, cell, t):
+    """Value of a spline of one coordinate."""
+    rest = 1.0 - t
+    one, two, three, four = coefficients[cell], coefficients[cell + 1], coefficients[cell + 2], coefficients[cell + 3]
+    middle = (4.0 - 6.0 * t * t + 3.0 * t * t * t) * two + (4.0 - 6.0 * rest * rest + 3.0 * rest * rest * rest) * three
+    return (rest * rest * rest * one + middle + t * t * t * four) * (1.0 / 6.0)
+
+
+class FilmNode(NamedTuple):
+    """A film in the table of chords."""
+
+    film: float  #: h [m]
+    logarithm: float
+    cell: int
+    place: float  #: In the cell
+
+
+@jit_inline
+def film_node(chords, film):
+    """Where a film h [m] stands in the table of chords: for `chord_stress_at`, once for all chords of a contact."""
+    logarithm = math.log(film)
+    cell, place = _node(chords.shape[1], (logarithm - chords.lowest_film) / chords.film_spacing)
+    return FilmNode(film, logarithm, cell, place)
+
+
+@jit_inline
+def chord_stress_at(chords, node, pressure, slip):
+    """Mean stress along a chord [Pa] of a film, a `FilmNode`, from its largest pressure p1 [Pa] and |slip| [m/s]."""
+    pressure = min(max(pressure, chords.lowest_pressure), chords.highest_pressure)
+    pressures, films, slips = chords.shape
+    i, t = _node(pressures, math.sqrt(math.sqrt(pressure)) / chords.pressure_spacing)
+    log_eta = _on_line(chords.log_viscosities, i, t)
+    if chords.rheology == 0:
+        unit = 1.0 / (math.sqrt(max(chords.heating, 1e-30)) * node.film)
+        ahead = 0.5 * log_eta
+    else:
+        unit = chords.characteristic * pressure if chords.rheology == 1 else chords.characteristic
+        ahead = log_eta
+    log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - chords.lowest_slip
+    j, u = _node(slips, log_slip / chords.slip_spacing)
+    start = (i * films + node.cell) * slips + j
+    value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.place, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    # Below the first slip of the table stress is in proportion to slip.
+    stress = unit * math.exp(value + min(log_slip, 0.0) + (ahead if chords.rheology == 0 else 0.0))
+    # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
+    return min(stress, 0.25 * math.pi * unit) if chords.rheology == 1 else stress
+
+
+@jit_inline
+def rolling_lines(bend, spin, slip, end):
+    """Stations at which v = slip + bend ζ² − spin ζ vanishes, in rising order, kept within ± `end`.
+
+    Where v has no zero both are its extremum, so that they change continuously with the state.
+    """
+    root = spin * spin - 4.0 * bend * slip
+    if root <= 0.0:
+        first = second = 0.5 * spin / bend if bend != 0.0 else end
+    else:
+        larger = 0.5 * (spin + math.copysign(math.sqrt(root), spin))
+        first = larger / bend if bend != 0.0 else math.copysign(math.inf, larger)
+        second = slip / larger
+    low, high = min(first, second), max(first, second)
+    return min(max(low, -end), end), min(max(high, -end), end)
+
+
+@jit
+def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
+    """Write pull and lag [N], skew moment [N m] and power of asperities [W] of a raceway contact into `found`.
+
+    Parameters
+    ----------
+    patch : Patch
+    chords : Chords
+    load, film : float
+        Q > 0 [N], and h > 0 [m], the same all over the patch.
+    share : float
+        Part of the load that asperities carry, 0 to 1: film and asperities each have their share of the area at the full
+        Hertz pressure.
+    ring_speed, slip : float
+        u2 and Δu at the middle [m/s].
+    found : ndarray, shape (4,)
+
+    Notes
+    -----
+    The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
+    """
+    root = load ** (1.0 / 3.0)
+    across, pressure = patch.across * root, patch.pressure * root
+    end = min(1.0, patch.half_length / across)
+    bend, spin = 0.0, 0.0
+    if patch.microslip:
+        bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
+        spin = ring_speed * patch.spin_ratio
+    first, second = rolling_lines(bend, spin, slip, across * end)
+    edges = (-end, first / across, second / across, end)
+    area = 2.0 * across * patch.along * root * (1.0 - share)
+    pull, lag, skew = 0.0, 0.0, 0.0
+    per_drop, node = 0.5 / (patch.contour_radius * patch.roller_radius), film_node(chords, film)
+    for segment in range(3):
+        length = edges[segment + 1] - edges[segment]
+        if length < _SHORTEST:
+            continue
+        for k in range(_NODES.size):
+            x = edges[segment] + length * _NODES[k]
+            station = across * x
+            local = slip + station * (bend * station - spin)
+            cosine = math.sqrt(1.0 - x * x)
+            part = area * _WEIGHTS[k] * length * cosine * chord_stress_at(chords, node, pressure * cosine, abs(local))
+            part = math.copysign(part, local)
+            pull += part
+            lag += part * station * station * per_drop
+            skew += part * station
+    rough = 0.0
+    if share > 0.0 and patch.boundary_friction > 0.0:
+        scale = 0.75 * patch.boundary_friction * share * load / across
+        more, second_moment, more_skew, rough = _asperity_patch(
+            scale, patch.full_slip, across, across * end, slip, bend, spin
+        )
+        pull, lag, skew = pull + more, lag + second_moment * per_drop, skew + more_skew
+    found[0], found[1], found[2], found[3] = pull, lag, skew, rough
+
+
+@jit
+def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
+    """`patch_traction` of many states, flat arrays of one size; returns shape (states, 4)."""
+    found = np.empty((loads.size, 4))
+    for n in range(loads.size):
+        patch_traction(patch, chords, loads[n], films[n], shares[n], ring_speeds[n], slips[n], found[n])
+    return found
+
+
+def patch_power(patch: Patch, chords: Chords, load: float, film: float, ring_speed: float, slip: float) -> float:
+    """Frictional power of a film [W], ∫τ v dA, by the rule of `patch_traction`; parameters as there."""
+    found = np.empty(4)
+    patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, found)
+    return _power(patch, found[0], found[1], found[2], ring_speed, slip)
+
+
+def _power(patch: Patch, pull: float, lag: float, skew: float, ring_speed: float, slip: float) -> float:
+    curvature = patch.curvature_ratio * patch.roller_radius
+    return float(slip * (pull - lag) + ring_speed * (curvature * lag - patch.spin_ratio * skew))
+
+
+def fine_power(patch: Patch, fluid: Fluid, load: float, film: float, ring_speed: float, slip: float) -> float:
+    """The same by a finer rule, and with the stress of every chord by quadrature in place of the oil's table."""
+    root = load ** (1.0 / 3.0)
+    across = patch.across * root
+    end = min(1.0, patch.half_length / across)
+    bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
+    spin = ring_speed * patch.spin_ratio
+    first, second = rolling_lines(bend, spin, slip, across * end)
+    edges = np.array([-end, first / across, second / across, end])
+    lengths = np.diff(edges)
+    place = (edges[:-1, None] + lengths[:, None] * _FINE_NODES).ravel()
+    weight = (lengths[:, None] * _FINE_WEIGHTS).ravel()
+    station, cosine = across * place, np.sqrt(1.0 - place**2)
+    local = slip + station * (bend * station - spin)
+    stress = chord_stress(
+        fluid, patch.pressure * root * np.maximum(cosine, 1e-9), film, np.maximum(np.abs(local), _NO_SLIP)
+    )
+    part = 2.0 * across * patch.along * root * weight * cosine * np.copysign(stress, local)
+    lag = part * station**2 * 0.5 / (patch.contour_radius * patch.roller_radius)
+    return _power(patch, part.sum(), lag.sum(), (part * station).sum(), ring_speed, slip)

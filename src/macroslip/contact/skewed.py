@@ -1,0 +1,262 @@
+"""A raceway contact whose slip has two components, as that of a skewed roller: integrals over the ellipse.
+
+Axes and signs are those of `docs/frames.md`: x against the travel of a positive orbit, y' along the contact normal outward,
+z' along the roller. The side k is −1 at the inner and +1 at the outer raceway. The roller's axis is e = z' + ψ x − θ y', with the
+skew ψ about +y' and the tilt θ about +x; its middle lies at δ along z'. A point of the contact has the station ζ along the roller,
+counted from the roller's middle, and ξ along x. With the curvatures of the raceway κ_z along and κ_x across, > 0 where it is hollow,
+and those of the gap C11 = 1/r − κ_x, C22 = 1/R_roller − κ_z:
+
+* The middle of the ellipse lies at ζ_c = [−kθ + κ_z(δ + k r θ)]/C22. Its long axis is ξ = ε ζ with
+  ε = ψ − (κ_z − κ_x) ψ/(C11 − C22): it turns less than the roller where the raceway is no sphere.
+* Both surfaces lie half way between their contours: h = ζ²/(2 R_d) + C22 (ζ_c ζ/2 − ζ_c²/4) below the roller's largest radius, and
+  h_w = h + k θ ζ below the raceway's middle.
+* Slip, ring less roller, against −k x (as `slip` is counted) and along z', with Ω_r the ring's speed in the orbiting frame, ω the
+  spin and s the row's axial sign:
+
+      v = Δu + ω h − Ω_r cos α h_w − k s Ω_r sin α (ζ + δ + k r θ),     w = −k ω ψ (r − h) − (s Ω_r sin α + ω θ) ξ.
+
+Traction has the direction of slip, and its stress is that of the shear law at |(v, w)|.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from macroslip.bearing import geometry
+from macroslip.contact.asperities import FULL_SLIP
+from macroslip.contact.interface import common_contour_radius
+from macroslip.contact.patch import graded_rule
+from macroslip.contact.traction import Fluid, local_stress
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.contact.laws import ContactLaws
+
+#: Stress [Pa] of a film over pressure [Pa], film thickness [m] and slip [m/s], arrays above zero.
+Shear = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+
+_NODES, _WEIGHTS = graded_rule(10)
+#: Cosines and sines of the places along a chord, and weights of ∫ sin²φ f dφ (Gauss and Chebyshev).
+_ANGLES = np.pi * np.arange(1, 11) / 11.0
+_COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
+_CHORD_WEIGHTS = np.pi / 11.0 * _SINES
+#: Slip and pressure that stand for none [m/s], [Pa].
+_NO_SLIP, _NO_PRESSURE = 1e-30, 1.0
+
+
+class SkewedContact(NamedTuple):
+    """A raceway contact of a roller that may be skewed.
+
+    Attributes
+    ----------
+    laws : ContactLaws
+        For film and asperities.
+    shear : callable
+        The film's stress, see `Shear`.
+    side : int
+        k.
+    roller_radius, roller_contour, raceway_radius, half_length : float
+        r, R_roller, the contact's distance from the bearing axis r~_k, and half the roller's length [m].
+    along, across : float
+        κ_z and κ_x of the raceway [1/m].
+    sine, cosine : float
+        s sin α and cos α.
+    """
+
+    laws: ContactLaws
+    shear: Shear
+    side: int
+    roller_radius: float
+    roller_contour: float
+    raceway_radius: float
+    half_length: float
+    along: float
+    across: float
+    sine: float
+    cosine: float
+
+    @property
+    def lateral(self) -> float:
+        """C22 of the gap [1/m]."""
+        return 1.0 / self.roller_contour - self.along
+
+    @property
+    def turn(self) -> float:
+        """Angle by which the ellipse turns in the roller's own frame over the skew [-]; 0 on a sphere."""
+        rolling = 1.0 / self.roller_radius - self.across
+        return -(self.along - self.across) / (rolling - self.lateral)
+
+
+class Resultants(NamedTuple):
+    """What a contact does to the roller.
+
+    Attributes
+    ----------
+    spin : ndarray
+        Moment of the tractions about the roller's axis over r [N]; positive where it drives the spin up.
+    pull : ndarray
+        Force of the tractions along −k x [N], with the sign of the slip.
+    axial : ndarray
+        Force of the tractions along z' [N].
+    moment : ndarray
+        Moment of the tractions about +y' [N m].
+    pressure_moment : ndarray
+        Moment of the pressure on the turned ellipse about +y' [N m].
+    power : ndarray
+        Frictional power, ∫ τ·v dA [W].
+    ring_torque : ndarray
+        Torque of the tractions on the ring about Z0 [N m].
+    """
+
+    spin: np.ndarray
+    pull: np.ndarray
+    axial: np.ndarray
+    moment: np.ndarray
+    pressure_moment: np.ndarray
+    power: np.ndarray
+    ring_torque: np.ndarray
+
+
+def film_shear(fluid: Fluid) -> Shear:
+    """The stress of a fluid's film."""
+    return lambda pressure, film, slip: local_stress(fluid, pressure, np.log(film), np.log(slip))
+
+
+def constant_friction(coefficient: float) -> Shear:
+    """A stress in proportion to pressure, whatever film and slip; a reference, not a law of a lubricated contact."""
+    return lambda pressure, film, slip: coefficient * pressure + 0.0 * film * slip
+
+
+def skewed_contact(laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None) -> SkewedContact:
+    """A raceway contact of a roller that may be skewed.
+
+    Parameters
+    ----------
+    laws : ContactLaws
+        Of the inner or outer raceway, with a sheared film.
+    bearing : Bearing
+    axial_sign : int
+        +1 for the downwind row, −1 for the upwind row.
+    shear : callable, optional
+        In place of the film's own.
+    """
+    inner = laws.name == "inner"
+    side = -1 if inner else 1
+    place = geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
+    contour = geometry.inner_raceway_contour_radius(bearing) if inner else bearing.outer_raceway_radius
+    if shear is None:
+        if laws.fluid is None:
+            raise ValueError("a skewed contact needs the stress of a sheared film")
+        shear = film_shear(laws.fluid)
+    cosine = float(np.cos(bearing.contact_angle))
+    return SkewedContact(
+        laws, shear, side, geometry.roller_radius(bearing), geometry.roller_contour_radius(bearing), place,
+        0.5 * bearing.roller_length, 1.0 / contour, side * cosine / place,
+        axial_sign * float(np.sin(bearing.contact_angle)), cosine,
+    )  # fmt: skip
+
+
+def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt) -> Resultants:
+    """Forces, moments and power of a contact by quadrature over its ellipse.
+
+    Parameters
+    ----------
+    contact : SkewedContact
+    load : array_like
+        Q > 0 [N].
+    ring_speed, slip : array_like
+        u2 ≠ 0 and Δu at the middle of the roller [m/s].
+    skew, shift, tilt : array_like
+        ψ [rad], ζ_c [m] and θ [rad].
+
+    Notes
+    -----
+    The ellipse ends at the roller's ends. It is divided where v vanishes and graded towards these lines, with 30 chords of 10
+    points each; against twice as many of either the net moments of both raceways are off by what `tests/contact/test_skewed.py`
+    bounds. Film and asperities share the area as in `macroslip.contact.patch`.
+
+    Examples
+    --------
+    >>> from macroslip import Bearing, Laws, Lubricant
+    >>> from macroslip.contact.laws import prepare
+    >>> bearing = Bearing.read("skf-240-600-bc")
+    >>> laws = prepare(Laws.physical(), bearing, Lubricant.read("vg460-pao"), 1)
+    >>> rigid = skewed_contact(laws.outer, bearing, 1, constant_friction(0.05))
+    >>> found = resultants(rigid, 5e4, -0.4, 0.0, 1.0, 0.0, 0.0)    # so far askew that all friction is axial
+    >>> float(round(abs(found.axial) / 2500.0, 2))
+    1.0
+    """
+    states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (load, ring_speed, slip, skew, shift, tilt)))
+    shape = states[0].shape
+    load, ring_speed, slip, skew, shift, tilt = (one.reshape(-1, 1, 1) for one in states)
+    k, r, hertz = contact.side, contact.roller_radius, contact.laws.interface.hertz
+    root = np.cbrt(load)
+    across, width, pressure = (one * root for one in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure))
+    spin, ring = (ring_speed - slip) / r, k * ring_speed / contact.raceway_radius
+    rim = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along)
+    offset = contact.lateral * shift
+    aside = (offset + k * tilt) / contact.along  # δ + k r θ
+    # v as a polynomial of the station.
+    fall = spin - ring * contact.cosine
+    constant = slip - 0.25 * fall * offset * shift - k * contact.sine * ring * aside
+    linear = 0.5 * fall * offset - k * ring * (contact.cosine * tilt + contact.sine)
+    square = 0.5 * fall * rim
+    station, weight = _chords(contact, across, shift, constant, linear, square)
+    height = np.sqrt(np.maximum(1.0 - ((station - shift) / across) ** 2, 0.0))
+    drop = 0.5 * rim * station**2 + offset * (0.5 * station - 0.25 * shift)
+    turn = skew * (1.0 + contact.turn)
+    xi = width * height * _COSINES + turn * station
+    v = constant + station * (linear + square * station)
+    w = -k * spin * skew * (r - drop) - (contact.sine * ring + spin * tilt) * xi
+    v, w = np.broadcast_arrays(v, w)
+    speed = np.maximum(np.hypot(v, w), _NO_SLIP)
+    local = np.maximum(pressure * height * _SINES, _NO_PRESSURE)
+    stress = _stress(contact, load, np.abs(ring_speed - 0.5 * slip), local, speed)
+    part = stress * weight * width * height * _CHORD_WEIGHTS / speed
+    along, axial = part * v, part * w
+
+    def total(values: np.ndarray) -> np.ndarray:
+        return values.sum(axis=(1, 2)).reshape(shape)[()]
+
+    distance = (
+        contact.raceway_radius - k * contact.cosine * (drop + k * tilt * station) - contact.sine * (station + aside)
+    )
+    per_pressure = weight * width * height * _CHORD_WEIGHTS * pressure * height * _SINES
+    bent = 1.0 / r - 1.0 / contact.roller_contour
+    own = width * height * _COSINES + skew * contact.turn * station
+    return Resultants(
+        total(along * (r - drop) + axial * (k * skew * (r - drop) + tilt * xi)) / r,
+        total(along),
+        total(axial),
+        total(-k * along * (station + k * r * tilt) - axial * xi),
+        total(-bent * per_pressure * own * station),
+        total(stress * weight * width * height * _CHORD_WEIGHTS * speed),
+        total(-k * along * distance + axial * contact.sine * xi),
+    )
+
+
+def _chords(contact: SkewedContact, across, shift, constant, linear, square) -> tuple[np.ndarray, np.ndarray]:
+    """Stations of the chords [m] and their weights [m], graded towards the lines of pure rolling and the ends."""
+    low, high = np.maximum(shift - across, -contact.half_length), np.minimum(shift + across, contact.half_length)
+    inside = linear * linear - 4.0 * square * constant
+    larger = -0.5 * (linear + np.copysign(np.sqrt(np.maximum(inside, 0.0)), linear))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Where v has no zero both are its extremum.
+        lines = [np.where(inside > 0.0, one, -0.5 * linear / square) for one in (larger / square, constant / larger)]
+    first, second = (np.clip(np.nan_to_num(one), low, high) for one in lines)
+    edges = np.concatenate([low, np.minimum(first, second), np.maximum(first, second), high], axis=1)
+    length = np.diff(edges, axis=1)
+    station = (edges[:, :-1] + length * _NODES).reshape(len(edges), -1, 1)
+    return station, (length * _WEIGHTS).reshape(station.shape)
+
+
+def _stress(contact: SkewedContact, load, entrainment, pressure, speed) -> np.ndarray:
+    """Stress of film and asperities [Pa]."""
+    laws = contact.laws
+    film = laws.film_thickness(load, entrainment)
+    share = laws.asperity_share(load, entrainment, film)
+    rough = laws.boundary_friction * share * pressure * np.minimum(speed / FULL_SLIP, 1.0)
+    return (1.0 - share) * contact.shear(pressure, film, speed) + rough

@@ -1,0 +1,101 @@
+"""What an inlet that is not full takes from the film and from the rolling resistance of an elastic contact.
+
+The state of an inlet is S, the gap where it begins to be full over the film of the contact. Outside a Hertzian line contact
+the gap rises as h* (1 + y), y with the power 3/2 of the way, and the reduced pressure has to reach 1/α_p at the edge:
+
+    1/α_p = ∫ 12 η0 u (h − h*)/h³ dx from the place where h = S h*.
+
+So h*^(4/3) goes with ∫₀^(S−1) y^(2/3)/(1 + y)³ dy, an incomplete beta function, whatever load and speed are.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.special import betainc, betaincinv
+
+from macroslip.contact.gap import starved_martin
+
+#: Gap of full oil [m] that counts as flooded.
+FLOODED = 1.0
+#: Least and largest S − 1 of tables.
+_LEAST, _LARGEST, _KNOTS = 1e-3, 1e7, 400
+
+
+def film_factor(inlet):
+    """Film thickness over that of a flooded contact, I(5/3, 4/3; 1 − 1/S)^(3/4), from S > 1.
+
+    Examples
+    --------
+    >>> [round(float(film_factor(inlet)), 3) for inlet in (2.0, 3.0, 10.0, 175.0)]
+    [0.515, 0.705, 0.937, 0.999]
+    """
+    return betainc(5.0 / 3.0, 4.0 / 3.0, 1.0 - 1.0 / np.asarray(inlet)) ** 0.75
+
+
+def inlet_for_film(factor: float) -> float:
+    """S [-] at which the film is `factor` times that of a flooded contact, above 0 and at most 1; infinite at 1.
+
+    Examples
+    --------
+    >>> round(inlet_for_film(0.7), 3), inlet_for_film(1.0)
+    (2.963, inf)
+    """
+    rest = 1.0 - float(betaincinv(5.0 / 3.0, 4.0 / 3.0, factor ** (4.0 / 3.0)))
+    return 1.0 / rest if rest > 0.0 else math.inf
+
+
+def inlet_for_rolling(factor: float) -> float:
+    """S [-] at which `macroslip.contact.rolling.starvation_factor` is `factor`, above 0.12 and below 1.
+
+    Examples
+    --------
+    >>> round(inlet_for_rolling(0.9), 1)
+    174.7
+    """
+    square, linear = 1.0 - factor, 162.8 - 193.1 * factor
+    return max(1.0 + _LEAST, (math.sqrt(linear * linear + 4.0 * square * 1257.0 * factor) - linear) / (2.0 * square))
+
+
+@functools.cache
+def _inlets() -> CubicSpline:
+    """Ln(S − 1) over ln(S `film_factor`)."""
+    above = np.geomspace(_LEAST, _LARGEST, _KNOTS)
+    return CubicSpline(np.log((1.0 + above) * film_factor(1.0 + above)), np.log(above))
+
+
+@functools.cache
+def _martin() -> CubicSpline:
+    """Ln of the rolling force of a starved rigid line contact over a flooded one's, over ln(S − 1)."""
+    above = np.geomspace(_LEAST, _LARGEST, 80)
+    return CubicSpline(np.log(above), np.log([starved_martin(1.0 + one)[1] for one in above]))
+
+
+def inlet_at_gap(gap, flooded_film):
+    """S of contacts whose inlets are full from a gap on, from the films that they had flooded, both [m].
+
+    It solves S `film_factor`(S) = gap/flooded_film.
+
+    Examples
+    --------
+    >>> round(float(inlet_at_gap(2.963 * 0.7e-6, 1e-6)), 3)
+    2.963
+    """
+    spline = _inlets()
+    place = np.log(gap) - np.log(flooded_film)
+    return 1.0 + np.exp(spline(np.clip(place, spline.x[0], spline.x[-1])))
+
+
+def rigid_rolling_factor(inlet):
+    """Rolling force of a rigid line contact over that of a flooded one with the same gap, from S > 1.
+
+    Examples
+    --------
+    >>> round(float(rigid_rolling_factor(10.0)), 3)
+    0.499
+    """
+    spline = _martin()
+    return np.exp(spline(np.clip(np.log(np.asarray(inlet) - 1.0), spline.x[0], spline.x[-1])))

@@ -1,0 +1,434 @@
+"""Tables of a roller's contacts, made from laws that give values: their box, their nodes, and how far they are off.
+
+Cubic splines over load, speed and slip; `macroslip.contact.look_up` has the coordinates. All of a case's
+tables stand in one flat array. The nodes of a raceway's traction are made sheet by sheet, one for each w^(1/4), at speeds that are the
+same for all cases alike, so that they share their files on disk.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.contact.laws import ContactLaws
+from macroslip.contact.look_up import REST_SPEED
+from macroslip.contact.patch import Chords, Patch, patch_tractions
+from macroslip.contact.rolling import light_contact, pocket_contact
+from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
+from macroslip.contact.table_store import remembered, stored, table_key
+from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST_PRESSURE, chord_table
+
+#: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of w^(1/4) for the
+#: fastest speed of the box of 1 m/s.
+_LOAD_SPACING, _RATIO_SPACING, _SPEED_SPACING = 0.46, 0.06, 0.018
+#: Share of the pressure exponent of the middle by which loads are stretched.
+_STRETCH = 0.6
+#: Least load of a raceway's traction and of other tables [N]; the lighter raceway of a free roller carries some newtons of its
+#: films. Below, traction goes with load.
+_LEAST_LOAD, _LIGHTEST = 0.05, 1e-3
+#: Slip ratio by which asinh is scaled with microslip, which varies by as much over a contact.
+_MICROSLIP = 6e-4
+#: Part of the Newtonian force that is missing at the slip by which asinh is scaled without microslip.
+_BENT = 0.05
+#: Distances between nodes of ln Q and ln u of planes, and their least speed as part of the fastest.
+_PLANE_LOAD, _PLANE_SPEED, _SLOWEST = 0.1, 0.05, 1e-4
+#: Nodes beyond the states of the box: next to its ends a spline is less good.
+_BEYOND = 1
+#: Part of the largest force or power at the same load and speed below which an error counts as one of this part: a gripped
+#: roller's force passes through zero.
+_SMALL_FORCE = 0.05
+#: Random loads and speeds at which a table is measured, with slips at each; load [N] from which on a roller is held, and its
+#: slip ratio there; and the largest slip ratio of lighter ones.
+_STATES, _SLIPS, _HELD_LOAD, _HELD_RATIO, _MOST_RATIO = 200, 10, 20e3, 0.006, 1.2
+
+
+class Box(NamedTuple):
+    """States that the tables of a case hold."""
+
+    load: float  #: Highest load of a raceway or the cage [N]
+    #: Of w, the speed of a contact (`macroslip.contact.look_up`) [m/s].
+    slowest: float
+    fastest: float
+    fineness: float  #: Distances between nodes over those at the default tolerance
+
+
+def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float) -> Box:
+    """The box of a case, rounded outward so that cases alike share their tables.
+
+    Parameters
+    ----------
+    ring_speeds : ndarray
+        u2 at all load samples, between which it is linear [m/s].
+    highest_load : float
+        Largest load of a roller, with weight and centrifugal force [N].
+    tolerance : float
+        Of the integrator: the error of a spline goes with the fourth power of the distance between its nodes.
+
+    Examples
+    --------
+    >>> table_box(np.array([-0.40, -0.38]), 5e4, 2e-4)
+    Box(load=65536.0, slowest=0.38, fastest=0.46, fineness=1.0)
+    """
+    speeds = np.abs(ring_speeds)
+    fastest = max(float(speeds.max()), 10.0 * REST_SPEED)
+    turns = float(ring_speeds.min()) * float(ring_speeds.max()) <= 0.0
+    slowest = 0.0 if turns else float(speeds.min())
+    load = 2.0 ** math.ceil(math.log2(1.02 * highest_load + 100.0))
+    # A roller at rest has w = 1.12 u2; one that still runs forward when the ring runs back 1.41 u2.
+    return Box(load, slowest, round((1.45 if turns else 1.15) * fastest, 12), _fineness(tolerance))
+
+
+def _fineness(tolerance: float) -> float:
+    """Distances between nodes over those at a tolerance of 2e-4, in steps of √2 between a half and 2."""
+    steps = round(2.0 * math.log2((tolerance / 2e-4) ** 0.25))
+    return 2.0 ** (0.5 * min(max(steps, -2), 2))
+
+
+def larger(box: Box) -> Box:
+    """A box for a state that has left this one."""
+    return box._replace(load=2.0 * box.load, slowest=0.0, fastest=1.5 * box.fastest)
+
+
+class Tables:
+    """The flat array of a case's tables, while it is filled."""
+
+    def __init__(self) -> None:
+        self._parts: list[np.ndarray] = []
+        self._size = 0
+
+    def add(self, values: np.ndarray) -> int:
+        """Put numbers at the end; where they begin."""
+        start = self._size
+        self._parts.append(values.ravel())
+        self._size += values.size
+        return start
+
+    def flat(self) -> np.ndarray:
+        """All numbers, read-only."""
+        found = np.concatenate(self._parts) if self._parts else np.zeros(1)
+        found.flags.writeable = False
+        return found
+
+
+def _write_axis(record: np.void, name: str, one: Axis) -> None:
+    record[name] = tuple(one)
+
+
+def write_plane(record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box) -> None:
+    """Make a plane over ln Q and ln u and write where it stands.
+
+    Parameters
+    ----------
+    record : record of `PLANE`
+    tables : Tables
+    values : callable
+        `values(load [N], speed [m/s])`, arrays of one shape: up to four quantities.
+    lightest, slowest : float
+        Least load [N] and speed [m/s].
+    box : Box
+    """
+    load = axis(math.log(lightest), math.log(box.load), _PLANE_LOAD * box.fineness)
+    speed = axis(math.log(slowest), math.log(2.0 * box.fastest), _PLANE_SPEED * box.fineness)
+    states = np.meshgrid(np.exp(load.nodes), np.exp(speed.nodes), indexing="ij")
+    nodes = np.zeros((*states[0].shape, CHANNELS))
+    for channel, one in enumerate(values(*states)):
+        nodes[..., channel] = one
+    record["start"] = tables.add(spline_coefficients(nodes, 2))
+    _write_axis(record, "load", load)
+    _write_axis(record, "speed", speed)
+
+
+def film_values(contact: ContactLaws) -> Callable:
+    """Quantities of the plane of a contact's film: ln h and the asperities' share of the load."""
+
+    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
+        film = contact.film_thickness(load, speed)
+        return np.log(film), contact.asperity_share(load, speed, film)
+
+    return values
+
+
+def oil_values(contact: ContactLaws) -> Callable:
+    """Quantities of the plane of a raceway's oil: sliding per slip, rolling resistance and ln of the volume flow's film."""
+
+    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
+        conductance, resistance, film = light_contact(contact.rolling, load, speed)
+        return conductance, resistance, np.log(film)
+
+    return values
+
+
+def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
+    """Quantities of the plane of the cage, over ln Q and ln of the roller's surface speed.
+
+    Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `pocket_gap` [m]
+    sliding per slip and rolling resistance per mean speed.
+    """
+
+    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
+        none = np.zeros_like(load)
+        friction, rough = none, none
+        if contact.closed_form is None:
+            pull, _, _, power = tractions(contact, load, none, -speed)
+            friction = -pull / speed
+            rough = power / (-pull * speed)
+        if contact.rolling is None:
+            return friction, rough
+        return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
+
+    return values
+
+
+def patch_of(contact: ContactLaws) -> Patch:
+    """Geometry of a contact, its roller's axis tilted to the positive side."""
+    shape, hertz = contact.shape, contact.interface.hertz
+    return Patch(
+        bool(shape.microslip), shape.contour_radius, shape.roller_radius, shape.half_length, shape.curvature_ratio,
+        abs(shape.spin_ratio), hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure,
+        contact.boundary_friction, contact.full_slip,
+    )  # fmt: skip
+
+
+def chords_for(contact: ContactLaws) -> Chords:
+    """Stress along the chords of a contact's oil, as compiled functions look it up; empty where it has no sheared film."""
+    if contact.fluid is None:
+        return Chords(0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0, (4, 4, 4), np.zeros(64), np.zeros(4))
+    table = chord_table(contact.fluid)
+    fluid = table.fluid
+    return Chords(
+        fluid.rheology, fluid.characteristic, fluid.heating, LOWEST_PRESSURE, HIGHEST_PRESSURE, table.pressure_spacing,
+        table.lowest_film, table.film_spacing, LOWEST_LOG_SLIP, table.slip_spacing, table.coefficients.shape,
+        table.coefficients.ravel(), table.log_viscosities,
+    )  # fmt: skip
+
+
+def tractions(
+    contact: ContactLaws, load: np.ndarray, ring_speed: np.ndarray, slip: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Traction of a contact by its laws: pull and lag [N], skew moment [N m] and power of asperities [W].
+
+    Parameters
+    ----------
+    contact : ContactLaws
+    load, ring_speed, slip : ndarray
+        Q > 0 [N], u2 and v [m/s], of one shape. The roller's axis is tilted to the positive side.
+    """
+    entrainment = np.maximum(np.abs(ring_speed - 0.5 * slip), REST_SPEED)
+    film = contact.film_thickness(load, entrainment)
+    share = contact.asperity_share(load, entrainment, film)
+    if contact.fluid is not None:
+        flat = (
+            np.ascontiguousarray(np.broadcast_to(one, load.shape)).ravel()
+            for one in (load, film, share, ring_speed, slip)
+        )
+        found = patch_tractions(patch_of(contact), chords_for(contact), *flat).reshape(*load.shape, 4)
+        return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
+    rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
+    none = np.zeros_like(load)
+    return (1.0 - share) * contact.uniform_traction(load, film, slip) + rough, none, none, rough * slip
+
+
+class _Grid(NamedTuple):
+    """Coordinates of a raceway's traction, see `macroslip.contact.look_up`."""
+
+    load: Axis
+    speed: Axis
+    ratio: Axis
+    stretch: float
+    middle: float
+    scale: float
+
+    def loads(self, coordinates: np.ndarray) -> np.ndarray:
+        """Loads of coordinates [N], by Newton's iteration in the logarithm, in which they are concave."""
+        logarithm = np.array(coordinates)
+        for _ in range(100):
+            root = np.exp(logarithm / 3.0)
+            logarithm -= (logarithm + self.stretch * root - coordinates) / (1.0 + self.stretch * root / 3.0)
+        return np.exp(logarithm)
+
+    def ratios(self, coordinates: np.ndarray) -> np.ndarray:
+        """Slip ratios y of coordinates."""
+        return np.clip(self.middle + self.scale * np.sinh(coordinates), -2.0, 2.0)
+
+
+def _grid(contact: ContactLaws, box: Box) -> _Grid:
+    shape, hertz = contact.shape, contact.interface.hertz
+    # A law of one's own may rise with the oil's viscosity.
+    fluid, middle, per_pressure = contact.fluid, 0.0, contact.interface.lubricant.pressure_viscosity
+    if fluid is not None:
+        per_pressure = fluid.exponent * fluid.index / fluid.reference_pressure
+    stretch = _STRETCH * per_pressure * hertz.pressure
+    if shape.microslip:
+        middle, scale = shape.spin_ratio**2 * shape.contour_radius / (2.0 * shape.curvature_ratio), _MICROSLIP
+    else:
+        scale = _bent_ratio(contact, box)
+    light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
+    least, most = (math.asinh((y - middle) / scale) for y in (-2.0, 2.0))
+    # Speeds of sheets are those of all cases whose fastest speed is of the same order.
+    spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
+    first = max(math.floor(box.slowest**0.25 / spacing) - _BEYOND, 0)
+    last = max(math.ceil(box.fastest**0.25 / spacing) + _BEYOND, first + 4)
+    return _Grid(
+        axis(light, heavy, _LOAD_SPACING * box.fineness),
+        Axis(first * spacing, 1.0 / spacing, last - first),
+        axis(least, most, _RATIO_SPACING * box.fineness),
+        stretch,
+        middle,
+        scale,
+    )
+
+
+def _bent_ratio(contact: ContactLaws, box: Box) -> float:
+    """Slip ratio at which traction with the same slip all over begins to bend, at the highest load."""
+    ratio = np.geomspace(1e-16, 1.0, 200)
+    load, speed = np.full_like(ratio, box.load), np.full_like(ratio, box.fastest)
+    pull, *_ = tractions(contact, load, speed, speed * ratio)
+    bent = pull / ratio < (1.0 - _BENT) * pull[0] / ratio[0]
+    return float(min(ratio[np.argmax(bent)] if bent.any() else 1.0, _MICROSLIP))
+
+
+def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
+    """Quantities at all loads and slip ratios at one speed w [m/s], and last the processor time it took [s]."""
+    began = time.thread_time()
+    load, ratio = np.meshgrid(grid.loads(grid.load.nodes), grid.ratios(grid.ratio.nodes), indexing="ij")
+    speed = max(speed, REST_SPEED)
+    along = speed * np.sqrt(np.maximum(1.0 - 0.25 * ratio * ratio, 0.0))
+    pull, lag, skew, rough = tractions(contact, load, along, speed * ratio)
+    root = np.cbrt(load)
+    heavy = load * root * root
+    found = np.stack([pull / load, lag / heavy, skew / (load * root), rough / (heavy * speed)], axis=-1)
+    return np.append(found.ravel(), time.thread_time() - began)
+
+
+def contact_parts(contact: ContactLaws) -> tuple:
+    """All that a contact's traction depends on."""
+    one, oil = contact.interface, contact.interface.lubricant
+    sources = contact.own_sources
+    return (
+        contact.film_name, contact.starvation, contact.oil_gap, contact.thermal_loading, contact.fluid, contact.traction_name,
+        contact.asperity_name, tuple(patch_of(contact)), one.rolling_radius, one.modulus, one.roughness, one.hardness,
+        oil.viscosity, oil.pressure_viscosity, sources, repr(oil) if sources else "",
+    )  # fmt: skip
+
+
+class TableErrors(NamedTuple):
+    """Relative errors of force and power of a traction table: median and largest; and the time it took to make [s]."""
+
+    typical: float
+    worst: float
+    build_time: float
+
+
+class _Made(NamedTuple):
+    coefficients: np.ndarray
+    rising: np.ndarray
+    errors: TableErrors
+
+
+def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> TableErrors:
+    """Make the table of a raceway's traction, or find it in store, and write where it stands.
+
+    Parameters
+    ----------
+    record : record of `TRACTION`
+    tables : Tables
+    contact : ContactLaws
+    box : Box
+    """
+    grid, key = _grid(contact, box), table_key("traction", *contact_parts(contact))
+    made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
+    record["start"], record["rising"] = tables.add(made.coefficients), tables.add(made.rising)
+    for name in ("load", "speed", "ratio"):
+        _write_axis(record, name, getattr(grid, name))
+    record["stretch"], record["middle"], record["scale"] = grid.stretch, grid.middle, grid.scale
+    record["side"] = math.copysign(1.0, contact.shape.spin_ratio)
+    return made.errors
+
+
+def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
+    shape = (grid.load.cells + 1, grid.ratio.cells + 1, CHANNELS)
+    sheets, seconds = [], 0.0
+    for root_speed in grid.speed.nodes:
+        name = table_key(
+            key, grid.load, grid.ratio, grid.stretch, grid.middle, grid.scale, round(float(root_speed), 12)
+        )
+        (found,) = stored(name, lambda speed=float(root_speed) ** 4: [_sheet(contact, grid, speed)])
+        sheets.append(found[:-1].reshape(shape))
+        seconds += float(found[-1])
+    nodes = np.stack(sheets, axis=1)
+    coefficients = spline_coefficients(nodes, 3)
+    return _Made(
+        coefficients, _rising(grid, nodes), _errors(contact, grid, coefficients, box)._replace(build_time=seconds)
+    )
+
+
+def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
+    """Slip ratio up to which the moment on the roller rises with slip on either side, over loads and speeds.
+
+    Of each node the least of it and its neighbours'.
+    """
+    from scipy.ndimage import minimum_filter
+
+    load = grid.loads(grid.load.nodes)
+    spin = nodes[..., 0] - nodes[..., 1] * np.cbrt(load)[:, None, None] ** 2
+    ratio = grid.ratios(grid.ratio.nodes)
+    falls = np.diff(spin, axis=-1) < 0.0
+    centre = int(np.searchsorted(ratio, grid.middle))
+    above, below = falls[..., centre:], falls[..., :centre][..., ::-1]
+    upper = np.append(ratio[centre:-1], 2.0)
+    lower = np.append(-ratio[centre:0:-1], 2.0)
+    up = np.where(above.any(-1), upper[above.argmax(-1)], 2.0)
+    down = np.where(below.any(-1), lower[below.argmax(-1)], 2.0)
+    return minimum_filter(np.minimum(up, down), size=3)
+
+
+def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Box) -> TableErrors:
+    """Errors at random states, even in the logarithms of load and speed.
+
+    Rollers with more than 20 kN slip up to .6 % of the ring's speed, lighter ones up to all of it and more.
+    """
+    from scipy.ndimage import map_coordinates
+
+    random = np.random.default_rng(1)
+    load = np.exp(random.uniform(math.log(1.0), math.log(box.load), (_STATES, 1)))
+    speed = random.uniform(max(box.slowest, 0.02 * box.fastest), box.fastest, (_STATES, 1))
+    held = load > _HELD_LOAD
+    low, high = (
+        np.arcsinh((np.where(held, edge, light) - grid.middle) / grid.scale)
+        for edge, light in ((-_HELD_RATIO, -1e-3), (_HELD_RATIO, _MOST_RATIO))
+    )
+    ratio = grid.ratios(random.uniform(low, high, (_STATES, _SLIPS)))
+    load, speed = np.broadcast_to(load, ratio.shape), np.broadcast_to(speed, ratio.shape)
+    root = np.cbrt(load)
+    places = [
+        (coordinate - one.first) * one.per_spacing + 1.0
+        for one, coordinate in (
+            (grid.load, np.log(load) + grid.stretch * root),
+            (grid.speed, speed**0.25),
+            (grid.ratio, np.arcsinh((ratio - grid.middle) / grid.scale)),
+        )
+    ]
+    found = [
+        map_coordinates(coefficients[..., channel], places, order=3, prefilter=False) for channel in range(CHANNELS)
+    ]
+    along = speed * np.sqrt(1.0 - 0.25 * ratio * ratio)
+    expected = tractions(contact, load, along, speed * ratio)
+    scales = (load, load * root * root, load * root, load * root * root * speed)
+    shape = contact.shape
+    curvature = shape.curvature_ratio * shape.roller_radius if shape.microslip else 0.0
+
+    def spin_and_power(values: list[np.ndarray] | tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarray]:
+        pull, lag, skew, _ = values
+        return pull - lag, speed * ratio * (pull - lag) + along * (curvature * lag - abs(shape.spin_ratio) * skew)
+
+    spin, power = spin_and_power(expected)
+    other, other_power = spin_and_power([one * scale for one, scale in zip(found, scales, strict=True)])
+    largest = np.abs(spin).max(axis=-1, keepdims=True)
+    off = np.abs(other - spin) / np.maximum(np.abs(spin), _SMALL_FORCE * largest)
+    least = _SMALL_FORCE * power.max(axis=-1, keepdims=True)
+    off = np.maximum(off, np.abs(other_power - power) / np.maximum(power, least))
+    return TableErrors(float(np.median(off)), float(off.max()), 0.0)

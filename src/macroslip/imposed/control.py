@@ -1,0 +1,195 @@
+"""Length of a step: bounds that are known beforehand, and the estimated errors of slip and energy of a step that was tried.
+
+Energy is a sum over three instants of a step. Where power is smooth, the embedded estimate is far above the error of the
+sum. Where power has a kink inside the step, or falls to zero at its end with an infinite slope, estimate and error are of
+the same size, and the estimate may be small by accident.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.imposed import tuning
+from macroslip.imposed.radau import EIGENVALUE, NODES, WEIGHTS, evaluate, look_between
+from macroslip.imposed.zones import EDGE, FIRM, FREE
+from macroslip.ring.orbit import instant
+from macroslip.roller.forces import net_force, powers
+
+_ROOT_6 = math.sqrt(6.0)
+
+
+_THIRD = np.linalg.solve(np.vander(NODES, 3, increasing=True).T, np.array([1.0 - 1.0 / EIGENVALUE, 0.5, 1.0 / 3.0]))
+#: Weights of (third-order rule with weight 1/EIGENVALUE at the start) − (Radau rule), at nodes 0, c1, c2, 1.
+EMBEDDED = (1.0 / EIGENVALUE, *(float(x) for x in _THIRD - np.array(WEIGHTS)))
+
+
+@jit_inline
+def cubic(x, g0, g1, g2, g3):
+    """Value at x of the cubic through the values at 0, c1, c2 and 1."""
+    a, b = NODES[0], NODES[1]
+    return (
+        g0 * (x - a) * (x - b) * (x - 1.0) / (-a * b)
+        + g1 * x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
+        + g2 * x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
+        + g3 * x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
+    )
+
+
+@jit_inline
+def crossing(g0, g1, g2, g3):
+    """First change of sign of the cubic through a step's nodes, as a part of the step; 1 if there is none inside.
+
+    It is given by its values at the start and at the three stages; a change next to an end, by `AT_END`, is none.
+
+    Examples
+    --------
+    >>> round(crossing(-0.5, NODES[0] - 0.5, NODES[1] - 0.5, 0.5), 12)
+    0.5
+    >>> crossing(1.0, 2.0, 3.0, 4.0)
+    1.0
+    """
+    if g0 * g1 < 0.0:
+        low, high, below = 0.0, NODES[0], g0
+    elif g1 * g2 < 0.0:
+        low, high, below = NODES[0], NODES[1], g1
+    elif g2 * g3 < 0.0:
+        low, high, below = NODES[1], 1.0, g2
+    else:
+        return 1.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        if cubic(middle, g0, g1, g2, g3) * below > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high if tuning.AT_END < high < 1.0 - tuning.AT_END else 1.0
+
+
+@jit_inline
+def _lean(at):
+    """Body force along the contact normal, positive outward [N]."""
+    return at.outer_load - at.inner_load
+
+
+@jit
+def first_cusp(work):
+    """Part of a step at which traction first has a cusp because a light contact's load passes through zero; else 1.
+
+    At the cage it is predicted with the traction at the start, whose change is small against the roller's weight. A
+    roller without elastic load has another where it leans over from one raceway to the other. Where the shaft turns back
+    all friction has one.
+    """
+    at, one, two, three = work.at, work.stage_at[0], work.stage_at[1], work.stage_at[2]
+    held = work.forces.cage_load - at.tangential
+    part = crossing(at.tangential + held, one.tangential + held, two.tangential + held, three.tangential + held)
+    part = min(part, crossing(at.ring_speed, one.ring_speed, two.ring_speed, three.ring_speed))
+    if work.zone == FREE:
+        part = min(part, crossing(_lean(at), _lean(one), _lean(two), _lean(three)))
+    return part
+
+
+@jit_inline
+def embedded_slip_error(scale, slope, force_0, z1, z2, z3):
+    """Estimated error of the slip after the step [m/s] (Hairer & Wanner IV.8), filtered by the least slope [N s/m]."""
+    rest = ((13.0 + 7.0 * _ROOT_6) * z1 + (13.0 - 7.0 * _ROOT_6) * z2 + z3) / 3.0
+    return -(force_0 + scale * rest) / (scale * EIGENVALUE + slope)
+
+
+@jit_inline
+def slip_error(path, work):
+    """Estimated error of slip of a step [m/s].
+
+    The embedded estimate is one number and may vanish by accident, especially where grip ceases between two stages; so the
+    equation's defect is looked at between them.
+    """
+    microslip, firm, forces = path.body.microslip, work.zone == FIRM, work.stage_forces
+    error, last = 0.0, forces[2].slope
+    if not (firm and microslip):
+        # A held roller's slip is the balance of the instant, solved for at the end of the step.
+        least = max(min(work.forces.slope, forces[0].slope, forces[1].slope, last), 0.0)
+        error = abs(embedded_slip_error(work.scale, least, net_force(work.forces), work.s[0], work.s[1], work.s[2]))
+    turn = work.length * path.body.mobility
+    # With microslip grip ceases gradually.
+    for check in range(0 if firm else (2 if work.zone == EDGE and not microslip else 1)):
+        look_between(path, work, tuning.DEFECT_NODES[check])
+        evaluate(path, work.there, work.there_slip, work.push)
+        work.count[2] += 1
+        defect = work.there_rate + turn * net_force(work.push)
+        error = max(error, tuning.DEFECT_WEIGHT * abs(defect) / (1.0 + turn * abs(work.push.slope)))
+    # Slip that the next step forgets need not be known so well.
+    return error / (1.0 + tuning.FORGOTTEN * turn * max(last, 0.0)) if microslip else error
+
+
+@jit
+def missed_way(path, work):
+    """Error of the method's quadrature for the way of the rings past the roller in a step [m]; it is known exactly.
+
+    Speed is linear between the samples of the loads, and friction follows it: kinks of both lie at the same instants.
+    """
+    before = instant(path.motion, work.interval, work.time)
+    after = instant(path.motion, work.end_interval, work.times[2])
+    way = -path.body.orbit_ratio * path.body.outer_radius * (after.shaft_angle - before.shaft_angle)
+    found = 0.0
+    for k in range(3):
+        found += WEIGHTS[k] * work.stage_at[k].ring_speed
+    return work.length * found - way
+
+
+@jit_inline
+def _kink_error(path, work):
+    """Error of the energy [J] by kinks of the speed inside a step that spans samples."""
+    if work.end_interval == work.interval:
+        return 0.0
+    fastest = abs(work.at.ring_speed)
+    for k in range(3):
+        fastest = max(fastest, abs(work.stage_at[k].ring_speed))
+    missed = abs(missed_way(path, work))
+    if fastest == 0.0:
+        # At rest where it is looked at; the shaft may have turned in between.
+        return math.inf if missed > 0.0 else 0.0
+    totals = work.totals
+    return tuning.KINK_WEIGHT * missed / fastest * max(totals[0], totals[1], totals[2], totals[3])
+
+
+@jit_inline
+def energy_error(path, work):
+    """Estimated error of the energy of a step [J]."""
+    error, totals = 0.0, work.totals
+    for k in range(4):
+        error += EMBEDDED[k] * totals[k]
+    error = max(abs(work.length * error), _kink_error(path, work))
+    first, last = abs(work.forces.cage_load), abs(work.stage_forces[2].cage_load)
+    if work.zone == EDGE or min(first, last) >= tuning.FALLEN * max(first, last):
+        return error
+    if work.zone == FIRM and path.body.microslip:
+        return error  # the raceways' power, beside which the cage's is little, has no cusp there
+    # The cage's load is all but gone at one end of the step: a look between the stages.
+    look_between(path, work, tuning.CUSP_LOOK)
+    # Between stages the polynomial of slip is far from balance; for the cage, balance is pure rolling.
+    slip = 0.0 if work.zone == FIRM else work.there_slip
+    evaluate(path, work.there, slip, work.push)
+    work.count[2] += 1
+    power = powers(path.body, work.there, work.push, slip, work.push_powers)
+    missed = abs(power - cubic(tuning.CUSP_LOOK, totals[0], totals[1], totals[2], totals[3]))
+    return max(error, tuning.CUSP_WEIGHT * work.length * missed)
+
+
+@jit_inline
+def held_energy_error(energy, length, before, after):
+    """Estimated error of the energy of a held step [J], from powers at its ends [W].
+
+    Simpson's rule is off in proportion to the fourth power of the step, the trapezoidal rule to the second; the square of
+    twice what they differ by relatively has the order of the one, and for a power that grows as an exponential eighty
+    times its error. Errors of a rising and of a falling power are of one sign and add up, hence the margin.
+    """
+    difference = 2.0 * energy - length * (before + after)
+    return difference * difference / abs(energy) if energy != 0.0 else math.inf
+
+
+@jit_inline
+def step_factor(error):
+    """Factor on the step by its error over what is allowed; the estimates are of third order."""
+    return tuning.SAFETY / math.sqrt(math.sqrt(max(error, 1e-8)))

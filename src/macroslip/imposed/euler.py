@@ -1,0 +1,126 @@
+"""The paper's two Euler methods on the spin, over a whole history at a fixed step.
+
+Explicit Euler is unstable in the load zone (the paper's Appendix A). Backward Euler has a hidden parameter, where its
+iteration stops: a change of spin that looks negligible is a large force in a gripped contact, because dF/dv reaches
+1e13 N s/m there. Slip is formed as u2 − r ω and so carries the round-off of the surface speeds; that is part of both methods.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.imposed import tuning
+from macroslip.imposed.radau import evaluate, frame, locate, start_at, write_point
+from macroslip.imposed.status import COMPLETED, IMPOSSIBLE_SLIP, NO_ROOT, NOT_FINITE, UNDER_WAY
+from macroslip.ring.orbit import interval_of
+from macroslip.roller.forces import net_force
+from macroslip.roller.step import write_stage
+
+#: Rule and bounds.
+#:
+#: step : [s]
+#: implicit : 1 for backward Euler, 0 for explicit Euler
+#: tolerance : of the nonlinear iteration of backward Euler, relative change of spin
+#: largest_slip : slip beyond which the integration stops as unstable [m/s]. Friction pulls a roller's surface towards the speed of
+#:     the rings and of the cage only, so its true slip never leaves the range these speeds span.
+#: end : of the integration [s]; the last step is shortened to meet it
+RULE = np.dtype([("step", "f8"), ("implicit", "i8"), ("tolerance", "f8"), ("largest_slip", "f8"), ("end", "f8")])
+
+
+@jit_inline
+def _defect(path, work, spin, step):
+    """ω − ω_n − h (r/I_z') (F_i + F_o + F_c)(ω) [rad/s] at the end of a step [s], for a spin there [rad/s]."""
+    body, at = path.body, work.stage_at[0]
+    evaluate(path, at, at.ring_speed - body.radius * spin, work.push)
+    work.count[2] += 1
+    return spin - work.spin - step * body.mobility / body.radius * net_force(work.push)
+
+
+@jit_inline
+def backward_euler_step(path, work, step, tolerance):
+    """Spin after one implicit step of I_z' dω/dt = r (F_i + F_o + F_c) (16), with the station at its end in the first stage.
+
+    The iteration is the secant method started from the last spin, as MINPACK's hybrid method reduces to in one unknown,
+    held inside a bracket once there is one. It stops when ω changes by less than `tolerance` of itself.
+
+    Returns
+    -------
+    spin : float
+        ω after the step, relative to the orbiting frame [rad/s]; NaN if the iteration did not stop.
+    defect : float
+        Force the stopped iteration leaves unbalanced [N].
+    """
+    to_force = path.body.radius / (step * path.body.mobility)
+    older = work.spin
+    older_defect = _defect(path, work, older, step)
+    newer = older + 1.5e-8 * max(abs(older), 1e-3)
+    newer_defect = _defect(path, work, newer, step)
+    low, high = -math.inf, math.inf
+    for _ in range(tuning.SECANT_ITERATIONS):
+        for candidate, defect in ((older, older_defect), (newer, newer_defect)):
+            if defect <= 0.0 and candidate > low:
+                low = candidate
+            if defect >= 0.0 and candidate < high:
+                high = candidate
+        slope = newer_defect - older_defect
+        trial = newer - newer_defect * (newer - older) / slope if slope != 0.0 else newer - newer_defect
+        if not low <= trial <= high and math.isfinite(low) and math.isfinite(high):
+            trial = 0.5 * (low + high)
+        if not math.isfinite(trial):
+            break
+        change = abs(trial - newer)
+        older, older_defect = newer, newer_defect
+        newer, newer_defect = trial, _defect(path, work, trial, step)
+        if change <= tolerance * abs(newer) or newer_defect == 0.0 or newer == older:
+            return newer, abs(newer_defect) * to_force
+    return math.nan, math.inf
+
+
+@jit
+def integrate_fixed_step(path, work, steps):
+    """Integrate the spin of one roller with explicit or backward Euler, until its history ends or the buffer is full.
+
+    As `macroslip.imposed.solve.integrate`, with a `RULE` for limits and one stage a step: the state at which its forces are
+    evaluated, its start or its end.
+    """
+    body, motion, rule = path.body, path.motion, path.limits
+    start = motion.time[0]
+    if work.begun == 0:
+        work.begun, work.time, work.interval = 1, start, 0
+        start_at(path, work)
+        work.spin = (work.at.ring_speed - work.slip) / body.radius
+    for count in range(steps.size):
+        if work.time >= rule.end:
+            # Explicit Euler evaluates the end for no step.
+            write_point(path, work, steps[count])
+            return COMPLETED, count + 1
+        after = min(start + (work.count[0] + 1) * rule.step, rule.end)
+        span, interval, row = after - work.time, interval_of(motion, after, work.interval), steps[count]
+        locate(path, after, interval, work.stage_at[0])
+        frame(work, row, 1, after)
+        row.weight[0] = span
+        if rule.implicit:
+            work.spin, unbalanced = backward_euler_step(path, work, span, rule.tolerance)
+            work.unbalanced = max(work.unbalanced, unbalanced)
+        else:
+            row.time[0] = work.time
+            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
+            work.spin += span * body.mobility / body.radius * net_force(work.forces)
+        slip = work.stage_at[0].ring_speed - body.radius * work.spin
+        if not math.isfinite(slip):
+            return NO_ROOT if rule.implicit else NOT_FINITE, count
+        work.slip = slip
+        if abs(slip) > rule.largest_slip:
+            work.time = after
+            return IMPOSSIBLE_SLIP, count
+        work.time, work.interval = after, interval
+        start_at(path, work)
+        work.count[0] += 1
+        work.stretch = work.count[0]
+        if rule.implicit:
+            row.time[0] = after
+            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
+    return UNDER_WAY, steps.size

@@ -1,0 +1,124 @@
+"""The integration of one roller on its imposed orbit, as a series of buffers of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from macroslip.contact.look_up import REST_SPEED
+from macroslip.imposed import tuning
+from macroslip.imposed.euler import RULE, integrate_fixed_step
+from macroslip.imposed.radau import LIMITS, WORK, Path, surely_rising
+from macroslip.imposed.solve import integrate
+from macroslip.imposed.status import COMPLETED, UNDER_WAY
+from macroslip.imposed.zones import classify, firm_interference
+from macroslip.ring.orbit import Motion
+from macroslip.roller.model import Roller
+from macroslip.roller.step import new_steps
+
+
+@dataclass
+class Outcome:
+    """How an integration went."""
+
+    status: int = UNDER_WAY  #: A `Status`
+    steps: int = 0
+    rejections: int = 0
+    evaluations: int = 0
+    unbalanced: float = 0.0  #: Largest force left unbalanced by an accepted implicit step [N]
+    #: Time [s] and slip [m/s] at which it ended.
+    time: float = 0.0
+    slip: float = 0.0
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Numbers common to all rollers of a row."""
+
+    roller: Roller
+    motion: Motion  #: Of the inner ring
+    limits: np.ndarray  #: Shape (1,). From `radau_limits` or `fixed_step`.
+    #: Times at which a step must end [s], rising, the last being the end; not used at a fixed step.
+    stops: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+
+def radau_limits(
+    roller: Roller, motion: Motion, *, tolerance: float, max_steps: int, heaviest: float, window: float
+) -> np.ndarray:
+    """Bounds of the Radau integrator that hold for all rollers of a case.
+
+    Parameters
+    ----------
+    roller : Roller
+        Of either row.
+    motion : Motion
+    tolerance : float
+        Relative tolerance of slip and energy.
+    max_steps : int
+    heaviest : float
+        Largest load of a roller with weight and centrifugal force [N].
+    window : float
+        Start of the window [s].
+    """
+    body, tables = roller.body[0], roller.tables
+    fastest = body["orbit_ratio"] * np.abs(motion.shaft_speed).max()
+    # A shaft at rest has no speed of its own by which an error of slip could be judged.
+    speed = max(float(fastest * body["outer_radius"]), REST_SPEED)
+    longest = 0.1 * float(motion.time[-1] - motion.time[0])
+    if fastest > 0.0:
+        longest = min(longest, tuning.LONGEST_TURN / fastest)
+    cold = surely_rising(body, tables, heaviest, heaviest, speed) if heaviest > 0.0 else np.inf
+    firm = firm_interference(body, tables.ctypes.data, speed)
+    return np.array([(tolerance, max_steps, speed, speed**2 / body["mobility"], longest, cold, firm, window)], LIMITS)
+
+
+def fixed_step(
+    roller: Roller, motion: Motion, *, step: float, end: float, tolerance: float | None = None
+) -> np.ndarray:
+    """Rule of the Euler methods with this step [s] up to `end` [s]: backward Euler if it has a tolerance."""
+    body = roller.body[0]
+    speeds = motion.shaft_speed * body["orbit_ratio"] * body["outer_radius"]
+    largest = 1.01 * float(max(speeds.max(), 0.0) - min(speeds.min(), 0.0)) + 1e-9
+    return np.array([(step, tolerance is not None, tolerance or 0.0, largest, end)], RULE)
+
+
+def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator[np.ndarray]:
+    """Integrate one roller from pure rolling on.
+
+    Parameters
+    ----------
+    problem : Problem
+    start_angle : float
+        Position φ at the first sample [rad].
+    outcome : Outcome
+        Filled when the last buffer has been given.
+
+    Yields
+    ------
+    ndarray of `STEP`, shape (n, 1)
+        Steps that follow one another, in a buffer that the next ones overwrite.
+    """
+    motion, limits, body = problem.motion, problem.limits[0], problem.roller.body[0]
+    tables = problem.roller.tables
+    path = Path(body, tables.ctypes.data, tables, motion, float(start_angle), limits)
+    work, steps = np.zeros(1, WORK), new_steps()
+    classes = np.empty(motion.time.size - 1, dtype=np.int8)
+    radau = problem.limits.dtype == LIMITS
+    if radau:
+        classify(body, motion, start_angle, limits["firm"], classes)
+    status = UNDER_WAY
+    while status == UNDER_WAY:
+        if radau:
+            status, count = integrate(path, problem.stops, classes, work[0], steps[:, 0])
+        else:
+            status, count = integrate_fixed_step(path, work[0], steps[:, 0])
+        if count:
+            yield steps[:count]
+    last = work[0]
+    outcome.status = status
+    outcome.steps, outcome.rejections, outcome.evaluations = (int(one) for one in last["count"])
+    outcome.unbalanced, outcome.time, outcome.slip = float(last["unbalanced"]), float(last["time"]), float(last["slip"])
+    if status == COMPLETED and not radau:
+        outcome.rejections = 0

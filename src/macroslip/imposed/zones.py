@@ -1,0 +1,123 @@
+"""Where on its way a roller is loaded, so that no step of an integrator can pass over a load zone or over its edge.
+
+Every interval between load samples belongs to one of three classes. `FREE`: no elastic load throughout; only the
+smooth body forces act. `FIRM`: so much load throughout that slip relaxes within a small part of a millisecond;
+the slip then follows the instant's balance of forces. `EDGE`: anything else; here steps must end at samples and at the
+instant the load begins or ends.
+"""
+
+from __future__ import annotations
+
+import math
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.look_up import log_load
+from macroslip.imposed import tuning
+from macroslip.ring.orbit import instant
+from macroslip.roller.forces import interference, raceway_traction
+
+FREE, EDGE, FIRM = 0, 1, 2
+
+
+@jit
+def relaxation_rate(body, tables, load, ring_speed):
+    """Rate (r²/I_z') d(F_i + F_o)/dv [1/s] at the slip at which F_i + F_o = 0, under `load` [N].
+
+    `ring_speed` ≥ 0 [m/s] is that of the raceways. Without microslip this slip is zero; with it, a Newton iteration held
+    within the slips that occur in the contact finds it.
+    """
+    slip, low, high = 0.0, -math.inf, math.inf
+    rate, ln_load = 0.0, log_load(load)
+    for _ in range(20):
+        inner = raceway_traction(body.inner, tables, body.closed_form, load, ln_load, ring_speed, slip)
+        outer = raceway_traction(body.outer, tables, body.closed_form, load, ln_load, ring_speed, slip)
+        rest = inner.pull - inner.lag + outer.pull - outer.lag
+        slope = inner.pull_by_slip - inner.lag_by_slip + outer.pull_by_slip - outer.lag_by_slip
+        rate = body.mobility * slope
+        if rest > 0.0:
+            high = slip
+        else:
+            low = slip
+        following = slip - rest / slope if slope > 0.0 else slip
+        if not low <= following <= high:
+            following = 0.5 * (low + high)
+        if abs(following - slip) <= 1e-6 * abs(slip) or not math.isfinite(following):
+            break
+        slip = following
+    return rate
+
+
+@jit
+def firm_interference(body, tables, ring_speed):
+    """Interference [m] above which a roller is firmly held at raceway speeds up to `ring_speed` [m/s].
+
+    Infinite if no load of the tables holds it firmly (a law with bounded slope): then no interval is `FIRM`.
+    """
+    firm_rate = tuning.FIRM_RATE_MICROSLIP if body.microslip else tuning.FIRM_RATE
+    low, high, load = 1e-3, math.inf, body.highest_load
+    for _ in range(100):
+        if relaxation_rate(body, tables, load, ring_speed) >= firm_rate:
+            high = load
+        elif high == math.inf:
+            return math.inf
+        else:
+            low = load
+        load = math.sqrt(low * high)
+    return (high / body.stiffness) ** (2.0 / 3.0)
+
+
+@jit_inline
+def interference_at(body, motion, start_angle, interval, time):
+    """Interference δ [m] of a roller at `time` [s] in sample interval `interval`."""
+    now = instant(motion, interval, time)
+    angle = start_angle + body.orbit_ratio * now.shaft_angle
+    return interference(body, math.cos(angle), math.sin(angle), now)
+
+
+@jit
+def classify(body, motion, start_angle, firm, classes):
+    """Write the class of every sample interval, of a roller at φ = `start_angle` at first, into `classes`, shape (n − 1,).
+
+    Between two samples δ differs from the chord by at most |δ''| Δt²/8. The roller's turning, its acceleration and the
+    ring's motion bound |δ''| by (φ'² + |φ''|) (|d| + 4 |c2| + 9 |c3|) + 2 |φ'| |d'|, c2 and c3 the waves of a ring out of
+    round, and the classes keep that margin.
+    """
+    before = interference_at(body, motion, start_angle, 0, motion.time[0])
+    waves = 4.0 * math.hypot(body.second_x, body.second_y) + 9.0 * math.hypot(body.third_x, body.third_y)
+    for k in range(motion.time.size - 1):
+        after = interference_at(body, motion, start_angle, k, motion.time[k + 1])
+        near, far = motion.displacement[k], motion.displacement[k + 1]
+        span = abs(body.orbit_ratio) * (motion.time[k + 1] - motion.time[k])
+        turn = span * max(abs(motion.shaft_speed[k]), abs(motion.shaft_speed[k + 1]))
+        quickening = span * abs(motion.shaft_speed[k + 1] - motion.shaft_speed[k])
+        reach = math.sqrt(max(near[0] * near[0] + near[1] * near[1], far[0] * far[0] + far[1] * far[1]))
+        shift = math.sqrt((far[0] - near[0]) ** 2 + (far[1] - near[1]) ** 2)
+        margin = 0.125 * ((turn * turn + quickening) * (reach + waves) + 2.0 * turn * shift) + 1e-15
+        classes[k] = EDGE
+        if before < -margin and after < -margin:
+            classes[k] = FREE
+        elif before > firm + margin and after > firm + margin:
+            classes[k] = FIRM
+        before = after
+
+
+@jit
+def edge_time(body, motion, start_angle, interval, start, end):
+    """Time [s] just after the interference changes sign between `start` and `end` of one interval.
+
+    It is `end` if the signs there are the same; a load that comes and goes in between is missed.
+    """
+    first = interference_at(body, motion, start_angle, interval, start)
+    last = interference_at(body, motion, start_angle, interval, end)
+    if first == 0.0 or first * last >= 0.0:
+        return end
+    low, high = start, end
+    while high - low > 4e-16 * (abs(high) + abs(low)):
+        middle = 0.5 * (low + high)
+        if middle <= low or middle >= high:
+            break
+        if interference_at(body, motion, start_angle, interval, middle) * first > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high

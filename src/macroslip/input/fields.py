@@ -1,0 +1,332 @@
+"""Checked fields: the form of a value in a file and in Python, declared once as the annotation of a field.
+
+`tilt: Annotated[float, Quantity("shaft tilt", ANGLE, -0.3, 0.3)]`. In a file a quantity is text with its unit; in Python
+it is a number in SI units. Range, message and JSON Schema follow from the same declaration, in sections and records.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
+
+from macroslip.errors import InputError
+from macroslip.files import check_no_zero_byte
+from macroslip.input.files import Place, Source
+from macroslip.input.messages import shown, unknown_name
+from macroslip.input.units import (
+    ANGLE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    TIME,
+    Dimension,
+    is_finite_number,
+    parse_quantity,
+    quantity_pattern,
+)
+
+#: Largest whole number of a field.
+_MOST = 10**15
+#: Characters that a line may have.
+_LONGEST = 2000
+_REMINDERS = {
+    LENGTH: " Lengths are in metres.",
+    ANGLE: " Angles are in radians: math.radians(5.0) for 5 degrees.",
+    MASS: " The mass is in kilograms.",
+    TIME: " Times are in seconds.",
+}
+
+
+@dataclass(frozen=True)
+class Given:
+    """How a value is given."""
+
+    place: Place = field(default_factory=lambda: Place(Source()))
+    #: Whether it is written as in a file; otherwise a quantity is a number in SI units.
+    in_file: bool = False
+    #: Whether ranges are checked, beside the form.
+    ranges: bool = True
+    #: Values of the fields before it in the same section.
+    before: Mapping[str, Any] = field(default_factory=dict)
+    #: For a record, whose values are in SI whatever was written: number with unit, and unit, as written, by key.
+    written: Mapping[str, tuple[str, str]] | None = None
+
+    def inside(self, key: str, before: Mapping[str, Any] | None = None) -> Given:
+        """The same of a value further in."""
+        return Given(self.place.inside(key), self.in_file, self.ranges, before or {}, self.written)
+
+
+PYTHON, IN_FILE, FORM_ONLY = Given(), Given(in_file=True), Given(in_file=True, ranges=False)
+
+
+@dataclass(frozen=True)
+class Form:
+    """Form of a value, with its meaning in `about`; it reads a value or raises `InputError`."""
+
+    about: str
+    form: ClassVar[str] = ""
+
+    def read(self, value: Any, given: Given) -> Any:
+        """The value as the program uses it."""
+        raise NotImplementedError
+
+    def json(self) -> dict[str, Any]:
+        """JSON Schema of the value in a file."""
+        return {"type": "object"}
+
+    def wrong(self, value: Any, remedy: str = "", allowed: str = "") -> InputError:
+        """The error for a value that is none of the form."""
+        return InputError(f"it is {shown(value)}", allowed=allowed or self.form, remedy=remedy)
+
+
+@dataclass(frozen=True)
+class Quantity(Form):
+    """A number with its unit, within a range; or one of a few words, which read as None.
+
+    Parameters
+    ----------
+    about : str
+        Meaning of the value.
+    dimension : Dimension
+        Its units; NUMBER: a plain number.
+    lowest, highest : float or callable
+        Range [SI]; a callable computes an end from the values of the fields before, by their names.
+    above, below : bool
+        Whether the lowest and the highest value itself are excluded.
+    words : tuple of str
+        Words that a file may have instead.
+    whole : bool
+        Whether it is a whole number.
+    note, remedy : str
+        Words added to the range, and advice for a value outside.
+    """
+
+    dimension: Dimension = NUMBER
+    lowest: float = -math.inf
+    highest: float | Callable[[Mapping[str, float]], float] = math.inf
+    above: bool = False
+    below: bool = False
+    words: tuple[str, ...] = ()
+    whole: bool = False
+    note: str = ""
+    remedy: str = ""
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """Accepted values, in words."""
+        if self.dimension is NUMBER:
+            return self.range_text() if self.whole else "a number without unit"
+        return " or ".join([*self.words, f"a number with its unit, {self.dimension.choices}"])
+
+    def read(self, value: Any, given: Given) -> float | None:
+        """Read text with a unit, or a number, to SI, and check its range."""
+        unit = self.dimension.si_unit
+        if given.in_file and self.dimension is not NUMBER:
+            if isinstance(value, str) and value in self.words:
+                return None
+            if isinstance(value, bool) or not isinstance(value, str | int | float):
+                raise self.wrong(value, f"Write 1 {unit}, for example.")
+            try:
+                number, unit = parse_quantity(value, self.dimension)
+            except InputError as problem:
+                raise InputError(problem.what, allowed=self.form, remedy=problem.remedy) from None
+            si_value, written = self.dimension.to_si(float(number), unit), str(value)
+        else:
+            si_value = self._number(value, given)
+            written, unit = (given.written or {}).get(given.place.key, (f"{si_value!r}", unit))
+        if given.ranges:
+            self._check_range(si_value, given, written, unit)
+        return si_value
+
+    def _number(self, value: Any, given: Given) -> float:
+        """A finite number as Python's own, so that NumPy's are welcome."""
+        finite = is_finite_number(value)
+        if finite and not self.whole:
+            return float(value)
+        if finite and (hasattr(value, "__index__") or (abs(value) <= _MOST and float(value).is_integer())):
+            return int(value)
+        quotes = "Write it without quotes and units." if given.in_file and isinstance(value, str) else ""
+        raise self.wrong(value, quotes, self.form if self.whole or given.in_file else "a finite number")
+
+    def _check_range(self, value: float, given: Given, written: str, unit: str) -> None:
+        known = self
+        if callable(self.highest):
+            try:
+                known = replace(self, highest=self.highest(given.before))
+            except KeyError:  # a value that it depends on is wrong itself
+                return
+        if not known.holds(value):
+            check = "" if self.dimension is NUMBER else "; check value and unit"
+            reminder = "" if given.in_file or given.written else _REMINDERS.get(self.dimension, "")
+            remedy = f"{self.remedy or f'It is the {self.about}{check}.'}{reminder}"
+            raise InputError(f"it is {written}", allowed=known.range_text(unit), remedy=remedy)
+
+    def holds(self, value: float) -> bool:
+        """Whether a value [SI] is in the range, whose ends are numbers."""
+        low = self.lowest < value if self.above else self.lowest <= value
+        return low and (value < self.highest if self.below else value <= self.highest)  # pyright: ignore[reportOperatorIssue]
+
+    def range_text(self, unit: str = "") -> str:
+        """The range in words, in one of the units, SI by default.
+
+        Examples
+        --------
+        >>> Quantity("tilt", ANGLE, -0.3, 0.3).range_text("deg"), Quantity("step", TIME, 0.0, above=True).range_text("s")
+        ('-17.1887 to 17.1887 deg', 'a number above 0 s')
+        >>> Quantity("ratio", NUMBER, 0.9, 1.0, above=True, below=True).range_text()
+        'above 0.9 and below 1'
+        """
+        ends, unit = (self.lowest, self.highest), unit or self.dimension.si_unit
+        texts = [self.dimension.text(end, unit) if math.isfinite(end) else "" for end in ends]  # pyright: ignore[reportArgumentType]
+        low, high = (re.sub(r"e([+-])0*", lambda found: f"e{found[1].strip('+')}", end) for end in texts)
+        if not high:
+            return f"a number {'above' if self.above else 'from'} {low}"
+        low = low.partition(" ")[0]
+        if self.below:
+            text = f"above {low} and below {high}" if self.above else f"{low} to below {high}"
+        else:
+            text = f"above {low}, up to {high}" if self.above else f"{low} to {high}"
+        return f"{'a whole number, ' if self.whole else ''}{text}{self.note}"
+
+    def json(self) -> dict[str, Any]:
+        """Text of the form number and unit, or a word; a plain number where there is no unit."""
+        if self.dimension is NUMBER:
+            return {"type": "integer" if self.whole else "number"}
+        inner = quantity_pattern(self.dimension)[1:-1]
+        return {"type": "string", "pattern": f"^({'|'.join([inner, *self.words])})$"}
+
+
+class Whole(Quantity):
+    """A whole number without unit."""
+
+    def __init__(self, about: str, lowest: int = 0, highest: int = _MOST):
+        super().__init__(about, NUMBER, lowest, highest, whole=True)
+
+
+class Positive(Quantity):
+    """A quantity above 0, up to a highest value [SI]."""
+
+    def __init__(self, about: str, dimension: Dimension, highest: float = math.inf):
+        super().__init__(about, dimension, 0.0, highest, above=True)
+
+
+@dataclass(frozen=True)
+class Vector(Form):
+    """Three quantities in a list."""
+
+    dimension: Dimension = NUMBER
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """Accepted values, in words."""
+        zero = f"0 {self.dimension.si_unit}"
+        return f"a list of three quantities, such as [{zero}, {zero}, {zero}]"
+
+    def read(self, value: Any, given: Given) -> list[float | None]:
+        """Read three texts to SI."""
+        if not isinstance(value, list) or len(value) != 3:
+            raise self.wrong(value, f"It is the {self.about}.")
+        return [Quantity("component", self.dimension).read(item, given) for item in value]
+
+    def json(self) -> dict[str, Any]:
+        """A list of three texts."""
+        item = Quantity("", self.dimension).json() | {"description": "one component"}
+        return {"type": "array", "items": item, "minItems": 3, "maxItems": 3}
+
+
+@dataclass(frozen=True)
+class Flag(Form):
+    """True or false; a value that merely counts as true is refused."""
+
+    form: ClassVar[str] = "true or false"
+
+    def read(self, value: Any, given: Given) -> bool:
+        """Check the type; NumPy's truth values are welcome."""
+        if type(value).__name__ not in ("bool", "bool_"):
+            raise self.wrong(value)
+        return bool(value)
+
+    def json(self) -> dict[str, Any]:
+        """A truth value."""
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True)
+class Text(Form):
+    """Text, which is not empty unless it may be; a line is one that results can hold."""
+
+    may_be_empty: bool = False
+    line: bool = False
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """Accepted values, in words."""
+        return "text" if self.may_be_empty else "non-empty text"
+
+    def read(self, value: Any, given: Given) -> str:
+        """Check the type."""
+        if not isinstance(value, str) or not (value or self.may_be_empty):
+            raise self.wrong(value)
+        # A NUL ends text in a result, and half a surrogate pair has no UTF-8.
+        unfit = any(unicodedata.category(letter) in ("Cc", "Cs") for letter in value)
+        if self.line and (unfit or len(value) > _LONGEST):
+            allowed = f"at most {_LONGEST} characters on one line, without control characters"
+            raise self.wrong(value, "Write it as one line of plain text.", allowed)
+        check_no_zero_byte(value)
+        return value
+
+    def json(self) -> dict[str, Any]:
+        """Text."""
+        return {"type": "string"} | ({} if self.may_be_empty else {"minLength": 1})
+
+
+@dataclass(frozen=True)
+class Texts(Form):
+    """A text, or a list of different texts; a list in any case once it is read."""
+
+    form: ClassVar[str] = "text, or a list of different texts"
+
+    def read(self, value: Any, given: Given) -> list[str]:
+        """Check every text."""
+        texts = value if isinstance(value, list) else [value]
+        if not texts or not all(isinstance(text, str) and text for text in texts) or len(set(texts)) != len(texts):
+            raise self.wrong(value, f"It is the {self.about}.")
+        for text in texts:
+            check_no_zero_byte(text)
+        return texts
+
+    def json(self) -> dict[str, Any]:
+        """Text or a list of texts."""
+        several = {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True}
+        return {"anyOf": [{"type": "string"}, several]}
+
+
+@dataclass(frozen=True)
+class Choice(Form):
+    """One of several names, which are looked up only when needed, so that laws are imported only then.
+
+    `more` explains how a name that does not exist can come to exist.
+    """
+
+    names: Callable[[], Sequence[str]] = tuple
+    more: str = ""
+
+    @property
+    def form(self) -> str:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """Accepted values, in words."""
+        return ", ".join(self.names())
+
+    def read(self, value: Any, given: Given) -> str:
+        """Check that the name exists."""
+        names = self.names()
+        if not isinstance(value, str) or value not in names:
+            raise unknown_name(value, names, self.more)
+        return value
+
+    def json(self) -> dict[str, Any]:
+        """The names."""
+        return {"enum": list(self.names())}

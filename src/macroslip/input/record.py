@@ -1,0 +1,464 @@
+"""Records of catalogue files: named sets of quantities, frozen in SI, each with its provenance."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from importlib import resources
+from importlib.resources.abc import Traversable
+from os import PathLike, fspath
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, ClassVar, Self, get_type_hints
+
+from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Form, Given, Quantity, Text
+from macroslip.input.files import Place, Source, parse, read_text, yaml_text
+from macroslip.input.messages import shown, together
+from macroslip.input.section import Field, Fields, Group, form_from, grouped, read_keys, read_value
+from macroslip.input.units import NUMBER, Dimension, is_finite_number, parse_quantity, quantity_pattern, with_unit
+from macroslip.overview import html_overview
+
+#: Provenance tags and their meaning.
+TAGS: Mapping[str, str] = MappingProxyType(
+    {
+        "P": "paper",
+        "V": "catalogue or public model",
+        "D": "derived",
+        "R": "literature, from memory",
+        "E": "engineering estimate",
+        "U": "user",
+    }
+)
+_HEADER = (
+    "A {} file of macroslip. Every quantity has a value and its unit; where it comes from (tag), a note and the range of "
+    f"values it may have are optional. Tags: {', '.join(f'{tag} {meaning}' for tag, meaning in TAGS.items())}. Short "
+    "form: width, say, as 272 mm."
+)
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a value comes from, and how it was written.
+
+    Parameters
+    ----------
+    value : float
+        Number as written [unit].
+    unit : str
+        Unit as written.
+    tag : str
+        One of `TAGS`.
+    note : str
+        Free text.
+    range : tuple[float, float] | None
+        Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
+        nothing is known of its scatter.
+    """
+
+    value: float
+    unit: str
+    tag: str = "U"
+    note: str = ""
+    range: tuple[float, float] | None = None
+
+    def as_entry(self) -> dict[str, Any]:
+        """The entry of a catalogue file for a quantity of this origin."""
+        entry = asdict(self)
+        return (
+            entry | {"range": list(self.range)} if self.range else {key: entry[key] for key in entry if key != "range"}
+        )
+
+    @property
+    def written(self) -> str:
+        """Value and unit as written."""
+        return with_unit(self.value, self.unit)
+
+
+@dataclass(frozen=True)
+class _Number(Form):
+    """The number of an entry as it is written."""
+
+    form = "a finite number, without its unit"
+    whole: bool = False
+
+    def read(self, value: Any, given: Given) -> float:
+        if not is_finite_number(value):
+            raise self.wrong(value, "The unit goes into its own key.")
+        return int(value) if hasattr(value, "__index__") else float(value)
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "integer" if self.whole else "number"}
+
+
+@dataclass(frozen=True)
+class _Range(Form):
+    """The range of an entry."""
+
+    form = "two numbers in the unit of the value, [lowest, highest], with the value between them"
+
+    def read(self, value: Any, given: Given) -> tuple[float, float]:
+        pair: Any = value if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2 else ()
+        middle = given.before.get("value")
+        good = pair and all(map(is_finite_number, pair))
+        if not good or not (middle is None or pair[0] <= middle <= pair[1]):
+            raise self.wrong(value, "Leave it out if nothing is known of the scatter.")
+        return tuple(int(one) if hasattr(one, "__index__") else float(one) for one in pair)  # pyright: ignore[reportReturnType]
+
+    def json(self) -> dict[str, Any]:
+        return {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+
+
+@dataclass(frozen=True)
+class _Unit(Choice):
+    """The unit of an entry; without quotes the unit of a pure number would be a number."""
+
+    def read(self, value: Any, given: Given) -> str:
+        if self.names() == ["1"] and value != "1":
+            what, remedy = f"{shown(value)} does not exist", "Write it with its quotes."
+            raise InputError(what, allowed='"1"', remedy=remedy)
+        return super().read(value, given)
+
+
+@functools.cache
+def _entry(dimension: Dimension, whole: bool = False) -> Group:
+    """The section of an entry, `{value: 70, unit: mm, tag: E, note: "...", range: [66, 74]}`."""
+    tags = f"{'; '.join(f'{tag}: {meaning}' for tag, meaning in TAGS.items())}. Leave it out for a value of your own."
+    forms = {
+        "value": _Number("number, without its unit", whole),
+        "unit": _Unit("unit of the value", lambda: list(dimension.units)),
+        "tag": Choice("where it comes from", lambda: list(TAGS), tags),
+        "note": Text("free text", may_be_empty=True, line=True),
+        "range": _Range("lowest and highest value; four out of five lie between them"),
+    }
+    return Group("", {key: Field(form, key in ("value", "unit"), False) for key, form in forms.items()})
+
+
+@dataclass(frozen=True)
+class _Entry(Form):
+    """A quantity in a catalogue file, read as its provenance; whether the value is in its range is checked later.
+
+    It is text of number and unit, a plain number where the quantity has no unit, or a mapping as `_entry` has it.
+    """
+
+    quantity: Quantity
+
+    def read(self, value: Any, given: Given) -> Provenance:
+        dimension, key = self.quantity.dimension, given.place.keys[-1]
+        if isinstance(value, str):
+            return Provenance(*parse_quantity(value, dimension))
+        if dimension is NUMBER and is_finite_number(value):
+            value = {"value": value, "unit": "1"}
+        if not isinstance(value, Mapping):
+            lacks = "does not give its unit" if is_finite_number(value) else "is no quantity"
+            raise InputError(
+                f"it is {shown(value)}, which {lacks}",
+                allowed=f"{key}: {with_unit(1, dimension.si_unit)}; or {key}: {{value: a number, unit: "
+                f"{dimension.choices}, tag: {' or '.join(TAGS)}, note: text, range: [lowest, highest]}}, of which tag, "
+                "note and range are optional",
+                remedy="Give the value with its unit.",
+            )
+        return Provenance(**_entry(dimension).read(value, given))
+
+    def json(self) -> dict[str, Any]:
+        dimension = self.quantity.dimension
+        text = {"type": "string", "pattern": quantity_pattern(dimension)}
+        plain = [self.quantity.json()] if dimension is NUMBER else []
+        return {"anyOf": [_entry(dimension, self.quantity.whole).json(), text, *plain]}
+
+
+def read_entry(key: str, entry: Any, dimension: Dimension, source: Source) -> tuple[float, Provenance]:
+    """Value [SI] and provenance of an entry of a catalogue file; see `_Entry`."""
+    field = Field(_Entry("", Quantity("", dimension)), True, False)
+    origin = read_value(field, entry, Given(Place(source, (key,)), in_file=True))
+    return dimension.to_si(origin.value, origin.unit), origin
+
+
+class Record:
+    """A named set of quantities that can be read from a catalogue file or built from SI numbers.
+
+    A subclass declares every quantity as `Annotated[float, Quantity(...)]` with its range in SI, and keeps its shipped
+    files in the folder `catalogue` of its own package.
+
+    Raises
+    ------
+    InputError
+        If a value is missing, unknown, no finite number, out of its range, or inconsistent with the others. All such
+        problems are reported together.
+    """
+
+    noun: ClassVar[str] = "record"
+    # Quantities that may be left out of a file because they follow from others, and those others.
+    sources: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    # Sections that files have: their meaning; the key `second` inside `out_of_round` is the field `out_of_round_second`.
+    sections: ClassVar[Mapping[str, str]] = {}
+    name: str
+    title: str
+    # Pairs instead of a mapping keep the record hashable.
+    _provenance: tuple[tuple[str, Provenance], ...]
+    _derived: frozenset[str]
+
+    def __init__(self, **values: Any):
+        self._fill(values, {}, Source())
+
+    def _fill(
+        self,
+        values: Mapping[str, Any],
+        provenance: Mapping[str, Provenance],
+        source: Source,
+        derived: frozenset[str] = frozenset(),
+    ) -> None:
+        """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
+        fields, kinds = fields_of(type(self)), dimensions(type(self))
+        units = {key: kinds[key].si_unit for key in values if key in kinds}
+        written = {key: (with_unit(values[key], unit), unit) for key, unit in units.items()}
+        written |= {key: (origin.written, origin.unit) for key, origin in provenance.items()}
+        # An entry may have several lines; what is wrong with its value is in the line of the value.
+        lines = {keys[:1]: line for keys, line in source.lines.items() if keys[1:] == ("value",)}
+        place = Place(Source(source.file, {**source.lines, **lines}))
+        found, problems = read_keys(fields, values, Given(place, written=written))
+        if problems:
+            raise together(problems)
+        found = {key: found.get(key, one.default) for key, one in fields.items()}
+        known = {key: provenance.get(key) or Provenance(found[key], kind.si_unit) for key, kind in kinds.items()}
+        given = tuple(one for one in known.items() if found[one[0]] is not None)
+        vars(self).update(found, _provenance=given, _derived=derived)
+        problems = [*self._wide_ranges(source), *self._inconsistencies(source)]
+        if problems:
+            raise together(problems)
+
+    def _wide_ranges(self, source: Source) -> Iterator[InputError]:
+        """Yield ranges of values that go beyond the range of the quantity."""
+        for key, origin in self._provenance:
+            quantity = quantities(type(self))[key]
+            for limit in origin.range or ():
+                if not quantity.holds(quantity.dimension.to_si(limit, origin.unit)):
+                    yield Place(source, (key, "range")).problem(
+                        f"it goes to {shown(limit)}",
+                        quantity.range_text(origin.unit),
+                        "Give a range in which every value is possible.",
+                    )
+
+    def _inconsistencies(self, source: Source) -> Iterator[InputError]:
+        """Yield contradictions between values that are each within their range."""
+        yield from ()
+
+    def __setattr__(self, key: str, value: Any) -> None:
+        raise InputError(
+            f"{key} cannot be set, because a {self.noun} stays as it was checked",
+            remedy=f"Make another one: new = old.replace({key}=...).",
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and vars(other) == vars(self)
+
+    def __hash__(self) -> int:
+        return hash(tuple(vars(self).values()))
+
+    def written(self, key: str, si_value: float | None = None) -> str:
+        """Write a quantity, or another value for it, in the unit in which the quantity was given."""
+        value = getattr(self, key) if si_value is None else si_value
+        return dimensions(type(self))[key].text(value, self.provenance[key].unit)
+
+    def __repr__(self) -> str:
+        title = f": {self.title}" if self.title else ""
+        return f"<{type(self).__name__} {self.name}{title}>"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        rows = [[key, origin.written, TAGS[origin.tag], origin.note] for key, origin in self._provenance]
+        return html_overview(repr(self)[1:-1], ["quantity", "value", "where it comes from", "note"], rows)
+
+    @property
+    def provenance(self) -> Mapping[str, Provenance]:
+        """Origin of every quantity that has a value, by key: value and unit as written, tag and note."""
+        return MappingProxyType(dict(self._provenance))
+
+    @classmethod
+    def _shipped(cls) -> Traversable:
+        return resources.files(cls.__module__.rpartition(".")[0]) / "catalogue"
+
+    @classmethod
+    def catalogue(cls) -> list[str]:
+        """Names that `read` accepts beside the path of a file."""
+        files = (item.name for item in cls._shipped().iterdir())
+        return sorted(name.removesuffix(".yaml") for name in files if name.endswith(".yaml"))
+
+    @classmethod
+    def read(cls, source: str | PathLike[str]) -> Self:
+        """Read a shipped record or a file of the user's.
+
+        Parameters
+        ----------
+        source : str | PathLike
+            A name from `catalogue()`, or the path of a YAML file. A name wins over a file of the same name.
+
+        Returns
+        -------
+        Self
+            The record in SI units.
+
+        Raises
+        ------
+        InputError
+            If there is no such file or name, or the content is wrong; the message names file, line and key.
+        """
+        name, names = fspath(source), cls.catalogue()
+        if name in names:
+            return _shipped_record(cls, name)
+        text = read_text(
+            Path(name),
+            f"no {cls.noun} can be read from {shown(name)}",
+            allowed=f"the path of a YAML file, or a catalogue name: {', '.join(names)}",
+            remedy=f"Relative paths start at {Path.cwd()}.",
+        )
+        return cls.from_dict(*parse(text, name))
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any], source: Source | None = None) -> Self:
+        """Build a record from the content of a catalogue file, as `as_dict` gives it; errors as `read`.
+
+        `source` says where it was written, for messages.
+        """
+        source, fields = source or Source(), _in_file(cls)
+        if entries and not entries.keys() & fields.keys():
+            # Another kind of file: its keys may be private and are left out of the message.
+            what, remedy = f"none of its keys is one of a {cls.noun}", f"Name a {cls.noun} file."
+            raise InputError(what, where=source.file, allowed=", ".join(fields), remedy=remedy)
+        # What is missing is told later: it may follow from what is there.
+        optional = {key: one._replace(is_required=False) for key, one in fields.items()}
+        found, problems = read_keys(optional, entries, Given(Place(source), in_file=True))
+        for part in problems:
+            part.is_placed = False  # in the record's own file; a case file that names it adds its own place
+        if problems:
+            raise together(problems)
+        for section in cls.sections.keys() & found.keys():
+            found |= {f"{section}_{key}": value for key, value in found.pop(section).items()}
+        lines = {
+            (f"{keys[0]}_{keys[1]}", *keys[2:]) if keys[0] in cls.sections and keys[1:] else keys: line
+            for keys, line in source.lines.items()
+        }
+        origins = {key: one for key, one in found.items() if isinstance(one, Provenance)}
+        values = {key: dimensions(cls)[key].to_si(one.value, one.unit) for key, one in origins.items()}
+        record = cls.__new__(cls)
+        record._fill(found | values, origins, Source(source.file, lines))
+        return record
+
+    def require(self, *keys: str, purpose: str) -> None:
+        """Refuse a record that lacks optional quantities which a purpose needs, for example "the physical model".
+
+        The InputError names all that are missing, and the form to add them in.
+
+        Examples
+        --------
+        >>> from macroslip.bearing import Bearing
+        >>> bearing = Bearing.read("skf-240-600-bc").replace(name="mine", mass=None)
+        >>> bearing.require("mass", purpose="the cage")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+            ...
+        macroslip.errors.InputError: bearing mine: it has no mass, which the cage needs. Allowed: ...
+        """
+        missing = [key for key in keys if getattr(self, key) is None]
+        if missing:
+            known = quantities(type(self))
+            raise InputError(
+                f"it has no {', no '.join(missing)}, which {purpose} needs",
+                where=f"{self.noun} {self.name}",
+                allowed="; ".join(f"{key}: {known[key].range_text()}" for key in missing),
+                remedy="Add to its file: "
+                + ", ".join(f"{key}: {{value: ..., unit: {known[key].dimension.choices}}}" for key in missing),
+            )
+
+    def as_dict(self) -> dict[str, Any]:
+        """Give the record in the form of a catalogue file, with plain numbers and text only.
+
+        Quantities without a value, and those that follow from others, are left out. `from_dict` makes an equal record
+        of it.
+        """
+        origins, kinds = self.provenance, dimensions(type(self))
+        given = [key for key in fields_of(type(self)) if key in origins or key not in kinds]
+        given = [key for key in given if key not in self._derived]
+        return self._nested(
+            {key: origins[key].as_entry() if key in origins else getattr(self, key) for key in given}, {}
+        )
+
+    def _nested(self, entries: Mapping[str, Any], found: dict[str, Any]) -> dict[str, Any]:
+        """Put entries by field into the content of a file, those of a section inside it."""
+        for key, entry in entries.items():
+            section = next((one for one in self.sections if key.startswith(f"{one}_")), "")
+            inside = found.setdefault(section, {}) if section else found
+            inside[key.removeprefix(f"{section}_") if section else key] = entry
+        return found
+
+    def with_entries(self, entries: Mapping[str, Any]) -> Self:
+        """Copy the record with other entries, by field, as a catalogue file has them."""
+        return type(self).from_dict(self._nested(entries, self.as_dict()))
+
+    def as_yaml(self) -> str:
+        """Give the record as the text of a catalogue file, every key explained; `read` gives it back as it is."""
+        explained = {key: one.form.about for key, one in fields_of(type(self)).items()} | dict(self.sections)
+        return yaml_text(self.as_dict(), _HEADER.format(self.noun), explained)
+
+    def replace(self, **values: Any) -> Self:
+        """Copy the record with other values [SI], checked as any other input; they get the tag U."""
+        kept = {key: origin for key, origin in self._provenance if key not in values}
+        given = {key: getattr(self, key) for key in fields_of(type(self)) if key not in self._derived}
+        record = type(self).__new__(type(self))
+        record._fill(given | values, kept, Source())
+        return record
+
+    def model_dump(self) -> dict[str, Any]:
+        """Values [SI] by key."""
+        return {key: getattr(self, key) for key in fields_of(type(self))}
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """JSON Schema (2020-12) of the file format, for editors and for programs that write such files."""
+        about = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": f"{cls.noun} of macroslip"}
+        return about | Group("", _in_file(cls)).json()
+
+
+@functools.cache
+def fields_of(record: type[Record]) -> Fields:
+    """Fields of a record class by key."""
+    found = {}
+    for key, hint in get_type_hints(record, include_extras=True).items():
+        if hasattr(hint, "__metadata__"):
+            required, others = not hasattr(record, key), " and ".join(record.sources.get(key, ()))
+            remedy = f"Add it, or the figures of a data sheet from which it follows: {others}." if others else "Add it."
+            found[key] = Field(form_from(hint), required, not required, getattr(record, key, None), remedy)
+    return found
+
+
+@functools.cache
+def _in_file(record: type[Record]) -> Fields:
+    """Fields as a file has them: quantities as entries, those of a section inside it; what follows from others need not be."""
+    fields = {}
+    for key, one in fields_of(record).items():
+        form = one.form
+        if isinstance(form, Quantity):
+            form = _Entry(f"{form.about}: {form.range_text()}", form)
+        fields[key] = one._replace(form=form, is_required=one.is_required and key not in record.sources)
+    keys = {name: tuple(key for key in fields if key.startswith(f"{name}_")) for name in record.sections}
+    return grouped(fields, {name: (about, keys[name]) for name, about in record.sections.items()})
+
+
+@functools.cache
+def quantities(record: type[Record]) -> Mapping[str, Quantity]:
+    """Quantities of a record class by key; fields of plain text have none."""
+    forms = {key: one.form for key, one in fields_of(record).items()}
+    return {key: form for key, form in forms.items() if isinstance(form, Quantity)}
+
+
+def dimensions(record: type[Record]) -> Mapping[str, Dimension]:
+    """Dimensions of the quantities of a record class, by key."""
+    return {key: quantity.dimension for key, quantity in quantities(record).items()}
+
+
+@functools.cache
+def _shipped_record(kind: type[Record], name: str) -> Any:
+    """Read a shipped record. No record ever changes, so all users of one share it."""
+    file = f"{name}.yaml"
+    return kind.from_dict(*parse((kind._shipped() / file).read_text(encoding="utf-8"), file))

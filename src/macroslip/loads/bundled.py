@@ -1,0 +1,91 @@
+"""The load cases that come with the package: their names, their files, and what is known of each."""
+
+from __future__ import annotations
+
+import importlib.resources
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from macroslip.errors import InputError
+
+SETS = ("paper", "year")
+#: Transients and other states; start-up, stops, idling and the like need a supervisor, which the turbine's model lacks.
+EVENTS = (
+    "start-8", "start-14", "stop-14", "stop-24", "estop-20", "gridloss-14", "idle-6", "idle-25", "parked-12", "eog-14",
+    "ecd-14", "yaw20-14",
+)  # fmt: skip
+ASSUMED = "its supervisor is assumed"
+
+
+@dataclass(frozen=True)
+class BundledCase:
+    """What is known of a bundled case."""
+
+    name: str
+    wind_speed: float  #: Nominal mean wind speed [m/s]
+    turbulence: str  #: IEC turbulence class; "-" where the wind has none
+    seed: int = 1  #: 1, or 2 for a second realisation
+    event: str = ""  #: Its name if it is an event
+
+    @property
+    def source(self) -> str:
+        """Where loads from it come from; of an event also that its supervisor is assumed."""
+        return f"bundled case {self.name}" + (f" (event, {ASSUMED})" if self.event else "")
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return Path(str(importlib.resources.files("macroslip.loads") / "cases" / f"{self.name}.parquet"))
+
+
+def _year() -> list[BundledCase]:
+    paper = [BundledCase(f"{speed}{letter}", speed, letter) for speed in range(12, 25, 2) for letter in "ABC"]
+    below = [BundledCase(f"{speed}{letter}", speed, letter) for speed in range(4, 11, 2) for letter in "AB"]
+    second = [BundledCase(f"{speed}B-2", speed, "B", 2) for speed in (8, 10, 12, 16, 24)]
+    events = [
+        BundledCase(name, float(name.rpartition("-")[2]), "-" if name[:3] in ("eog", "ecd") else "B", event=name)
+        for name in EVENTS
+    ]
+    return paper + below + second + events
+
+
+_CASES = {one.name: one for one in _year()}
+
+
+def bundled_cases(which: str = "paper") -> list[str]:
+    """Names of the load cases that come with the package.
+
+    "paper": the 21 of the paper, by mean wind speed [m/s] and IEC turbulence class. "year": all, also winds below rated,
+    second seeds ("12B-2") and events ("start-8"), whose supervisor is assumed.
+
+    Examples
+    --------
+    >>> bundled_cases()[:4], len(bundled_cases()), len(bundled_cases("year"))
+    (['12A', '12B', '12C', '14A'], 21, 46)
+    """
+    if which not in SETS:
+        raise InputError(f"there is no set of bundled cases {which!r}", allowed=" or ".join(SETS))
+    return list(_CASES)[: 21 if which == "paper" else None]
+
+
+def bundled_case(name: str) -> BundledCase:
+    """The bundled case of a name."""
+    if name not in _CASES:
+        raise InputError(
+            f"there is no bundled case {name!r}",
+            allowed=", ".join(_CASES),
+            remedy="Use HubLoads.read for a file of your own.",
+        )
+    return _CASES[name]
+
+
+def bundled_labels(names: Sequence[str]) -> list[dict[str, float | str]]:
+    """Labels of bundled cases in a study: wind speed and turbulence, and where one is not of the paper seed and event."""
+    cases = [bundled_case(name) for name in names]
+    extra = any(one.name not in bundled_cases() for one in cases)
+    return [
+        {"wind_speed": float(one.wind_speed), "turbulence": one.turbulence}
+        | ({"seed": one.seed, "event": one.event} if extra else {})
+        for one in cases
+    ]

@@ -1,0 +1,99 @@
+"""Pockets and cages over the window, and their traces, from the steps of the whole bearing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.whole.books import Books
+
+if TYPE_CHECKING:
+    from macroslip.measures.roller import Wanted
+    from macroslip.whole.model import WholeBearing
+    from macroslip.whole.sdirk import Part
+
+#: Sides of a pocket: the spars ahead and behind.
+SIDES = ("front", "rear")
+#: Places on the orbit, 5° each, from φ = 0.
+PLACES = 72
+
+
+class CageMeasures:
+    """Measures of pockets and cages.
+
+    Attributes
+    ----------
+    impulse, largest, time : ndarray, shape (n, 2)
+        ∫|N| dt [N s], largest |N| [N] and time with a push [s] in the window, by side of the pocket.
+    largest_by_place : ndarray, shape (n, places)
+        Largest |N| in the window by place on the orbit [N].
+    slip : ndarray, shape (c, 3)
+        ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window.
+    books : Books
+        Of momentum and energy, at the times of traces, or of the window's start and the ends of its orbits.
+    traces : ndarray, shape (m, c, 5)
+        Speed of the cage [rad/s], its lag [m], its displacement along X0 and Y0 [m], and the rollers' torque on it [N m].
+    offset, deviation : ndarray, shape (m, n)
+        Traces of the rollers: way ahead of the middle of the pocket [m], and orbit speed less that of pure rolling [rad/s].
+    """
+
+    def __init__(self, bearing: WholeBearing, wanted: Wanted, times: np.ndarray):
+        count, cages = bearing.places.size, bearing.cages
+        self._bearing, self._window, self._times = bearing, wanted.edges[0], times
+        self.impulse, self.largest, self.time = (np.zeros((count, 2)) for _ in range(3))
+        self.largest_by_place = np.zeros((count, PLACES))
+        self.slip = np.zeros((cages, 3))
+        self.books = Books(bearing, times)
+        self.traces = np.full((times.size, cages, 5), np.nan)
+        self.offset, self.deviation = (np.full((times.size, count), np.nan) for _ in range(2))
+
+    def add(self, part: Part) -> None:
+        """Take up a part of the integration."""
+        self.books.add(part)
+        counted = (part.bearing["start"] >= self._window) & (part.bearing["end"] > part.bearing["start"])
+        if counted.any():
+            self._add_pushes(part, counted)
+            self._add_slip(part, counted)
+        self._trace(part)
+
+    def _add_pushes(self, part: Part, counted: np.ndarray) -> None:
+        steps, whole = part.steps[counted], part.bearing[counted]
+        for k in range(2):
+            push, weight = steps["cage_load"][..., k], steps["weight"][..., k]
+            turn = whole["turn"][:, k][:, self._bearing.places["cage"]]
+            place = ((turn + self._bearing.places["angle"]) / (2.0 * np.pi) % 1.0 * PLACES).astype(int) % PLACES
+            for side, here in enumerate((push < 0.0, push > 0.0)):
+                size = np.where(here, np.abs(push), 0.0)
+                self.impulse[:, side] += (weight * size).sum(axis=0)
+                self.time[:, side] += (weight * here).sum(axis=0)
+                self.largest[:, side] = np.maximum(self.largest[:, side], size.max(axis=0))
+            rollers = np.broadcast_to(np.arange(push.shape[1]), push.shape)
+            np.maximum.at(self.largest_by_place, (rollers, place), np.abs(push))
+
+    def _add_slip(self, part: Part, counted: np.ndarray) -> None:
+        whole = part.bearing[counted]
+        speed, span = whole["shaft_speed"][:, 1], whole["end"] - whole["start"]
+        turns = speed != 0.0
+        nominal = self._bearing.orbit_ratio * speed[turns] * self._bearing.pitch_radius
+        for c in range(self._bearing.cages):
+            slip = whole["cages"][turns, c, 0] / nominal
+            self.slip[c] += np.array([one @ span[turns] for one in (np.ones_like(slip), slip, slip * slip)])
+
+    def _trace(self, part: Part) -> None:
+        _, rows, places = np.intersect1d(part.bearing["end"], self._times, return_indices=True)
+        if not rows.size:
+            return
+        bearing, whole, steps = self._bearing, part.bearing[rows], part.steps[rows]
+        last = np.maximum(steps["stages"][:, 0] - 1, 0)
+        every = np.arange(rows.size)
+        speed = whole["shaft_speed"][every, last]
+        cages = whole["cages"][:, : bearing.cages]
+        self.traces[places, :, 0] = (cages[..., 0] + 0.5 * speed[:, None] * bearing.inner_radius) / bearing.pitch_radius
+        self.traces[places, :, 1], self.traces[places, :, 2] = cages[..., 1], cages[..., 4]
+        self.traces[places, :, 3], self.traces[places, :, 4] = cages[..., 5], whole["torque"][:, : bearing.cages]
+        self.offset[places] = part.offset[rows]
+        inner, outer = steps["inner_slip"][every, :, last], steps["outer_slip"][every, :, last]
+        ring = speed[:, None] * (bearing.places["inner_radius"] - 0.5 * bearing.inner_radius)
+        ring -= 0.5 * speed[:, None] * bearing.places["inner_radius"]
+        self.deviation[places] = (0.5 * (inner - outer) + ring) / bearing.pitch_radius

@@ -1,0 +1,532 @@
+"""Details of the contacts: where on them energy is dissipated, and their extremes.
+
+By stations along the roller and places of the raceways, with the part of asperities and the work of pressure times slip; the
+largest flash temperature, power per area and slide-roll ratio and the least film ratio in each orbit, and while rollers enter
+the load zone; and how long, and for how many passes, films were thin at which slide-roll ratio.
+
+A contact is evaluated station by station (a look) where its power has changed, a value is a new highest one, or some way has been
+travelled: at every step it would cost more than the forces. Between two looks the energies of the raceways are kept, and when
+they were spent. A look spreads them over the way since the one before, as if power had passed linearly in time from how it
+lay along the roller at that one to how it lies now.
+
+The outer raceway is at rest, and the angle of a place on it is φ, from +X0 towards +Y0. The inner raceway turns with
+the shaft, and the angle of a place on it is counted from where +X0 was at the first sample: φ less the shaft's angle.
+A roller of a whole bearing is ahead of pure rolling, or behind: φ is its own.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.flash import flash_temperature, transient_flash
+from macroslip.contact.look_up import log_load, log_speed
+from macroslip.contact.patch import Chords, Patch, chord_stress_at, film_node, fine_power, patch_power
+from macroslip.contact.table import chords_for, patch_of
+from macroslip.measures.totals import END, RACEWAYS, Batch, loaded_contacts, orbit_at, write_end
+from macroslip.ring.orbit import angle_at
+from macroslip.roller.forces import LOWEST_SPEED, cage_traction
+from macroslip.roller.step import STEP
+
+if TYPE_CHECKING:
+    from macroslip.contact.laws import ContactLaws, RollerLaws
+    from macroslip.ring.orbit import Motion
+    from macroslip.roller.model import Roller
+
+#: Sectors of a raceway, 5° each, and stations along the roller's length.
+SECTORS, STATIONS = 72, 24
+_PER_ANGLE = SECTORS / (2.0 * math.pi)
+#: Meaning of `Details.surface_energy` by its last two positions, and of `Details.extreme` by its last.
+SLIP_SIGNS = ("negative", "positive")
+FILM_REGIMES = ("below 1", "1 and above")
+EXTREMES = ("flash_temperature", "power_density", "slide_roll_ratio", "film_ratio")
+#: Upper edges of classes of Λ and of the slide-roll ratio (ring less roller over their mean: above 0 the ring is faster).
+FILM_EDGES = (0.5, 1.0, 1.5, 2.0, 3.0, 5.0)
+SLIP_EDGES = (-0.1, -0.03, -0.01, -0.003, -0.001, 0.0, 0.001, 0.003, 0.01, 0.03, 0.1)
+#: A roller that the rings begin to press enters the load zone until its middle slips by less than this part of the speed, or
+#: for this way [rad].
+_SETTLED, _ENTRY = 0.01, 0.35
+#: A roller's contacts are looked at after a change of a raceway's power by this part of the largest looked at in its orbit, a rise
+#: of its power per area, of the cage's power or of the slide-roll ratio above the highest there by this part, and in any case
+#: after this way [rad]. On 14B and 24A over 600 s, against looks at every step: extremes at the raceways are low by 0.5 % on
+#: average and 18 % at most, and up to 0.5 % of the energy lies at other stations.
+_CHANGE, _RISE, _TURN = 0.1, 0.03, 0.35
+#: Looks from one at the quadrature's error to the next, which takes as long as five hundred others.
+_FINE = 4096
+
+#: State from look to look: number of looks, orbit of the last one, its time [s] (NaN before the first), angle of the roller ahead
+#: of pure rolling [rad], power at the raceways then [W]; the highest values in its orbit: powers of the interfaces [W], power
+#: over load^(2/3) at the raceways, and slide-roll ratio; energy since then [J], its moment about that time [J s] and the part
+#: of asperities [J] by raceway; elastic load at the end of the last step [N] (NaN before the first), number of the entry
+#: under way (0 for none), how many there were, and when it began [s].
+_MEMORY = np.dtype(
+    [
+        ("count", "i8"), ("orbit", "i8"), ("time", "f8"), ("ahead", "f8"), ("power", "f8", (2,)), ("highest", "f8", (6,)),
+        ("energy", "f8", (2,)), ("moment", "f8", (2,)), ("rough", "f8", (2,)),
+        ("pressed", "f8"), ("entry", "i8"), ("entries", "i8"), ("since", "f8"),
+    ]
+)  # fmt: skip
+#: A look: its orbit, number, and the number of the entry it belongs to; time of the look before and its own [s]; angles of the
+#: roller ahead of pure rolling, and of the shaft, at both [rad]; of the raceways energy since the look before [J], the share
+#: of the time at which it was spent in the mean, and asperities' energy [J]; the state; film [m] and asperities' share of the
+#: contacts; and, found by `_look`, power per length [W/m] and half-width [m] where contacts are hottest, with the speeds of roller
+#: and counterpart there [m/s].
+_LOOK = np.dtype(
+    [
+        ("orbit", "i8"), ("number", "i8"), ("entry", "i8"), ("since", "f8"), ("time", "f8"), ("ahead", "f8", (2,)),
+        ("turned", "f8", (2,)), ("energy", "f8", (2,)), ("mean_time", "f8", (2,)), ("rough", "f8", (2,)),
+        ("at", END), ("film", "f8", (3,)), ("share", "f8", (3,)), ("hot", "f8", (3, 4)),
+    ]
+)  # fmt: skip
+#: How power lies along the roller at a raceway at a look: by station power with the sign of slip [W], that of asperities [W],
+#: ∫ p |v| dA [W] and power per area [W/m²]; sums of the first three; film regime.
+_ALONG = np.dtype(
+    [
+        ("power", "f8", (STATIONS,)), ("rough", "f8", (STATIONS,)), ("work", "f8", (STATIONS,)), ("density", "f8", (STATIONS,)),
+        ("total", "f8"), ("rough_total", "f8"), ("work_total", "f8"), ("regime", "i8"),
+    ]
+)  # fmt: skip
+_PLACES = (2, SECTORS, STATIONS)
+#: Sums over the looks, fields of `Details`; and by raceway two records of how power lies, of which `last` is of the last look with
+#: load: a record in place of arrays, whose references would be counted at every look.
+_MAPS = np.dtype(
+    [
+        ("station_energy", "f8", (2, STATIONS)), ("surface_energy", "f8", (*_PLACES, len(SLIP_SIGNS), len(FILM_REGIMES))),
+        ("surface_density", "f8", _PLACES), ("surface_asperities", "f8", _PLACES), ("surface_work", "f8", _PLACES),
+        ("working_load", "f8", (2, 2)), ("film_slip", "f8", (2, len(FILM_EDGES) + 1, len(SLIP_EDGES) + 1, 2)),
+        ("along", _ALONG, (4,)), ("last", "i8", (2,)),
+    ]
+)  # fmt: skip
+
+
+class Details(NamedTuple):
+    """Details of one roller, over raceway (inner, outer) or interface (inner, outer, cage)."""
+
+    edges: np.ndarray  #: As of `Totals` [s]
+    extreme: np.ndarray  #: `EXTREMES` [K, W/m², 1, 1] over complete orbit and interface
+    #: By raceway, of some looks: energy by a finer quadrature, and what the one in use is off by [J]
+    quadrature: np.ndarray
+    entries: np.ndarray  #: Entries into the load zone, by orbit
+    #: As `extreme`, of raceways that enter: slide-roll ratio of the middle, transient temperature
+    entry_extreme: np.ndarray
+    memory: np.ndarray  #: Of `_MEMORY`, shape (1,)
+    maps: np.ndarray  #: Of `_MAPS`, shape (1,); its fields are those that follow
+    station_energy: np.ndarray  #: Energy by raceway and station along the roller [J]
+    surface_energy: np.ndarray  #: Energy by raceway, sector, station, sign of slip and film regime [J]
+    #: Largest power per area [W/m²] over raceway, sector and station, mean over the contact's width
+    surface_density: np.ndarray
+    surface_asperities: np.ndarray  #: Energy of asperities [J], as `surface_density`
+    #: ∫∫ p |v| dA dt [J], as `surface_density`: the energy under a coefficient of friction of 1
+    surface_work: np.ndarray
+    working_load: np.ndarray  #: By raceway: ∫∫ p |v| dA dt times load [J N], and itself [J]
+    #: By raceway, class of Λ and of slip: time under the rings' load times the part of the length [s]; passes
+    film_slip: np.ndarray
+
+
+def new_details(edges: np.ndarray) -> Details:
+    """Nothing yet, for orbits with these edges [s]."""
+    orbits, maps = edges.size - 1, np.zeros(1, _MAPS)
+    sizes = ((orbits, 3, len(EXTREMES)), (2, 2), orbits, (orbits, 2, len(EXTREMES)))
+    views = [maps[name][0] for name in Details._fields[Details._fields.index("maps") + 1 :]]
+    found = Details._make([edges, *map(np.zeros, sizes), np.zeros(1, _MEMORY), maps, *views])
+    found.extreme[..., EXTREMES.index("film_ratio")] = found.entry_extreme[..., EXTREMES.index("film_ratio")] = np.inf
+    found.memory["orbit"], found.memory["time"], found.memory["pressed"] = -1, np.nan, np.nan
+    return found
+
+
+class Contact(NamedTuple):
+    """A contact, as the functions below take it: its geometry, its oil's chords, whether these serve, and effusivity of steel."""
+
+    patch: Patch
+    chords: Chords
+    chorded: bool
+    roughness: float
+    effusivity: float
+
+
+def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
+    """Inner, outer and cage contact of a roller."""
+
+    def contact(one: ContactLaws) -> Contact:
+        # Tables are made for one side; here the row's own tilt counts.
+        patch = patch_of(one)._replace(spin_ratio=one.shape.spin_ratio)
+        return Contact(patch, chords_for(one), one.fluid is not None, one.interface.roughness, one.effusivity)
+
+    return contact(laws.inner), contact(laws.outer), contact(laws.cage)
+
+
+@jit_inline
+def _density(power, load):
+    return power * load ** (-2.0 / 3.0) if load > 0.0 else 0.0
+
+
+@jit_inline
+def _compared(step, last):
+    """The values that are compared with `highest`."""
+    power, speed, slip = step.power[last], step.outer_speed[last], step.outer_slip[last]
+    inner, outer = _density(power[0], step.inner_load[last]), _density(power[1], step.outer_load[last])
+    return power[0], power[1], power[2], inner, outer, abs(slip) / max(abs(speed - 0.5 * slip), LOWEST_SPEED)
+
+
+@jit_inline
+def _is_due(step, last, memory, outer_radius, spacing):
+    """Whether enough way has passed since the last look, power has changed enough, or a value is a new highest one."""
+    highest, values = memory.highest, _compared(step, last)
+    change, rise = _CHANGE * spacing, 1.0 + _RISE * spacing
+    due = abs(step.outer_speed[last]) * (step.end - memory.time) >= _TURN * spacing * outer_radius
+    for i in range(2):
+        due = due or abs(values[i] - memory.power[i]) > change * highest[i]
+    for i in range(2, 6):
+        due = due or values[i] > rise * highest[i]
+    return due
+
+
+@jit_inline
+def _remember(step, last, orbit, memory):
+    """Keep the numbers that decide on the next look."""
+    values, highest = _compared(step, last), memory.highest
+    if orbit != memory.orbit:
+        highest[:] = 0.0
+    for i in range(6):
+        highest[i] = max(highest[i], values[i])
+    memory.count, memory.orbit, memory.time = memory.count + 1, orbit, step.end
+    memory.ahead = step.ahead
+    for i in range(2):
+        memory.power[i], memory.energy[i], memory.moment[i], memory.rough[i] = values[i], 0.0, 0.0, 0.0
+
+
+@jit_inline
+def _enter(step, last, memory, outer_radius):
+    """Notice that the rings begin to press the roller, and when it is gripped or let go again."""
+    load, speed = step.elastic_load[last], step.outer_speed[last]
+    if memory.pressed == 0.0 and load > 0.0:
+        memory.entries, memory.since = memory.entries + 1, step.start
+        memory.entry = memory.entries
+    elif memory.entry > 0:
+        slip = max(abs(step.inner_slip[last]), abs(step.outer_slip[last]))
+        settled = slip < _SETTLED * abs(speed) or abs(speed) * (step.end - memory.since) > _ENTRY * outer_radius
+        if settled or load <= 0.0:
+            memory.entry = 0
+    memory.pressed = load
+
+
+@jit
+def _choose(steps, j, edges, entries, memory, outer_radius, spacing, looks):
+    """Begin the looks of a buffer; returns how many."""
+    found = 0
+    for n in range(steps.shape[0]):
+        step = steps[n, j]
+        if step.start < edges[0] or step.weight[step.stages - 1] + step.weight[0] <= 0.0:
+            continue
+        if math.isnan(memory.time):
+            memory.time, memory.ahead = step.start, step.ahead
+        middle = 0.5 * (step.start + step.end)
+        for i in range(2):
+            energy = 0.0
+            for k in range(step.stages):
+                energy += step.weight[k] * step.power[k, i]
+                memory.rough[i] += step.weight[k] * step.rough[k, i]
+            memory.energy[i] += energy
+            memory.moment[i] += energy * (middle - memory.time)
+        orbit, last, known = orbit_at(edges, middle, memory.orbit), step.stages - 1, memory.entries
+        _enter(step, last, memory, outer_radius)
+        if orbit >= 0:
+            entries[orbit] += memory.entries - known
+        # While a roller enters, at every step.
+        if memory.entry > 0 or orbit != memory.orbit or _is_due(step, last, memory, outer_radius, spacing):
+            look = looks[found]
+            look.orbit, look.number = orbit, memory.count
+            _begin(look, memory, step)
+            _remember(step, last, orbit, memory)
+            found += 1
+    return found
+
+
+@jit
+def _begin(look, memory, step):
+    """Write what has been kept since the look before into one at the end of a step, with the state there."""
+    look.since, look.time, look.entry = memory.time, step.end, memory.entry
+    look.ahead[0], look.ahead[1] = memory.ahead, step.ahead
+    for i in range(2):
+        kept = memory.energy[i] * (step.end - memory.time)
+        look.energy[i], look.rough[i] = memory.energy[i], memory.rough[i]
+        look.mean_time[i] = min(max(memory.moment[i] / kept, 0.0), 1.0) if kept > 0.0 else 0.5
+    write_end(step, look.at)
+
+
+@jit_inline
+def _share(way, sector, mean_time):
+    """Part of a way [sectors] in a sector, if it is passed linearly faster or slower so as to have the mean time."""
+    start, end = min(way), max(way)
+    if math.floor(start) == math.floor(end):
+        return 1.0
+    growth = min(max(3.0 * (2.0 * mean_time - 1.0), -1.0), 1.0)
+    here = (max(start, float(sector)) - start) / (end - start)
+    there = (min(end, sector + 1.0) - start) / (end - start)
+    return (there - here) * (1.0 + (growth if way[0] <= way[1] else -growth) * (there + here - 1.0))
+
+
+@jit
+def _spread(maps, interface, way, mean_time, spent, before, after):
+    """Give energies to the stations, and to the places of the raceway that were passed, as power lay before and as it lies now.
+
+    Along the roller they are in proportion to the powers; along the way, from one sector to another, they are linear, with
+    the mean time that they have. `spent` has energy [J] and energy of asperities [J] over their power, and the time of the
+    work of pressure and slip [s], each before and now.
+    """
+    for k in range(STATIONS):
+        maps.station_energy[interface, k] += spent[0] * abs(before.power[k]) + spent[1] * abs(after.power[k])
+    lowest = math.floor(min(way))
+    for n in range(math.floor(max(way)) - lowest + 1):
+        share, even = _share(way, lowest + n, mean_time), _share(way, lowest + n, 0.5)
+        sector = int((lowest + n) % SECTORS)
+        energy, rough = maps.surface_energy[interface, sector], maps.surface_asperities[interface, sector]
+        work = maps.surface_work[interface, sector]
+        for k in range(STATIONS):
+            old, new = before.power[k], after.power[k]
+            energy[k, 1 if old > 0.0 else 0, before.regime] += share * spent[0] * abs(old)
+            energy[k, 1 if new > 0.0 else 0, after.regime] += share * spent[1] * abs(new)
+            rough[k] += share * (spent[2] * before.rough[k] + spent[3] * after.rough[k])
+            work[k] += even * (spent[4] * before.work[k] + spent[5] * after.work[k])
+
+
+@jit_inline
+def _raise(extremes, orbit, interface, density, ratio, film_ratio):
+    if orbit >= 0:
+        extremes[orbit, interface, 1] = max(extremes[orbit, interface, 1], density)
+        extremes[orbit, interface, 2] = max(extremes[orbit, interface, 2], ratio)
+        extremes[orbit, interface, 3] = min(extremes[orbit, interface, 3], film_ratio)
+
+
+@jit
+def _look_along(maps, interface, contact, state, look, passes, along):
+    """Find how power lies along the roller at a loaded raceway, and the station that is hottest.
+
+    `state` has load [N], u2 and slip [m/s]. Returns the largest power per area [W/m²], slip [m/s], and class of Λ.
+    """
+    patch, film, share, power = contact.patch, look.film[interface], look.share[interface], look.at.power[interface]
+    load, ring_speed, slip = state
+    mean, film_class = ring_speed - 0.5 * slip, 0
+    while film_class < len(FILM_EDGES) and film >= FILM_EDGES[film_class] * contact.roughness:
+        film_class += 1
+    entrainment, pressed = math.copysign(max(abs(mean), LOWEST_SPEED), mean), look.at.elastic_load > 0.0
+    root = load ** (1.0 / 3.0)
+    across, half_along, pressure = patch.across * root, patch.along * root, patch.pressure * root
+    bend, spin = 0.0, 0.0
+    if patch.microslip:
+        bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
+        spin = ring_speed * patch.spin_ratio
+    width, node = 2.0 * patch.half_length / STATIONS, film_node(contact.chords, film)
+    boundary = 0.75 * patch.boundary_friction * share * load / across
+    hot, hottest, densest, fastest = look.hot[interface], 0.0, 0.0, 0.0
+    along.total = along.rough_total = along.work_total = 0.0
+    for k in range(STATIONS):
+        left = k * width - patch.half_length
+        # The part of the station under the ellipse, so that the lightest contact too lies in the two middle ones.
+        first, last = max(left, -across), min(left + width, across)
+        if last - first < 1e-6 * width:
+            along.power[k] = along.rough[k] = along.work[k] = along.density[k] = 0.0
+            continue
+        station, covered = 0.5 * (first + last), (last - first) / width
+        height = 1.0 - station * station / (across * across)
+        local, chord = slip + station * (bend * station - spin), math.sqrt(height)
+        speed, half_width = abs(local), half_along * chord
+        per_length = 0.75 * height / across * power
+        asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
+        if contact.chorded:
+            pull = (1.0 - share) * 2.0 * half_width * chord_stress_at(contact.chords, node, pressure * chord, speed)
+            per_length = pull * speed + asperities
+        # Of power only its share of all stations counts; of p |v| its size does.
+        along.power[k], along.rough[k] = math.copysign(per_length * covered, local), asperities * covered
+        along.work[k] = 0.75 * height / across * load * speed * covered * width
+        along.total += abs(along.power[k])
+        along.rough_total += along.rough[k]
+        along.work_total += along.work[k]
+        if pressed:
+            slip_class, ratio = 0, local / entrainment
+            while slip_class < len(SLIP_EDGES) and ratio >= SLIP_EDGES[slip_class]:
+                slip_class += 1
+            maps.film_slip[interface, film_class, slip_class, 0] += (look.time - look.since) * covered / STATIONS
+            maps.film_slip[interface, film_class, slip_class, 1] += passes * covered / STATIONS
+        density = along.density[k] = per_length / (2.0 * half_width)
+        # Flash temperature goes with P'/√b: where its square is the largest, it is taken.
+        if per_length * density > hottest:
+            hottest, hot[0], hot[1] = per_length * density, per_length, half_width
+        densest, fastest = max(densest, density), max(fastest, speed)
+    along.regime = 1 if film >= contact.roughness else 0
+    return densest, fastest, abs(entrainment)
+
+
+@jit
+def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
+    """Spread the energies of looks and raise the extremes; what is hottest is written to the looks."""
+    body, tables = roller
+    for n in range(looks.size):
+        look = looks[n]
+        at, span = look.at, look.time - look.since
+        states = (at.inner_load, at.inner_speed, at.inner_slip), (at.outer_load, at.outer_speed, at.outer_slip)
+        for i in range(2):
+            ratio, load = body.orbit_ratio - (1.0 if i == 0 else 0.0), states[i][0]
+            start = (start_angle + ratio * look.turned[0] + look.ahead[0]) * _PER_ANGLE
+            end = (start_angle + ratio * look.turned[1] + look.ahead[1]) * _PER_ANGLE
+            hot, last = look.hot[i], maps.last[i]
+            hot[0], hot[1], hot[2], hot[3] = 0.0, 1.0, states[i][1] - states[i][2], states[i][1]
+            before, after = maps.along[2 * i + last], maps.along[2 * i + 1 - last]
+            # As power lay, or lies, where it is known only once.
+            late = late_rough = 0.0
+            if load > 0.0:
+                densest, fastest, mean = _look_along(
+                    maps, i, contacts[i], states[i], look, abs(end - start) / SECTORS, after
+                )
+                film_ratio = look.film[i] / contacts[i].roughness
+                _raise(extreme, look.orbit, i, densest, fastest / mean, film_ratio)
+                if look.entry > 0:
+                    _raise(entry_extreme, look.orbit, i, densest, abs(states[i][2]) / mean, film_ratio)
+                for sector in range(math.floor(min(start, end)), math.floor(max(start, end)) + 1):
+                    place = maps.surface_density[i, int(sector % SECTORS)]
+                    for k in range(STATIONS):
+                        place[k] = max(place[k], after.density[k])
+                late = look.mean_time[i] if before.total > 0.0 else 1.0
+                late_rough = look.mean_time[i] if before.rough_total > 0.0 else 1.0
+            spent = (
+                (1.0 - late) * look.energy[i] / before.total if before.total > 0.0 else 0.0,
+                late * look.energy[i] / after.total if late > 0.0 and after.total > 0.0 else 0.0,
+                (1.0 - late_rough) * look.rough[i] / before.rough_total if before.rough_total > 0.0 else 0.0,
+                late_rough * look.rough[i] / after.rough_total if late_rough > 0.0 and after.rough_total > 0.0 else 0.0,
+                0.5 * span,
+                0.5 * span if load > 0.0 else 0.0,
+            )
+            _spread(maps, i, (start, end), look.mean_time[i], spent, before, after)
+            work = 0.5 * span * (before.work_total + (after.work_total if load > 0.0 else 0.0))
+            maps.working_load[i, 0] += work * load
+            maps.working_load[i, 1] += work
+            if load > 0.0:
+                maps.last[i] = 1 - last
+            else:
+                before.work[:], before.work_total = 0.0, 0.0
+        _look_at_cage(body, tables, contacts[2], look, extreme)
+
+
+@jit_inline
+def _look_at_cage(body, tables, contact, look, extreme):
+    """Find power and extremes of the cage's contact, without the oil of its pocket, whose force is far larger than that of a light contact."""
+    hot, surface, load = look.hot[2], look.at.cage_speed, abs(look.at.cage_load)
+    hot[0], hot[1], hot[2], hot[3] = 0.0, 1.0, surface, 0.0
+    if load > 0.0:
+        root = load ** (1.0 / 3.0)
+        force = cage_traction(body, tables, load, log_load(load), surface, log_speed(surface))[0]
+        hot[0], hot[1] = 0.75 * abs(surface * force) / (contact.patch.across * root), contact.patch.along * root
+        ratio = abs(surface) / max(0.5 * abs(surface), LOWEST_SPEED)
+        _raise(extreme, look.orbit, 2, hot[0] / (2.0 * hot[1]), ratio, look.film[2] / contact.roughness)
+
+
+@jit
+def _heat_entries(rows, effusivity, extreme):
+    """Raise the temperatures of entries [K]: rows have entry, orbit, time [s] and, by raceway, what is hottest as `_LOOK` has it."""
+    start = 0
+    for n in range(1, rows.shape[0] + 1):
+        if n < rows.shape[0] and rows[n, 0] == rows[start, 0]:
+            continue
+        orbit, entry = int(rows[start, 1]), rows[start:n].T
+        for i in range(2 if orbit >= 0 else 0):
+            power, half, roller, ring = entry[3 + 4 * i], entry[4 + 4 * i], entry[5 + 4 * i], entry[6 + 4 * i]
+            rise = transient_flash(entry[2], power, half, roller, ring, effusivity, effusivity)
+            extreme[orbit, i, 0] = max(extreme[orbit, i, 0], rise)
+        start = n
+
+
+class Looker:
+    """Looks at the contacts of one roller, buffer after buffer.
+
+    Parameters
+    ----------
+    edges : ndarray
+        Of the orbits [s].
+    roller : Roller
+    laws : RollerLaws
+    contacts : tuple of three Contact
+        From `prepare`, of these laws.
+    motion : Motion
+    start_angle : float
+        Position φ at the first sample [rad].
+    spacing : float
+        Changes between looks, over those of a roller on an imposed orbit.
+    """
+
+    def __init__(
+        self,
+        edges: np.ndarray,
+        roller: Roller,
+        laws: RollerLaws,
+        contacts: Any,
+        motion: Motion,
+        start_angle: float,
+        spacing: float = 1.0,
+    ):
+        self.details, self._spacing, self._start_angle = new_details(edges), spacing, start_angle
+        self._roller, self._laws, self._contacts, self._motion = roller, laws, contacts, motion
+        self._last, self._looks = np.zeros(1, STEP), Batch(_LOOK)
+        #: Rows for `_heat_entries` of the entry under way.
+        self._entering = np.zeros((0, 11))
+
+    def add(self, steps: np.ndarray, j: int) -> None:
+        """Take up the steps of roller `j` in a buffer."""
+        self._last = steps[-1:, j].copy()
+        looks, memory = self._looks.room(len(steps), self._look), self.details.memory[0]
+        radius, found = float(self._roller.body[0]["outer_radius"]), self.details
+        self._looks.count += _choose(steps, j, found.edges, found.entries, memory, radius, self._spacing, looks)
+
+    def finish(self) -> None:
+        """Spread what has been kept since the last look."""
+        memory, last = self.details.memory[0], self._last[0]
+        if memory["time"] < last["end"]:
+            look = self._looks.room(1, self._look)[0]
+            # Not one of those at which the quadrature is checked.
+            look["orbit"], look["number"] = memory["orbit"], 1
+            _begin(look, memory, last)
+            self._looks.count += 1
+        self._looks.empty(self._look)
+        self._heat(self._entering)
+
+    def _look(self, looks: np.ndarray) -> None:
+        """Look at the contacts."""
+        for i, (law, load, entrainment) in enumerate(loaded_contacts(looks["at"], self._laws)):
+            loaded = load > 0.0
+            film = law.film_thickness(load[loaded], entrainment[loaded])
+            looks["film"][loaded, i] = film
+            looks["share"][loaded, i] = law.asperity_share(load[loaded], entrainment[loaded], film)
+        looks["turned"] = angle_at(self._motion, np.stack([looks["since"], looks["time"]], axis=1))
+        found, steel = self.details, self._contacts[0].effusivity
+        roller = self._roller.body[0], self._roller.tables
+        _look(looks, self._contacts, roller, self._start_angle, found.maps[0], found.extreme, found.entry_extreme)
+        inside = looks["orbit"] >= 0
+        power, half, own, other = np.moveaxis(looks["hot"][inside], -1, 0)
+        flash = flash_temperature(power, half, own, other, steel, steel)
+        np.maximum.at(found.extreme[..., 0], looks["orbit"][inside], flash)
+        entering = looks[looks["entry"] > 0]
+        columns = [entering[name] for name in ("entry", "orbit", "time")]
+        rows = np.concatenate([self._entering, np.column_stack([*columns, entering["hot"][:, :2].reshape(-1, 8)])])
+        under_way = int(np.searchsorted(rows[:, 0], rows[-1, 0])) if rows.size else 0
+        self._heat(rows[:under_way])
+        self._entering = rows[under_way:]
+        self._check_quadrature(looks)
+
+    def _heat(self, rows: np.ndarray) -> None:
+        """Find how hot the raceways became in entries that have ended."""
+        _heat_entries(rows, self._contacts[0].effusivity, self.details.entry_extreme)
+
+    def _check_quadrature(self, looks: np.ndarray) -> None:
+        """Find power by the rule in use and by a much finer one, now and then."""
+        for look in looks[looks["number"] % _FINE == 0]:
+            for i, name in enumerate(RACEWAYS):
+                law: ContactLaws = getattr(self._laws, name)
+                load, ring_speed, slip = (float(look["at"][f"{name}_{one}"]) for one in ("load", "speed", "slip"))
+                if load <= 0.0 or not law.shape.microslip or law.fluid is None:
+                    continue
+                state, span = (load, float(look["film"][i]), ring_speed, slip), look["time"] - look["since"]
+                used = patch_power(self._contacts[i].patch, self._contacts[i].chords, *state)
+                fine = fine_power(self._contacts[i].patch, law.fluid, *state)
+                self.details.quadrature[i] += span * fine, span * abs(used - fine)

@@ -1,0 +1,188 @@
+"""All that a result holds of one roller, gathered from its steps buffer by buffer; the same for both engines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.measures.details import SECTORS, Details, Looker, prepare
+from macroslip.measures.skew import Skewing, SkewMeasures
+from macroslip.measures.totals import (
+    END,
+    INTERFACES,
+    Batch,
+    Totals,
+    book,
+    film_times,
+    loaded_contacts,
+    new_totals,
+)
+from macroslip.ring.orbit import angle_at
+
+if TYPE_CHECKING:
+    from macroslip.contact.laws import RollerLaws
+    from macroslip.ring.orbit import Motion
+    from macroslip.roller.model import Roller, RollerModel
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Measures that are wanted."""
+
+    edges: np.ndarray  #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
+    highest_speed: float  #: Largest raceway speed of the history [m/s]
+    trace_time: np.ndarray  #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
+    details: bool  #: Whether contacts are looked at station by station
+    spacing: float = 1.0  #: Changes between looks, over those of a roller on an imposed orbit
+
+
+class Row:
+    """Models, laws and contacts, as compiled code takes them, that the measures of a row's rollers share."""
+
+    def __init__(
+        self, model: RollerModel, roller: Roller, motion: Motion, wanted: Wanted, skewing: Skewing | None = None
+    ):
+        self.model, self.roller, self.motion, self.wanted, self.skewing = model, roller, motion, wanted, skewing
+        self.contacts = prepare(model.laws) if wanted.details else None
+
+
+class RollerMeasures:
+    """Measures of one roller.
+
+    Parameters
+    ----------
+    row : Row
+    start_angle : float
+        Position φ at the first sample [rad].
+    """
+
+    def __init__(self, row: Row, start_angle: float):
+        wanted = row.wanted
+        self.row = row
+        self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
+        self.film_times, self._states = np.zeros((2, 3)), Batch(END)
+        self.looker = (
+            Looker(wanted.edges, row.roller, row.model.laws, row.contacts, row.motion, start_angle, wanted.spacing)
+            if wanted.details
+            else None
+        )
+        self.skew = SkewMeasures(row.skewing, wanted.edges[0]) if row.skewing else None
+        self._last: np.ndarray | np.void = np.zeros((), END)
+        #: Largest power by place on the orbit [W], where no orbit is complete.
+        self.sector_power = None if wanted.edges.size > 1 else np.zeros((SECTORS, 3))
+        self._start_angle = start_angle
+        self._traced: list[np.ndarray] = []
+        self._next_trace = 0
+
+    @property
+    def details(self) -> Details | None:
+        """Details of the contacts, where they were wanted."""
+        return self.looker.details if self.looker else None
+
+    def add(self, steps: np.ndarray, j: int) -> None:
+        """Take up the steps of roller `j` in a buffer of shape (n, rollers)."""
+        mine = steps[:, j]
+        if not mine.size:
+            return
+        if self.skew:
+            self.skew.add(steps, j, self._places(mine))
+        states = self._states.room(mine.size, self._add_film_times)
+        book(steps, j, self.totals, states)
+        self._states.count += mine.size
+        if self.looker:
+            self.looker.add(steps, j)
+        if self.sector_power is not None:
+            self._add_sectors(mine[mine["start"] >= self.row.wanted.edges[0]], self.sector_power)
+        self._trace(mine, states)
+        self._last = states[-1]
+
+    @property
+    def end_slip(self) -> float:
+        """Slip at which the integration ended [m/s], the mean of both raceways."""
+        return 0.5 * float(self._last["inner_slip"] + self._last["outer_slip"])
+
+    def _add_film_times(self, states: np.ndarray) -> None:
+        self.film_times += film_times(states, self.row.model.laws)
+
+    def finish(self) -> None:
+        """Take up what is left in batches, and spread what has been kept since the last look."""
+        self._last = self._last.copy()
+        self._states.empty(self._add_film_times)
+        if self.looker:
+            self.looker.finish()
+
+    def _add_sectors(self, steps: np.ndarray, largest: np.ndarray) -> None:
+        """Raise the largest powers of the places on the orbit that the roller passes."""
+        counted = np.arange(steps["time"].shape[1]) < steps["stages"][:, None]
+        np.maximum.at(largest, self._places(steps)[counted], steps["power"][counted])
+
+    def _places(self, steps: np.ndarray) -> np.ndarray:
+        """Sectors of the orbit in which the stages of steps lie."""
+        ratio = self.row.model.orbit_ratio
+        angle = self._start_angle + ratio * angle_at(self.row.motion, steps["time"]) + steps["ahead"][:, None]
+        return np.floor(angle / (2.0 * np.pi) % 1.0 * SECTORS).astype(int) % SECTORS
+
+    def _trace(self, steps: np.ndarray, states: np.ndarray) -> None:
+        """Keep the states at the times of the traces: the first ends of steps that are not before them."""
+        times = self.row.wanted.trace_time
+        if self._next_trace == times.size:
+            return
+        last = steps["stages"] - 1
+        reached = np.where(
+            (steps["weight"][:, 0] == 0.0) & (steps["start"] < steps["end"]), -np.inf,
+            steps["time"][np.arange(steps.size), last],
+        )  # fmt: skip
+        # A step may end on a sample of the loads that is a rounding before the time.
+        wanted = times[self._next_trace :] - 1e-14 * np.abs(times[self._next_trace :])
+        places = np.searchsorted(np.maximum.accumulate(reached), wanted, side="left")
+        places = places[places < steps.size]
+        self._next_trace += places.size
+        if places.size:
+            self._traced.append(states[places])
+
+    def traces(self) -> dict[str, np.ndarray]:
+        """Traces by name, over time, and over interface or raceway; NaN from where an integration ended early."""
+        found, model = np.full(self.row.wanted.trace_time.size, np.nan, END), self.row.model
+        known = np.concatenate([np.zeros(0, END), *self._traced])
+        found[: known.size] = known
+        return {
+            "spin": (found["outer_speed"] - found["outer_slip"]) / model.radius,
+            "spin_pure": found["pure_speed"] / model.radius,
+            "slip": 0.5 * (found["inner_slip"] + found["outer_slip"]),
+            "raceway_slip": np.stack([found["inner_slip"], found["outer_slip"]], axis=-1),
+            "roller_load": found["elastic_load"],
+            "cage_force": found["cage_load"],
+            "traction": found["force"],
+            "power": found["power"],
+            "rolling_power": found["rolling"],
+            "film_thickness": _films(found, model.laws),
+            **(self.skew.traces(found) if self.skew else {"skew_moment": _skew_moments(found, model.laws)}),
+        }
+
+
+def _films(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
+    """Film thickness by interface [m]; NaN without load."""
+    found = np.full((at.size, len(INTERFACES)), np.nan)
+    for i, (law, load, speed) in enumerate(loaded_contacts(at, laws)):
+        loaded = load > 0.0  # not where it is NaN
+        if loaded.any():
+            found[loaded, i] = law.film_thickness(load[loaded], speed[loaded])
+    return found
+
+
+def _skew_moments(at: np.ndarray, laws: RollerLaws) -> np.ndarray:
+    """Skew moments of both raceways [N m], from their power, which is −u2 s times them; NaN at standstill.
+
+    A traction that drives the spin up acts along +x at the inner raceway, along −x at the outer one.
+    """
+    found = np.zeros((at.size, 2))
+    for i, (name, sign) in enumerate((("inner", 1.0), ("outer", -1.0))):
+        shape = getattr(laws, name).shape
+        if shape.microslip and shape.spin_ratio != 0.0:
+            with np.errstate(invalid="ignore", divide="ignore"):
+                found[:, i] = -sign * at["skew_power"][:, i] / (at[f"{name}_speed"] * shape.spin_ratio)
+        else:
+            found[np.isnan(at["inner_load"]), i] = np.nan
+    return found

@@ -1,0 +1,106 @@
+"""Skew of one roller, from its steps: what it adds to their power, and mean values by place on the orbit."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit
+from macroslip.measures.details import SECTORS
+from macroslip.roller.skew_table import Guide, SkewTable, turned
+
+#: What `SkewMeasures.by_place` sums up.
+BY_PLACE = ("skew_by_position", "axial_force_by_position", "skew_power_by_position")
+
+
+class Skewing(NamedTuple):
+    """How the rollers of a row skew."""
+
+    table: SkewTable
+    guide: Guide
+
+
+@jit
+def _add(table, guide, steps, j, places, window, before, sums, by_place):
+    """Add skew's power to steps, and sum up; `before` holds what was added at the end of the last step [W]."""
+    for n in range(steps.shape[0]):
+        step = steps[n, j]
+        for i in range(2):
+            step.power_before[i] += before[i]
+        counted = step.start >= window and step.end > step.start
+        for k in range(step.stages):
+            load, weight, inner, outer = step.elastic_load[k], step.weight[k], 0.0, 0.0
+            if load > 0.0:
+                found = turned(table, guide, load, step.outer_speed[k], step.cage_load[k])
+                inner, outer = found.inner_power, found.outer_power
+                step.power[k, 0] += inner
+                step.power[k, 1] += outer
+                if counted:
+                    sums[0] += weight * inner
+                    sums[1] += weight * outer
+                    sums[2] = max(sums[2], found.left)
+                    place = by_place[places[n, k]]
+                    place[0] += weight
+                    place[1] += weight * found.skew
+                    place[2] += weight * found.axial
+                    place[3] += weight * (inner + outer)
+            # Rows between the stages of a step come before it and have its start.
+            if k == step.stages - 1 and not (step.weight[0] == 0.0 and step.end > step.start):
+                before[0], before[1] = inner, outer
+
+
+@jit
+def _follow(table, guide, loads, speeds, pushes, found):
+    """Write the states that traces show: ψ, θ, axial force, moments of both raceways and force of a spar at the stop."""
+    for n in range(loads.size):
+        if loads[n] > 0.0:
+            at = turned(table, guide, loads[n], speeds[n], pushes[n])
+            found[n, 0], found[n, 1], found[n, 2] = at.skew, at.tilt, at.axial
+            found[n, 3], found[n, 4], found[n, 5] = at.inner_moment, at.outer_moment, abs(at.held) / guide.arm
+        elif not math.isnan(loads[n]):
+            found[n, 2:] = 0.0
+
+
+class SkewMeasures:
+    """Skew of one roller.
+
+    Parameters
+    ----------
+    skewing : Skewing
+    window : float
+        Start of the window [s].
+
+    Attributes
+    ----------
+    by_place : ndarray, shape (sectors, 4)
+        Time under the rings' load [s], and integrals over it of ψ [rad s], axial force [N s] and added power [J].
+    """
+
+    def __init__(self, skewing: Skewing, window: float):
+        self._skewing, self._window = skewing, window
+        self._sums, self._before = np.zeros(3), np.zeros(2)
+        self.by_place = np.zeros((SECTORS, 1 + len(BY_PLACE)))
+
+    def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
+        """Add skew's power to the steps of roller `j`, whose stages are at these places on the orbit, in the buffer itself."""
+        _add(*self._skewing, steps, j, places, self._window, self._before, self._sums, self.by_place)
+
+    @property
+    def energy(self) -> np.ndarray:
+        """What skew adds to the energy of inner and outer raceway in the window [J], shape (2,)."""
+        return self._sums[:2]
+
+    @property
+    def residual(self) -> float:
+        """Largest moment about the contact normal that a rest in the window leaves [N m]."""
+        return float(self._sums[2])
+
+    def traces(self, raw: np.ndarray) -> dict[str, np.ndarray]:
+        """Traces by name, from states of `END`; skew and tilt are NaN where the rings do not press the roller."""
+        columns = (np.ascontiguousarray(raw[name]) for name in ("elastic_load", "outer_speed", "cage_load"))
+        found = np.full((raw["elastic_load"].size, 6), np.nan)
+        _follow(*self._skewing, *columns, found)
+        names = ("skew_angle", "tilt", "axial_force")
+        return dict(zip(names, found.T, strict=False)) | {"skew_moment": found[:, 3:5], "stop_force": found[:, 5]}

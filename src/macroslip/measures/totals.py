@@ -1,0 +1,264 @@
+"""Energies, powers and shares of time in the window, from the steps of either engine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.roller.forces import LOWEST_SPEED
+
+if TYPE_CHECKING:
+    from macroslip.contact.laws import ContactLaws, RollerLaws
+
+#: Meaning of `Totals.mechanism_energy` by position: what makes surfaces slide.
+MECHANISMS = ("sliding", "curvature", "contact angle")
+INTERFACES = ("inner", "outer", "cage")
+RACEWAYS = INTERFACES[:2]
+#: A kink has no parabola; what one may add to the samples is bounded by this factor. And how uneven samples may be for
+#: a parabola: where spacing changes more, a fast transient has just ended, and a parabola would extrapolate it.
+HIGHEST_RISE, MOST_UNEVEN = 1.1, 4.0
+#: Part of the largest raceway speed of a history below which the ratio of spins is not taken: through standstill both
+#: spins pass zero, one a little after the other, and their ratio is any number.
+SPIN_RATIO_SPEED = 0.1
+#: Raceway speed [m/s] below which it never is: a rotor on its brake trembles, and its rollers neither roll nor slip.
+STANDSTILL = 1e-3
+#: Buffers of steps for whose records a batch has room, and least number of records.
+_BUFFERS, _LEAST_BATCH = 4, 1024
+
+
+#: The state at the end of a step; fields as of `STEP`. The time from `start` [s] counts with it: 0 before the window, and for a
+#: row without weight.
+END = np.dtype(
+    [
+        ("span", "f8"), ("pure_speed", "f8"), ("inner_slip", "f8"), ("outer_slip", "f8"), ("inner_speed", "f8"),
+        ("outer_speed", "f8"), ("cage_speed", "f8"), ("inner_load", "f8"), ("outer_load", "f8"), ("elastic_load", "f8"),
+        ("cage_load", "f8"), ("force", "f8", (3,)), ("power", "f8", (3,)), ("rolling", "f8", (3,)), ("skew_power", "f8", (2,)),
+    ]
+)  # fmt: skip
+
+
+@jit_inline
+def write_end(step, found):
+    """Write the state at the end of a step to a record of `END`, but for the time that counts with it."""
+    last = step.stages - 1
+    found.pure_speed = step.pure_speed
+    found.inner_slip, found.outer_slip = step.inner_slip[last], step.outer_slip[last]
+    found.inner_speed, found.outer_speed = step.inner_speed[last], step.outer_speed[last]
+    found.cage_speed, found.cage_load = step.cage_speed[last], step.cage_load[last]
+    found.inner_load, found.outer_load = step.inner_load[last], step.outer_load[last]
+    found.elastic_load = step.elastic_load[last]
+    for i in range(3):
+        found.force[i], found.power[i] = step.force[last, i], step.power[last, i]
+        found.rolling[i] = step.rolling[last, i]
+    found.skew_power[0], found.skew_power[1] = step.skew_power[last, 0], step.skew_power[last, 1]
+
+
+class Batch:
+    """Records that are gathered until they are enough for work on arrays."""
+
+    def __init__(self, kind: np.dtype):
+        self._records, self.count = np.zeros(0, kind), 0
+
+    def room(self, count: int, work: Callable[[np.ndarray], None]) -> np.ndarray:
+        """Room for `count` records behind the `self.count` ones; where there is none, `work` takes these first."""
+        if self.count + count > self._records.size:
+            self._hand_over(work)
+        if count > self._records.size:
+            self._records = np.zeros(max(_BUFFERS * count, _LEAST_BATCH), self._records.dtype)
+        return self._records[self.count : self.count + count]
+
+    def empty(self, work: Callable[[np.ndarray], None]) -> None:
+        """Have `work` take what was gathered, and keep no room."""
+        self._hand_over(work)
+        self._records = self._records[:0].copy()
+
+    def _hand_over(self, work: Callable[[np.ndarray], None]) -> None:
+        if self.count:
+            work(self._records[: self.count])
+        self.count = 0
+
+
+def loaded_contacts(at: np.ndarray, laws: RollerLaws) -> list[tuple[ContactLaws, np.ndarray, np.ndarray]]:
+    """Of each interface its laws, load [N], not negative, and entrainment speed [m/s], from `LOWEST_SPEED` on."""
+    found = [
+        (getattr(laws, name), at[f"{name}_load"], at[f"{name}_speed"] - 0.5 * at[f"{name}_slip"]) for name in RACEWAYS
+    ]
+    found.append((laws.cage, np.abs(at["cage_load"]), 0.5 * at["cage_speed"]))
+    return [(law, load, np.maximum(np.abs(speed), LOWEST_SPEED)) for law, load, speed in found]
+
+
+class Totals(NamedTuple):
+    """Sums over the steps of one roller. Interfaces are in the order inner, outer, cage."""
+
+    edges: np.ndarray  #: Times at which orbits of the window begin and end [s]; the window opens at the first
+    energy: np.ndarray  #: Dissipated by friction (34) in the window by interface [J]
+    rolling_energy: np.ndarray  #: Dissipated by rolling resistance, apart from friction [J]
+    asperity_energy: np.ndarray  #: Part of the energy of friction by asperities [J]
+    mechanism_energy: np.ndarray  #: Energy of friction by interface and mechanism [J]
+    orbit_energy: np.ndarray  #: Energy by complete orbit and interface [J]
+    #: Largest power (33) in each complete orbit, and last in the rest of the window, by interface [W]
+    peak_power: np.ndarray
+    #: Smallest ω/ω_pure in the window [-], −inf once the shaft has turned back; speed of the rings from which on it has
+    #: a meaning [m/s]; and the sign of that speed, 0 before.
+    spin_ratio: np.ndarray
+    film_load: np.ndarray  #: Time [s], and the integral over it of the load that films carry beside the rings' [N s]
+    #: The last two times [s] and powers [W], newest last, for the parabola through three; shape (2, 4)
+    samples: np.ndarray
+    place: np.ndarray  #: Orbit and stretch of the last step; -2 before the first
+
+
+def new_totals(edges: np.ndarray, highest_speed: float) -> Totals:
+    """Nothing yet, for orbits with these edges [s] and the largest raceway speed of the history [m/s]."""
+    orbits = edges.size - 1
+    shapes = (3, 3, 3, (3, len(MECHANISMS)), (orbits, 3), (orbits + 1, 3))
+    ratio = np.array([np.inf, max(SPIN_RATIO_SPEED * highest_speed, STANDSTILL), 0.0])
+    return Totals._make([edges, *map(np.zeros, shapes), ratio, np.zeros(2), np.zeros((2, 4)), np.array([-2, -1])])
+
+
+@jit
+def orbit_at(edges, time, likely):
+    """Index of the complete orbit that holds `time`, or −1 outside all of them; `likely` is looked at first."""
+    if likely >= 0 and edges[likely] <= time < edges[likely + 1]:
+        return likely
+    if time < edges[0] or time >= edges[-1]:
+        return -1
+    return np.searchsorted(edges, time, side="right") - 1
+
+
+@jit
+def vertex(ta, pa, tb, pb, tc, pc):
+    """Largest value of the parabola through three samples with ta < tb < tc and pb the largest.
+
+    Examples
+    --------
+    >>> vertex(0.0, 0.0, 1.0, 3.0, 2.0, 2.0)
+    3.125
+    """
+    left = (pb - pa) / (tb - ta)
+    right = (pc - pb) / (tc - tb)
+    curvature = (right - left) / (tc - ta)
+    if curvature >= 0.0:
+        return pb
+    slope = (left * (tc - tb) + right * (tb - ta)) / (tc - ta)
+    return pb - 0.25 * slope * slope / curvature
+
+
+@jit_inline
+def _follow(samples, peak, time, powers):
+    """Take up the powers at a new time; raise the orbit's peaks to them and to the parabolas through three of them."""
+    before, after = samples[1, 0] - samples[0, 0], time - samples[1, 0]
+    even = before > 0.0 and after > 0.0 and before < MOST_UNEVEN * after and after < MOST_UNEVEN * before
+    for interface in range(3):
+        power = powers[interface]
+        peak[interface] = max(peak[interface], power)
+        first, middle = samples[0, interface + 1], samples[1, interface + 1]
+        if even and middle > first and middle > power and HIGHEST_RISE * middle > peak[interface]:
+            top = vertex(samples[0, 0], first, samples[1, 0], middle, time, power)
+            peak[interface] = max(peak[interface], min(top, HIGHEST_RISE * middle))
+        samples[0, interface + 1] = middle
+        samples[1, interface + 1] = power
+    samples[0, 0], samples[1, 0] = samples[1, 0], time
+
+
+@jit_inline
+def _book_peaks(step, totals, orbit):
+    """Follow the powers over a step."""
+    samples = totals.samples
+    if step.stretch != totals.place[1]:
+        for row in range(2):
+            samples[row, 0] = step.start
+            for interface in range(3):
+                samples[row, interface + 1] = step.power_before[interface]
+    # Outside all complete orbits `orbit` is -1, the last line.
+    peak = totals.peak_power[orbit]
+    if orbit != totals.place[0]:
+        # The power before the step may be the peak of an orbit that has just begun.
+        for interface in range(3):
+            peak[interface] = max(peak[interface], step.power_before[interface])
+    if step.sampled == 0:
+        for k in range(step.stages):
+            _follow(samples, peak, step.time[k], step.power[k])
+
+
+@jit
+def book(steps, j, totals, states):
+    """Add the steps of roller `j` in a buffer to its totals.
+
+    Parameters
+    ----------
+    steps : ndarray of `STEP`, shape (n, rollers)
+    j : int
+    totals : Totals
+        Changed in place.
+    states : ndarray of `END`, shape (n,)
+        Filled with the states at the ends of the steps.
+
+    Notes
+    -----
+    Of the load that films carry beside that of the rings the lighter one of the two raceways' counts, which the roller's body
+    force does not load.
+    """
+    edges = totals.edges
+    for n in range(steps.shape[0]):
+        step, state = steps[n, j], states[n]
+        write_end(step, state)
+        state.span = 0.0
+        if step.start < edges[0]:
+            continue
+        orbit = orbit_at(edges, 0.5 * (step.start + step.end), totals.place[0])
+        span, films = 0.0, 0.0
+        for k in range(step.stages):
+            weight = step.weight[k]
+            span += weight
+            films += weight * (min(step.inner_load[k], step.outer_load[k]) - step.elastic_load[k])
+            for i in range(3):
+                energy = weight * step.power[k, i]
+                totals.energy[i] += energy
+                totals.rolling_energy[i] += weight * step.rolling[k, i]
+                totals.asperity_energy[i] += weight * step.rough[k, i]
+                totals.mechanism_energy[i, 0] += energy
+                if orbit >= 0:
+                    totals.orbit_energy[orbit, i] += energy
+            for i in range(2):
+                lag, skew = weight * step.lag_power[k, i], weight * step.skew_power[k, i]
+                totals.mechanism_energy[i, 0] -= lag + skew
+                totals.mechanism_energy[i, 1] += lag
+                totals.mechanism_energy[i, 2] += skew
+        totals.film_load[0] += span
+        totals.film_load[1] += films
+        if step.weight[0] > 0.0:
+            state.span = span
+        _book_peaks(step, totals, orbit)
+        totals.place[0], totals.place[1] = orbit, step.stretch
+        last, pure = step.stages - 1, step.pure_speed
+        if step.weight[last] > 0.0 and pure != 0.0 and abs(pure) >= totals.spin_ratio[1]:
+            surface = step.outer_speed[last] - step.outer_slip[last]
+            ratio, way = surface / pure, math.copysign(1.0, pure)
+            if totals.spin_ratio[2] == -way:
+                ratio = -np.inf
+            totals.spin_ratio[0], totals.spin_ratio[2] = min(totals.spin_ratio[0], ratio), way
+
+
+def film_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
+    """Time with load on each interface, and the part of it outside the film law's range [s], shape (2, 3).
+
+    Parameters
+    ----------
+    states : ndarray of `END`, shape (n,)
+    laws : RollerLaws
+    """
+    counted, found = states[states["span"] > 0.0], np.zeros((2, 3))
+    for i, (law, load, speed) in enumerate(loaded_contacts(counted, laws)):
+        loaded = load > 0.0
+        span = counted["span"][loaded]
+        found[:, i] = span.sum(), span[~law.film_in_range(load[loaded], speed[loaded])].sum()
+    return found
+
+
+def spin_ratio(totals: Totals) -> float:
+    """Smallest ratio of spin to spin in pure rolling; NaN where there is none, or pure rolling passes zero."""
+    return float(totals.spin_ratio[0]) if math.isfinite(totals.spin_ratio[0]) else math.nan

@@ -1,0 +1,325 @@
+"""Numbers of a result for its page, as plain data; None stands for an unknown number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from macroslip.constants import HOURS_A_YEAR
+from macroslip.damage.micropitting import share_below
+from macroslip.imposed.status import Status
+from macroslip.measures.details import FILM_EDGES
+from macroslip.report.page import Table, number
+from macroslip.report.style import years
+from macroslip.result.run_input import stored_settings
+from macroslip.study.summary import RATING_VARIABLES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Keys of a case in which a result on imposed orbits may differ from the coupled one it is compared with.
+_OWN_KEYS = ("dynamics", "cage", "traces", "rollers")
+#: Variables of a rating for the bearing as a whole, in the order of the table.
+_RATING = (
+    "static_safety", "equivalent_load", "fatigue_load_limit", "share_below_fatigue_load_limit", "minimum_load",
+    "share_below_minimum_load", "viscosity_ratio", "life_modification", "basic_life", "modified_life",
+)  # fmt: skip
+
+
+def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
+    """The main numbers of each row of a result, or of a case of a study.
+
+    Returns
+    -------
+    list of dict
+        Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface` with the largest
+        energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W], the median over the orbits; `spin`
+        [1], the lowest over pure rolling; `loaded` [%], share of time with load; `outside` and `mixed` [%], shares of
+        loaded time outside the film formula's range and with Λ below 3, of the raceway with more, and `outside_most`
+        [%] of any roller and interface; and how many `failed` of the `rollers`.
+    """
+    found = []
+    for name in result.row.values.tolist():
+        row = result.sel(row=name)
+        energy, parts = row.energy.sum("interface", skipna=False), row.energy.mean("roller", skipna=False)
+        total = _known(energy.mean("roller", skipna=False))
+        orbits = row.get("peak_power", row.get("peak_power_max"))
+        peak = row.get("window_peak_power", orbits)
+        if orbits is not None and "interface" in orbits.dims:
+            orbits = orbits.max("interface")
+        share = row.get("outside_film_range")
+        raceways = None if share is None else share.sel(interface=share.interface.isin(["inner", "outer"]))
+        found.append(
+            {
+                "name": name,
+                "energy": total,
+                "least": _known(energy.min("roller")),
+                "most": _known(energy.max("roller")),
+                "interface": str(parts.interface.values[int(np.argmax(parts.values))]) if total else "",
+                "share": 100.0 * float(parts.max()) / total if total else None,
+                "peak": None if peak is None else _known(peak.max()),
+                "typical": None if orbits is None else _known(orbits.median()),
+                "spin": _known(row.min_spin_ratio.min()) if "min_spin_ratio" in row else None,
+                "loaded": 100.0 * float((row.roller_load > 0.0).mean()) if "roller_load" in row else None,
+                "outside": None if raceways is None else _known(100.0 * raceways.mean("roller").max()),
+                "outside_most": None if share is None else _known(100.0 * share.max()),
+                "mixed": _mixed(row.film_slip_time) if "film_slip_time" in row else None,
+                "failed": int((row.status != 0).sum()),
+                "rollers": int(row.sizes["roller"]),
+            }
+        )
+    return found
+
+
+def _known(value: xr.DataArray) -> float | None:
+    return float(value) if bool(np.isfinite(value)) else None
+
+
+def _mixed(time: xr.DataArray) -> float | None:
+    """Share of loaded time with Λ below 3 [%], of the raceway with more."""
+    amounts = time.transpose("raceway", "film_class", "slip_class").values
+    shares = share_below(amounts, FILM_EDGES, 3.0)
+    return 100.0 * float(np.nanmax(shares)) if np.isfinite(shares).any() else None
+
+
+def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:
+    """Largest frictional power of a result [W], with its row and interface; None where it holds none."""
+    peak = result.get("window_peak_power", result.get("peak_power"))
+    if peak is None or not bool(peak.notnull().any()):
+        return None
+    place = peak.where(peak == peak.max(), drop=True).isel(row=0, interface=0)
+    return {"power": float(peak.max()), "row": place.row.item(), "interface": place.interface.item()}
+
+
+def estimated_values(result: xr.Dataset) -> tuple[int, int]:
+    """How many values of bearing and lubricant are engineering estimates, and how many there are."""
+    given = stored_settings(result)
+    entries = [one for part in ("bearing", "lubricant") for one in dict(given.get(part) or {}).values()]
+    tags = [entry.get("tag") for entry in entries if isinstance(entry, dict)]
+    return tags.count("E"), len(tags)
+
+
+def rollers_failed(results: Iterable[xr.Dataset]) -> tuple[int, int]:
+    """How many rollers of some datasets failed, and how many there are."""
+    statuses = [one.status for one in results]
+    return sum(int((one != 0).sum()) for one in statuses), sum(int(one.size) for one in statuses)
+
+
+def failures(name: str, result: xr.Dataset) -> list[dict[str, Any]]:
+    """When and how rollers of a result failed."""
+    if "end_time" not in result:
+        return []
+    failed = np.argwhere(result.status.transpose("row", "roller").values != Status.COMPLETED)
+    ends = (result.isel(row=row, roller=roller) for row, roller in failed)
+    return [
+        {
+            "name": name,
+            "row": one.row.item(),
+            "roller": one.roller.item(),
+            "time": float(one.end_time),
+            "slip": float(one.end_slip),
+            "how": Status(int(one.status)).sentence,
+        }
+        for one in ends
+    ]
+
+
+def overview_table(results: Mapping[str, xr.Dataset]) -> Table:
+    """Energies, peaks, spins and failures of every result and row."""
+    headings = (
+        "", "row", "mean energy of a roller [J]", "least [J]", "most [J]", "highest P_max [W]",
+        "lowest spin / pure rolling", "failed rollers",
+    )  # fmt: skip
+    keys = ("energy", "least", "most", "peak", "spin")
+    rows = [
+        (name, row["name"], *(number(row[key]) for key in keys), f"{row['failed']} of {row['rollers']}")
+        for name, result in results.items()
+        for row in row_numbers(result)
+    ]
+    return Table(headings, rows)
+
+
+def is_whole(result: xr.Dataset) -> bool:
+    """Whether orbit and spin were computed together."""
+    return result.attrs.get("dynamics") == "whole-bearing" and "momentum_residual" in result
+
+
+def counterpart(result: xr.Dataset, results: Mapping[str, xr.Dataset]) -> str | None:
+    """Name of the result on imposed orbits of the same case."""
+
+    def rest(one: xr.Dataset) -> dict[str, Any]:
+        return {key: value for key, value in stored_settings(one).items() if key not in _OWN_KEYS}
+
+    others = {name: one for name, one in results.items() if one is not result and not is_whole(one)}
+    return next((name for name, one in others.items() if "input" in one.attrs and rest(one) == rest(result)), None)
+
+
+def balances(result: xr.Dataset) -> dict[str, float]:
+    """Residuals of a whole bearing's balances, and all that has passed through: [N m s] and [J]."""
+    impulses = [str(name) for name in result if str(name).endswith("_impulse") and "book" in str(name)]
+    losses = ("book_raceway_loss", "book_friction_loss", "pocket_loss")
+    return {
+        "momentum": float(abs(result.momentum_residual).max()),
+        "impulse": max(float(abs(result[name]).max()) for name in impulses),
+        "energy": float(abs(result.energy_residual).max()),
+        "spent": sum(float(result[name].isel(book_time=-1)) for name in losses),
+    }
+
+
+def comparison_table(result: xr.Dataset, imposed: xr.Dataset) -> Table:
+    """Energy of friction at every interface beside the energy of the same case on imposed orbits."""
+    rows = []
+    for row in result.row.values.tolist():
+        for interface in result.interface.values.tolist():
+            before, now = (
+                float(one.energy.sel(row=row, interface=interface).mean("roller")) for one in (imposed, result)
+            )
+            ratio = now / before if before > 0.0 else None
+            rows.append((row, interface, f"{before:.4g}", f"{now:.4g}", number(ratio)))
+    return Table(("row", "interface", "imposed orbit [J]", "whole bearing [J]", "ratio"), rows)
+
+
+def pocket_table(result: xr.Dataset) -> Table:
+    """Forces of the spars of a whole bearing."""
+    span = result.attrs["window_end"] - result.attrs["window_start"]
+    rows = []
+    for row in result.row.values.tolist():
+        for side in result.side.values.tolist():
+            one = result.sel(row=row, side=side)
+            mean, contact = (float(values.mean()) / span for values in (one.pocket_impulse, one.pocket_contact_time))
+            rows.append(
+                (row, side, f"{float(one.largest_pocket_force.max()):.4g}", f"{mean:.4g}", f"{100 * contact:.3g}")
+            )
+    headings = ("row", "spar", "largest force [N]", "mean force on a roller [N]", "time in contact [%]")
+    return Table(headings, rows, "Forces of the spars in the window; front is the spar ahead along the orbit.")
+
+
+def rating_tables(result: xr.Dataset) -> list[Table]:
+    """The rating of a result: the bearing as a whole, its raceways, damage-equivalent loads."""
+    whole = [(str(result[name].attrs["long_name"]), rating_text(result[name])) for name in _RATING]
+    for along, words in (("hertz", "as in a Hertz contact"), ("uniform", "even along the roller")):
+        one = result.sel(load_along_roller=along)
+        whole.append((f"reference life, ISO/TS 16281, load {words}", rating_text(one.reference_life)))
+        whole.append((f"modified reference life, load {words}", rating_text(one.modified_reference_life)))
+    raceways = []
+    for row in result.row.values.tolist():
+        for raceway in ("inner", "outer"):
+            one = result.sel(row=row, raceway=raceway, load_along_roller="hertz")
+            values = (1e-3 * one.largest_roller_load, 1e-9 * one.largest_pressure, one.film_ratio, one.film_ratio_low)
+            cells = [
+                rating_text(value) for value in (*(one.drop_attrs() for one in values), one.raceway_reference_life)
+            ]
+            raceways.append((f"{row}, {raceway}", *cells))
+    headings = (
+        "row, raceway", "largest roller load [kN]", "largest pressure [GPa]", "film ratio Λ, median",
+        "Λ, 5 % of loaded rollers below", "reference life",
+    )  # fmt: skip
+    exponents = result.wohler_exponent.values.tolist()
+    ranges = [
+        (
+            f"{load} load",
+            *(rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one)) for one in exponents),
+        )
+        for load in result["load"].values.tolist()
+    ]
+    loads = Table(("damage-equivalent load, range at 1 Hz", *(f"exponent {one:g}" for one in exponents)), ranges)
+    return [Table(("bearing", "value"), whole), Table(headings, raceways), loads]
+
+
+def rating_summary(study: xr.Dataset) -> Table | None:
+    """Least, median and largest of the rating's numbers over the runs of a study; None where none was rated."""
+    if "static_safety" not in study or not bool(study.static_safety.notnull().any()):
+        return None
+    rows = []
+    for name in RATING_VARIABLES:
+        values = study[name].dropna("case")
+        if values.size:
+            ends = (values.min(keep_attrs=True), values.median(keep_attrs=True), values.max(keep_attrs=True))
+            rows.append((str(study[name].attrs["long_name"]), *map(rating_text, ends)))
+    return Table(("", "least", "median of the runs", "largest"), rows)
+
+
+def rating_text(value: xr.DataArray) -> str:
+    """A number with its unit, in usual units: kN, years, per cent.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> rating_text(xr.DataArray(87660.0, attrs={"units": "h"})), rating_text(xr.DataArray(1.5e5, attrs={"units": "N"}))
+    ('10 years', '150 kN')
+    """
+    found, units = float(value), value.attrs.get("units", "")
+    if not np.isfinite(found):
+        return "unlimited" if found > 0.0 else "–"
+    if units == "N":
+        return f"{1e-3 * found:.4g} kN"
+    if units == "Pa":
+        return f"{1e-9 * found:.3g} GPa"
+    if units == "h":
+        return years(found)
+    return f"{100.0 * found:.3g} %" if str(value.name).startswith("share") else f"{found:.3g}"
+
+
+def usual_units(value: float, unit: str) -> str:
+    """A value of a criterion with its unit, in usual units; a dash where there is none.
+
+    Examples
+    --------
+    >>> usual_units(7.17e4, "W/m2"), usual_units(2.26e12, "J/m2"), usual_units(0.05, "1"), usual_units(704.05, "year")
+    ('0.072 W/mm²', '2.3 MJ/mm²', '0.05', 'beyond 500 years')
+    """
+    if np.isnan(value):
+        return "–"
+    if unit == "year":
+        return years(value * HOURS_A_YEAR)
+    scale, name = {"W/m2": (1e-6, " W/mm²"), "J/m2": (1e-6, " J/mm²"), "1": (1.0, "")}.get(unit, (1.0, f" {unit}"))
+    found = value * scale
+    if name == " J/mm²" and found >= 1e3:
+        found, name = (1e-6 * found, " MJ/mm²") if found >= 1e6 else (1e-3 * found, " kJ/mm²")
+    return f"{float(f'{found:.2g}'):g}{name}"
+
+
+def criteria_table(lines: list[dict[str, Any]]) -> Table:
+    """Criteria of damage from `macroslip.result.damage.lines`: value, reference, ratio, and how sure each is."""
+    rows = []
+    for one in lines:
+        reference = f"{usual_units(one['reference'], one['unit'])}, " if np.isfinite(one["reference"]) else ""
+        value, ratio = usual_units(one["value"], one["unit"]), number(one["ratio"], 2)
+        rows.append((one["title"], value, f"{reference}{one['compared with']}", ratio, one["how sure"]))
+    return Table(("criterion", "value", "compared with", "ratio", "how sure"), rows)
+
+
+def by_raceway(values: xr.DataArray) -> list[tuple[str, str, float]]:
+    """Row, raceway and largest value of every map."""
+    return [
+        (row, raceway, float(values.sel(row=row, raceway=raceway).max()))
+        for row in values.row.values.tolist()
+        for raceway in ("outer", "inner")
+    ]
+
+
+def surface_shares(density: xr.DataArray) -> list[dict[str, Any]]:
+    """Of each row that dissipates energy its parts with slip < 0 and with Λ < 1 [%]."""
+    found: list[dict[str, Any]] = []
+    for row in density.row.values.tolist():
+        one = density.sel(row=row)
+        total = float(one.sum())
+        if total > 0.0:
+            negative, thin = (
+                float(one.sel(part).sum()) for part in ({"slip_sign": "negative"}, {"film_regime": "below 1"})
+            )
+            found.append({"row": row, "negative": 100.0 * negative / total, "thin": 100.0 * thin / total})
+    return found
+
+
+def least_film_ratios(orbit: xr.Dataset) -> list[tuple[str, str, float]]:
+    """Row, raceway and least median Λ over the orbit, where there is a film."""
+    middle = orbit.film_parameter.sel(quantile=0.5)
+    found = [
+        (row, interface, middle.sel(row=row, interface=interface).values)
+        for row in orbit.row.values.tolist()
+        for interface in ("inner", "outer")
+    ]
+    return [(row, interface, float(np.nanmin(one))) for row, interface, one in found if np.isfinite(one).any()]

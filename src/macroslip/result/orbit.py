@@ -1,0 +1,210 @@
+"""Where on their orbit rollers are loaded, slip and lose energy, and how thick their films are, from a run's traces.
+
+Angles count from the bottom along the orbit of a shaft that turns forward; 180 degrees is the top. All functions need
+traces from the first sample of the loads on, and raise InputError as `position` does.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from macroslip.bearing import geometry
+from macroslip.errors import InputError
+from macroslip.result.run_input import run_input
+
+#: Sectors of the orbit, 5 degrees each, and most samples of time from which quantiles are taken.
+SECTORS, _QUANTILE_SAMPLES = 72, 2400
+#: Most samples of a scene, and the least time between them [s].
+SCENE_SAMPLES, SCENE_STEP = 2400, 0.05
+_ORDER = ("row", "roller", "time")
+_ANGLE = {"units": "degree", "long_name": "angle from the bottom along the orbit"}
+
+
+def position(result: xr.Dataset) -> xr.DataArray:
+    """Angle of every roller [degrees, 0 to 360] over (row, roller, time).
+
+    Raises InputError if there are no traces, they begin after the loads, where the rollers' places are not known, or no
+    roller completed.
+    """
+    if "time" not in result.dims or not result.sizes["time"]:
+        raise InputError("the result has no traces", remedy="Give the case traces, such as traces: {step: 0.05 s}.")
+    loads = run_input(result).settings["loads"]
+    if abs(float(result.time[0]) - float(loads["start"])) > 1e-9:
+        raise InputError(
+            f"the traces begin at {float(result.time[0]):g} s, after the loads' {loads['start']:g} s, and where the "
+            "rollers are then is not in the result",
+            remedy="Leave traces.start away.",
+        )
+    turned = xr.DataArray(np.degrees(travelled(result)), dims="time")
+    angle = np.mod(np.degrees(result.start_angle) + 90.0 + turned, 360.0)
+    return angle.transpose(*_ORDER).assign_coords(time=result.time).assign_attrs(_ANGLE)
+
+
+def travelled(result: xr.Dataset) -> np.ndarray:
+    """Angle [rad], with its sign, that all rollers have travelled since the traces begin, at each of their times."""
+    whole = np.isfinite(result.spin_pure.values).all(axis=-1)
+    if not whole.any():
+        raise InputError("no roller completed, so that nothing is known of the orbit")
+    bearing = run_input(result).bearing
+    ratio = geometry.roller_radius(bearing) / geometry.outer_contact_radius(bearing)
+    speed = -ratio * result.spin_pure.values[whole][0]
+    steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(result.time.values)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def in_window(result: xr.Dataset) -> xr.Dataset:
+    """The times of the traces inside the window over which energies are taken."""
+    time = result.time
+    return result.sel(time=(time >= result.attrs["window_start"]) & (time <= result.attrs["window_end"]))
+
+
+def _middles(sectors: int) -> tuple[str, np.ndarray, dict[str, str]]:
+    return "angle", 360.0 / sectors * (np.arange(sectors) + 0.5), _ANGLE
+
+
+def _sectors(angle: xr.DataArray, sectors: int) -> np.ndarray:
+    return np.minimum((angle.values * (sectors / 360.0)).astype(int), sectors - 1)
+
+
+def energy_over_orbit(result: xr.Dataset, sectors: int = SECTORS) -> xr.DataArray:
+    """Frictional energy per orbit of a roller and per degree [J/degree], mean over the row's rollers that completed.
+
+    Over (row, interface, angle), the angle being the middle of the sector. The sum over the sectors times their width
+    is the energy per orbit, within what the traces' samples resolve; the attribute `energy_ratio` holds energy from the
+    traces over the integrator's own, both rows and all interfaces, `orbits` how many were made.
+    """
+    angle = position(result)
+    window = in_window(result)
+    if window.sizes["time"] < 2:
+        raise InputError("the traces hold less than two samples of the window", remedy="Give them a later end.")
+    power = window.power.transpose(*_ORDER, "interface").values
+    seconds = np.gradient(window.time.values)
+    seconds[[0, -1]] *= 0.5  # trapezoids
+    good, sector = (result.status == 0).values, _sectors(angle.sel(time=window.time), sectors)
+    orbits = np.ptp(travelled(result)[np.isin(result.time.values, window.time.values)]) / (2.0 * np.pi)
+    values = np.full((result.sizes["row"], result.sizes["interface"], sectors), np.nan)
+    for r in np.flatnonzero(good.any(axis=1) & (orbits > 0.0)):
+        here = sector[r, good[r]].ravel()
+        for i in range(result.sizes["interface"]):
+            total = np.bincount(here, (power[r, good[r], :, i] * seconds).ravel(), sectors)
+            values[r, i] = total / (good[r].sum() * orbits * 360.0 / sectors)
+    traced, integrated = (power[good] * seconds[:, None]).sum(), result.energy.values[good].sum()
+    about = {"units": "J/degree", "long_name": "energy per orbit and per degree of the orbit"}
+    about |= {"energy_ratio": float(traced / integrated) if integrated else math.nan, "orbits": float(orbits)}
+    labels = {"row": result.row, "interface": result.interface, "angle": _middles(sectors)}
+    return xr.DataArray(values, labels, ("row", "interface", "angle"), "energy_over_orbit", about)
+
+
+def load_zone(result: xr.Dataset, sectors: int = SECTORS, samples: int = 600) -> xr.DataArray:
+    """Roller load [N] over (row, time, angle): at each time the rollers' loads, interpolated between neighbours.
+
+    The load is given at as many angles as there are sectors, and at `samples` evenly spaced times at most.
+    """
+    angles = position(result)
+    every = slice(None, None, max(1, math.ceil(angles.sizes["time"] / samples)))
+    angle = angles.isel(time=every)
+    load = result.roller_load.isel(time=every).values
+    dims = _middles(sectors)
+    values = np.empty((result.sizes["row"], angle.sizes["time"], sectors))
+    for r, k in np.ndindex(*values.shape[:2]):
+        values[r, k] = np.interp(dims[1], angle.values[r, :, k], load[r, :, k], period=360.0)
+    labels = {"row": result.row, "time": angle.time, "angle": dims}
+    about = {"units": "N", "long_name": "load of the rollers"}
+    return xr.DataArray(values, labels, ("row", "time", "angle"), "roller_load", about)
+
+
+def over_orbit(
+    values: xr.DataArray, angle: xr.DataArray, quantiles: tuple[float, ...] = (0.05, 0.5, 0.95), sectors: int = SECTORS
+) -> xr.DataArray:
+    """Quantiles of a traced quantity over all rollers and times, by sector of the orbit.
+
+    Of values over (row, roller, time, interface) and angles [degrees] over (row, roller, time) come quantiles over
+    (row, interface, quantile, angle), NaN where a sector holds no value.
+    """
+    found = np.full((values.sizes["row"], values.sizes["interface"], len(quantiles), sectors), np.nan)
+    for r, sector in enumerate(_sectors(angle, sectors).reshape(len(found), -1)):
+        order = np.argsort(sector, kind="stable")
+        ends = np.searchsorted(sector[order], np.arange(sectors + 1))
+        for i, k in np.ndindex(found.shape[1], sectors):
+            here = values.values[r, ..., i].ravel()[order[ends[k] : ends[k + 1]]]
+            here = here[np.isfinite(here)]
+            if here.size:
+                found[r, i, :, k] = np.quantile(here, quantiles)
+    labels = {"row": values.row, "interface": values.interface, "quantile": list(quantiles), "angle": _middles(sectors)}
+    return xr.DataArray(found, labels, ("row", "interface", "quantile", "angle"), values.name, values.attrs)
+
+
+def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
+    """Averages over traces that a report shows of one result.
+
+    Returns
+    -------
+    dict
+        "result": the result without its traces; "orbit": `energy_over_orbit`, and quantiles of film_thickness [m] and
+        film_parameter [1] over (row, interface, quantile, angle), and of slip over the speed of the raceways [1];
+        "load_zone"; "scene"; "still".
+    """
+    orbit = energy_over_orbit(result).to_dataset()
+    window = in_window(result)
+    traced = window.isel(time=slice(None, None, max(1, math.ceil(window.sizes["time"] / _QUANTILE_SAMPLES))))
+    angle = position(result).sel(time=traced.time)
+    thickness = orbit["film_thickness"] = over_orbit(traced.film_thickness.transpose(*_ORDER, "interface"), angle)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        slip = (1.0 - traced.spin / traced.spin_pure).expand_dims(interface=["raceways"], axis=-1)
+    orbit["slip"] = over_orbit(slip, angle).isel(interface=0, drop=True)
+    about = {"units": "1", "long_name": "film thickness over composite roughness, Λ"}
+    orbit["film_parameter"] = (thickness / run_input(result).bearing.composite_roughness).assign_attrs(about)
+    return {
+        "result": result.drop_dims("time"),
+        "orbit": orbit,
+        "load_zone": load_zone(result).to_dataset(),
+        "scene": scene(result),
+        "still": still(result),
+    }
+
+
+def still(result: xr.Dataset) -> xr.Dataset:
+    """The bearing at the moment of the largest frictional power in the traces.
+
+    Over (row, roller): angle [degrees], slip [1] over the speed of the raceways, 1 for a roller that does not spin, and
+    roller_load [N].
+    """
+    angle, power = position(result), in_window(result).power.sum("interface").max(("row", "roller"))
+    one = result.sel(time=power.time[int(power.argmax("time"))])
+    values = {"angle": angle.sel(time=one.time), "slip": 1.0 - one.spin / one.spin_pure}
+    return xr.Dataset(values | {"roller_load": one.roller_load})
+
+
+def scene(result: xr.Dataset, *, samples: int = SCENE_SAMPLES, step: float = SCENE_STEP) -> xr.Dataset:
+    """A part of the traces to be played, around the largest power: at most `samples`, at least `step` [s] apart.
+
+    Over (row, roller, time), as 32-bit numbers: slip [m/s], roller_load [N] and power [W], summed over the interfaces,
+    at the instant; and angle [degrees] of the rollers at the first kept time over (row, roller), and travelled
+    [degrees] since then over (time). Where pockets were computed also cage_force [N], pocket_offset [m], and cage_lead
+    [degrees], by which a cage is ahead of pure rolling, over (row, time).
+    """
+    angle, turned = position(result), np.degrees(travelled(result))
+    every = slice(
+        None, None, max(1, round(step / float(np.median(np.diff(result.time.values)))))
+    )  # two samples at least
+    power = result.power.sum("interface", skipna=False).isel(time=every).transpose(*_ORDER)
+    window = np.isin(power.time.values, in_window(result).time.values)
+    total = np.where(window, np.nan_to_num(power.values, nan=-1.0).max(axis=(0, 1)), -1.0)
+    first = int(np.clip(int(np.argmax(total)) - samples // 2, 0, max(0, total.size - samples)))
+    part = slice(first, first + samples)
+    thin = result.isel(time=every).isel(time=part)
+    values = {"slip": thin.slip, "roller_load": thin.roller_load, "power": power.isel(time=part)}
+    if "pocket_offset" in thin:
+        values |= {name: thin[name] for name in ("cage_force", "pocket_offset")}
+    found = xr.Dataset({name: one.transpose(*_ORDER).astype(np.float32) for name, one in values.items()})
+    found.power.attrs = {"units": "W", "long_name": "frictional power, all interfaces, at the instant"}
+    if "pocket_offset" in thin:
+        lead = np.degrees(thin.cage_lag.transpose("cage", "time").values / run_input(result).bearing.pitch_radius)
+        leads = np.broadcast_to(lead.astype(np.float32), (result.sizes["row"], lead.shape[1]))
+        found["cage_lead"] = ("row", "time"), leads, {"units": "degree", "long_name": "cage ahead of pure rolling"}
+    found["angle"] = angle.isel(time=every).isel(time=part).isel(time=0, drop=True)
+    moved, about = turned[every][part], {"units": "degree", "long_name": "angle travelled since the start"}
+    return found.assign(travelled=("time", moved - moved[0], about))

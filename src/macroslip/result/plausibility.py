@@ -1,0 +1,107 @@
+"""Loads and results that cannot be meant so: a unit confused, an axis turned round, a law beyond its range.
+
+Every sentence says what was found, what is usual, and what to look at. Nothing is refused: a rare case may be right.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.loads import BearingLoads, HubLoads, RollerLoads
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from macroslip.bearing import Bearing
+
+#: Static load rating over rotor weight of main bearings, generously: 62 for the base bearing.
+_WEIGHTS = (5.0, 2000.0)
+#: Highest plausible shaft speed [rad/s]: 40 rpm. Largest static safety and contact pressure [Pa] of a bearing in use.
+_FASTEST, _SAFEST, _PRESSURE = 40.0 * np.pi / 30.0, 100.0, 4e9
+_RPM = 30.0 / np.pi
+#: Share of the rollers' load that films may carry without the balance of the rings.
+_FILMS = 0.05
+_JUDGED = ("static_safety", "largest_pressure", "share_below_minimum_load")
+#: Share of the time, or of the loaded time, beyond which a range counts as left.
+_MOST = 0.5
+
+
+def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearing | None = None) -> list[str]:
+    """Sentences on loads that cannot be meant so; none where all is plausible.
+
+    Parameters
+    ----------
+    loads : HubLoads, BearingLoads or RollerLoads
+    bearing : Bearing, optional
+        Its static load rating is what the rotor's weight is compared with.
+
+    Examples
+    --------
+    >>> doubtful_loads(HubLoads.bundled("14B"))
+    []
+    >>> upwards = HubLoads.constant((160e3, 0.0, 260e3), (0.0, 0.0, 0.0), 2.0, 10.0)
+    >>> doubtful_loads(upwards)[0][:44]
+    "the rotor's weight acts upwards: the mean of"
+    """
+    found, fastest = [], float(np.abs(loads.shaft_speed).max())
+    if fastest > _FASTEST:
+        found.append(
+            f"the shaft turns at up to {_RPM * fastest:.3g} rpm, and rotors on main bearings stay below 40 rpm; is the "
+            "speed that of the generator, or in another unit?"
+        )
+    if not isinstance(loads, HubLoads):
+        return found
+    thrust, _, lift = (float(one) for one in loads.force.mean(axis=0))
+    if lift > 0.0:
+        found.append(
+            f"the rotor's weight acts upwards: the mean of the vertical force is {lift / 1e3:+.3g} kN, and z points up; is "
+            "the axis turned round, or the force that of the shaft on the rotor?"
+        )
+    if thrust < 0.0:
+        found.append(
+            f"the mean thrust is {thrust / 1e3:.3g} kN, against the wind, and x points downwind; is the axis turned round?"
+        )
+    rating = bearing.static_load_rating if bearing is not None else None
+    if rating and lift < 0.0 and not _WEIGHTS[0] <= rating / -lift <= _WEIGHTS[1]:
+        found.append(
+            f"the rotor weighs {-lift / 1e3:.3g} kN, which is 1/{rating / -lift:.3g} of the bearing's static load rating C0, "
+            f"and main bearings have 1/{_WEIGHTS[0]:g} to 1/{_WEIGHTS[1]:g}; are the forces in another unit?"
+        )
+    return found
+
+
+def doubtful_result(result: xr.Dataset) -> list[str]:
+    """Sentences on numbers of a result and its rating that cannot be meant so, or that its laws do not reach."""
+    found, known = [], {name: float(result[name].max()) for name in _JUDGED if name in result}
+    if "outside_film_range" in result:
+        known["outside"] = float(result.outside_film_range.sel(interface=["inner", "outer"]).mean("roller").max())
+    if (safety := known.get("static_safety", 0.0)) > _SAFEST:
+        found.append(
+            f"the static safety is {safety:.3g}, and main bearings in use have 2 to 50: the loads are too small for "
+            "this bearing, or in another unit"
+        )
+    if (pressure := known.get("largest_pressure", 0.0)) > _PRESSURE:
+        found.append(
+            f"the largest pressure is {pressure / 1e9:.3g} GPa, beyond the 4 GPa that the static load rating stands "
+            "for: the loads are too large for this bearing, or in another unit"
+        )
+    if (share := known.get("share_below_minimum_load", 0.0)) > _MOST:
+        found.append(
+            f"the load is below the minimum that the maker requires for {100.0 * share:.3g} % of the time: rollers skid"
+        )
+    if (share := known.get("outside", 0.0)) > _MOST:
+        found.append(
+            f"the film's formula is outside its range for {100.0 * share:.3g} % of the loaded time at a raceway: film "
+            "thickness and traction are extrapolated there"
+        )
+    if "mean_film_load" in result and "mean_elastic_load" in result.attrs:
+        films, elastic = float(result.mean_film_load.mean()), float(result.attrs["mean_elastic_load"])
+        if films > _FILMS * (films + elastic):
+            found.append(
+                f"films of oil carry {100.0 * films / (films + elastic):.3g} % of the rollers' load, and the balance of the rings "
+                "does not know them: in oil so thick the rings stand further apart, and loads, energies and torque are less than "
+                "computed; take a warmer or thinner oil, or a larger load"
+            )
+    return found

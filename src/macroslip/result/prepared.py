@@ -1,0 +1,154 @@
+"""A case made ready once: loads at the bearing, motion of the ring, rollers, and the times that matter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
+from macroslip.case.case import Case
+from macroslip.case.oil_supply import supply_note
+from macroslip.case.parts import Radau
+from macroslip.contact.interface import highest_load, interfaces, truncated_share, truncation_load
+from macroslip.contact.registry import check_own_laws, film_range_notes
+from macroslip.contact.table import Box, table_box
+from macroslip.errors import InputError
+from macroslip.loads import RollerLoads
+from macroslip.result.skew import thrust_on_ring
+from macroslip.ring.motion import elastic_loads, own_motions, ring_motion
+from macroslip.ring.orbit import Motion, orbit_times
+from macroslip.roller.model import RollerModel, TableReport, body_force, ring_geometry, roller_model
+
+#: Samples of the traces of a roller beyond which only a mistaken step is left as an explanation.
+_MOST_SAMPLES = 10_000_000
+#: Times that the ring is balanced again with the forces of skewed rollers. Of the largest load, 5e-5 is left then where spars
+#: press, 1e-3 where nothing but the stop holds rollers (14B and 24A, 20 s).
+_BALANCED = 3
+#: Tolerance for which tables are made where the integrator has a fixed step.
+_FIXED_STEP_TOLERANCE = 2e-5
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A case made ready."""
+
+    case: Case  #: At a known temperature
+    models: dict[str, RollerModel]  #: By row
+    motion: Motion  #: Of the inner ring
+    own_motions: list[Motion]  #: Of every roller of both rows where roller loads are given
+    largest: float  #: Largest elastic load of a roller in the history [N]
+    heaviest: float  #: The same with weight and centrifugal force [N]
+    highest_speed: float  #: Largest raceway speed |u2| of the history [m/s]
+    edges: np.ndarray  #: Start of the window and ends of its complete orbits [s]
+    end: float  #: End of the simulation [s]
+    trace_time: np.ndarray  #: Times of traces [s]; none without traces
+    box: Box  #: States that the tables of the contacts hold
+
+    @property
+    def model(self) -> RollerModel:
+        """A roller of the downwind row."""
+        return self.models[ROWS[0]]
+
+    def drag_power(self) -> float:
+        """Mean power of the lubricant's drag (24) on the rollers of both rows in the window [W]."""
+        motion, model, start = self.motion, self.model, self.edges[0]
+        inside = (motion.time > start) & (motion.time < self.end)
+        time = np.concatenate([[start], motion.time[inside], [self.end]])
+        speed = np.abs(model.orbit_ratio * np.interp(time, motion.time, motion.shaft_speed))
+        power = model.drag * speed**3 * self.case.bearing.pitch_radius
+        return 2 * self.case.bearing.rollers_per_row * float(np.trapezoid(power, time)) / (self.end - start)
+
+    def _mean_elastic_load(self) -> float:
+        """Mean load with which the rings press a roller of either row [N], from some hundred samples."""
+        few = Motion(*(values[:: max(1, self.motion.time.size // 200)] for values in self.motion))
+        ring = ring_geometry(self.case.bearing, self.model)
+        return float(elastic_loads(self.case.ring_loads, ring, few).mean())
+
+    def notes(self, tables: TableReport) -> dict[str, Any]:
+        """Attributes on films out of range, on contacts cut off at the roller's ends, and on the tables in use."""
+        case = self.case
+        return {
+            "film_range_notes": "\n".join(film_range_notes(case.laws.film, interfaces(case.bearing, case.oil))),
+            "mean_elastic_load": self._mean_elastic_load(),
+            "truncated_share": truncated_share(self.largest, truncation_load(case.bearing, case.oil)),
+            "oil_supply_note": supply_note(case.oil_supply, case.oil, case.laws),
+            "contact_evaluation": "tables",
+            "table_error_typical": tables.typical_error,
+            "table_error_worst": tables.worst_error,
+            "table_size": tables.size,
+            "table_build_time": tables.build_time,
+        }
+
+
+def prepare(case: Case) -> Prepared:
+    """Make a case ready.
+
+    Raises InputError if a roller's load truncates its contact ellipse, or a law does not exist or breaks what laws have
+    to fulfil.
+    """
+    loads = case.ring_loads
+    options = {"tilt": case.drivetrain.tilt, "gravity": case.gravity, "drag": case.drag, "laws": case.laws}
+    models = {row: roller_model(case.bearing, case.oil, AXIAL_SIGNS[row], **options) for row in ROWS}
+    model = models[ROWS[0]]
+    ring = ring_geometry(case.bearing, model)
+    limit = highest_load(case.bearing, case.oil, case.laws)
+    motion, largest = ring_motion(loads, case.bearing, ring, limit)
+    ring_speeds = motion.shaft_speed * model.orbit_ratio * model.outer_radius
+    fastest = float(np.abs(ring_speeds).max())
+    check_own_laws(case.laws, case.bearing, case.oil, fastest)
+    body = body_force(model, float(np.abs(motion.shaft_speed).max()))
+    tolerance = case.integrator.tolerance if isinstance(case.integrator, Radau) else _FIXED_STEP_TOLERANCE
+    for _ in range(0 if case.laws.skew == "none" or isinstance(loads, RollerLoads) else _BALANCED):
+        box = table_box(ring_speeds, largest + body, float(tolerance))
+        more = thrust_on_ring(case, model, ring, motion, box)
+        motion, largest = ring_motion(loads, case.bearing, ring, limit, more)
+    heaviest = largest + body
+    end = float(motion.time[-1]) if case.window.end is None else float(case.window.end)
+    return Prepared(
+        case=case,
+        models=models,
+        motion=motion,
+        own_motions=own_motions(loads, ring, motion) if isinstance(loads, RollerLoads) else [],
+        largest=largest,
+        heaviest=heaviest,
+        highest_speed=fastest,
+        edges=_orbit_edges(case, motion, model.orbit_ratio, end),
+        end=end,
+        trace_time=_trace_times(case, motion, end),
+        box=table_box(ring_speeds, heaviest, float(tolerance)),
+    )
+
+
+def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> np.ndarray:
+    """Start of the window and the ends of the complete orbits in it [s]."""
+    times = orbit_times(motion.time, motion.shaft_speed, orbit_ratio)
+    if case.window.start is None:
+        if case.loads.event:  # what happens in the first orbit belongs to it
+            return np.concatenate([motion.time[:1], times[times <= end]])
+        start = times[0] if times.size and times[0] < end else motion.time[0]
+        return np.concatenate([[start], times[(times > start) & (times <= end)]])
+    start = float(case.window.start)
+    # Orbits are counted from the start of the window, not of the history.
+    late = motion.time > start
+    time = np.concatenate([[start], motion.time[late]])
+    speed = np.concatenate([[np.interp(start, motion.time, motion.shaft_speed)], motion.shaft_speed[late]])
+    times = orbit_times(time, speed, orbit_ratio)
+    return np.concatenate([[start], times[times <= end]])
+
+
+def _trace_times(case: Case, motion: Motion, window_end: float) -> np.ndarray:
+    """Times at which traces are kept [s], never past the end of the simulation."""
+    if case.traces is None:
+        return np.empty(0)
+    start = motion.time[0] if case.traces.start is None else case.traces.start
+    end = window_end if case.traces.end is None else min(case.traces.end, window_end)
+    samples = (end - start) / case.traces.step * (1.0 + 1e-12)
+    if samples > _MOST_SAMPLES:
+        what = f"a step of {case.traces.step:g} s makes {samples:.3g} samples"
+        allowed = f"up to {_MOST_SAMPLES:,} samples for each roller"
+        remedy = "Take a longer step, or traces of a shorter time."
+        raise InputError(what, where="traces", allowed=allowed, remedy=remedy)
+    count = int(np.floor(samples)) + 1
+    return np.minimum(start + case.traces.step * np.arange(max(count, 0)), end)

@@ -1,0 +1,98 @@
+"""Skew in a case and in its result."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
+from macroslip.measures.skew import BY_PLACE, Skewing
+from macroslip.ring.orbit import Motion
+from macroslip.roller.skew import pocket
+from macroslip.roller.skew_table import guide_of, skew_table
+from macroslip.roller.thrust import thrust
+
+if TYPE_CHECKING:
+    from macroslip.case.case import Case
+    from macroslip.contact.laws import RollerLaws
+    from macroslip.contact.table import Box
+    from macroslip.measures.skew import SkewMeasures
+    from macroslip.ring.balance import RingGeometry
+    from macroslip.roller.model import RollerModel
+
+_TRACES = ("row", "roller", "time")
+#: Variables of a case with skew.
+VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "skew_energy": (
+        ("row", "roller", "raceway"),
+        "J",
+        "energy in the window beyond that of a straight roller; it is part of the energy, and may be negative",
+    ),
+    "skew_residual": (
+        ("row", "roller"),
+        "N m",
+        "largest moment about the contact normal in the window that neither spar nor stop carries at the rest that was found",
+    ),
+    "frictional_thrust": (
+        ("row",),
+        "N",
+        "mean axial force of a row's rollers on the inner ring by friction and turned normal force in the window, along +Z0",
+    ),
+    "skew_by_position": (("row", "position"), "rad", "mean skew of pressed rollers in the window by place on the orbit"),
+    "axial_force_by_position": (
+        ("row", "position"),
+        "N",
+        "mean axial force of a pressed roller on the inner ring in the window by place on the orbit, along +z'",
+    ),
+    "skew_power_by_position": (
+        ("row", "position"),
+        "W",
+        "mean power of a pressed roller beyond that of a straight one in the window by place on the orbit",
+    ),
+    "skew_angle": (_TRACES, "rad", "skew, turn of the roller's axis about +y'; NaN where the rings do not press it"),
+    "tilt": (_TRACES, "rad", "tilt, turn of the roller's axis about +x; NaN where the rings do not press it"),
+    "axial_force": (_TRACES, "N", "force on the inner ring by friction and turned normal force, along +z'"),
+    "stop_force": (_TRACES, "N", "force of either end of the pocket on a roller at its stop"),
+}  # fmt: skip
+
+
+def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
+    """How the rollers of both rows skew; empty without skew. `laws` are the downwind row's."""
+    if case.laws.skew == "none":
+        return {}
+    table, cage = skew_table(laws, case.bearing, box), case.cage
+    stop = pocket(case.bearing, cage.guidance, cage.gap, cage.skew_play)
+    if cage.alignment == "none":
+        stop = stop._replace(effective_radius=0.0)
+    return {row: Skewing(table, guide_of(stop, AXIAL_SIGNS[row])) for row in ROWS}
+
+
+def thrust_on_ring(case: Case, model: RollerModel, ring: RingGeometry, motion: Motion, box: Box) -> np.ndarray:
+    """What the balance of the inner ring feels of skew at the samples of its motion [N], shape (n, 3); 0 after the window."""
+    down, up = skewing(case, model.laws, box).values()
+    count = motion.time.size
+    if case.window.end is not None:
+        count = min(int(np.searchsorted(motion.time, case.window.end)) + 1, count)
+    found = np.zeros((motion.time.size, 3))
+    part = Motion(*(values[:count] for values in motion))
+    found[:count] = thrust(down.table, (down.guide, up.guide), ring, model, part)
+    return found
+
+
+def values(case: Case, table: list[list[SkewMeasures]], failed: np.ndarray, span: float) -> dict[str, np.ndarray]:
+    """Variables beside traces, of measures by row and roller, for a window of `span` [s]."""
+    energy = np.array([[one.energy for one in line] for line in table])
+    residual = np.array([[one.residual for one in line] for line in table])
+    energy[failed] = residual[failed] = np.nan
+    sums = np.array([[one.by_place for one in line] for line in table])
+    sums[failed] = np.nan
+    total = np.nansum(sums, axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        means = total[..., 1:] / total[..., :1]
+        share = case.bearing.rollers_per_row / (~failed).sum(axis=1)
+    impulse = total[..., 1 + BY_PLACE.index("axial_force_by_position")].sum(axis=1)
+    thrust = np.where(failed.all(axis=1), np.nan, impulse * share / span * math.cos(case.bearing.contact_angle))
+    found = {"skew_energy": energy, "skew_residual": residual, "frictional_thrust": thrust}
+    return found | dict(zip(BY_PLACE, np.moveaxis(means, -1, 0), strict=True))

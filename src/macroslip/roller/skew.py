@@ -1,0 +1,317 @@
+"""Equilibrium of a skewed roller on an imposed orbit: its slip, tilt and shift, and the moment that turns it on.
+
+At a given skew ψ three conditions fix the slip Δu, the tilt θ and the shift δ (inner raceway i, outer raceway o, σ = κ_z times the
+contact's place on the raceway is its slope there, F the axial tractions):
+
+* spin: the moment of the tractions about the roller's axis is that of rolling resistance,
+* axial force: F_i + F_o = Q (σ_i + σ_o),
+* couple about x: Σ k [r (F − Q σ) + Q (ζ + k r θ)] = 0.
+
+What is left is the net moment about the contact normal. It turns the roller within tenths of a second, an orbit being seconds,
+until it vanishes (rest) or a stop carries it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from macroslip.bearing import geometry
+from macroslip.contact.rolling import light_contact
+from macroslip.contact.skewed import SkewedContact, resultants, skewed_contact
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.contact.laws import RollerLaws
+    from macroslip.contact.skewed import Shear
+
+#: Longest step of the slip over the speed of the rings, and what may be left of the spin moment over radius, and change of the
+#: axial tractions, over the load.
+_LONGEST, _LEFT, _STILL = 0.01, 1e-7, 1e-6
+#: Iterations: at most, and from which on changes of the axial tractions are halved, for contacts that would swing.
+_ITERATIONS, _DAMPED = 80, 20
+#: Difference of slip over the speed of the rings, for the slope of the spin moment.
+_STEP = 1e-6
+#: Skew up to which states are computed [rad]: an unguided roller beyond it is lost.
+LARGEST_SKEW = 0.06
+#: Angles between which rests are looked for, denser where a law of shear turns its traction [rad].
+_ANGLES = 2e-4 * np.sinh(np.linspace(0.0, np.arcsinh(LARGEST_SKEW / 2e-4), 25))
+_ANGLES = np.concatenate([-_ANGLES[:0:-1], _ANGLES])
+
+
+class Equilibrium(NamedTuple):
+    """A roller in equilibrium but for the moment about the contact normal; arrays of one shape.
+
+    Attributes
+    ----------
+    slip : ndarray
+        Δu at the middle of the roller [m/s]; NaN where none was found.
+    tractions : ndarray, shape (2, ...)
+        Tractions of the raceways along z' [N].
+    tilt, shift : ndarray
+        θ [rad], positive about +x, and δ of the roller's middle along z' [m].
+    moment : ndarray
+        Net moment about +y' [N m], tractions and pressure of both raceways; positive turns the roller to positive skew.
+    moments : ndarray, shape (..., 2)
+        The same by raceway.
+    power : ndarray, shape (..., 2)
+        Frictional power of the raceways [W].
+    axial : ndarray
+        Axial force on the inner ring along z' [N], of friction and of the turned normal force.
+    push : ndarray
+        Force of the raceways on the roller along +x [N], of tractions and rolling resistance; a spar bears it, with weight and drag.
+    unbalanced : ndarray
+        Spin moment left over radius and load [-].
+    """
+
+    slip: np.ndarray
+    tractions: np.ndarray
+    tilt: np.ndarray
+    shift: np.ndarray
+    moment: np.ndarray
+    moments: np.ndarray
+    power: np.ndarray
+    axial: np.ndarray
+    push: np.ndarray
+    unbalanced: np.ndarray
+
+
+class Pair(NamedTuple):
+    """Both raceway contacts of a roller that may be skewed."""
+
+    inner: SkewedContact
+    outer: SkewedContact
+
+
+def raceways(laws: RollerLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None) -> Pair:
+    """The raceway contacts of a roller; parameters as of `macroslip.contact.skewed.skewed_contact`."""
+    inner, outer = (skewed_contact(one, bearing, axial_sign, shear) for one in (laws.inner, laws.outer))
+    return Pair(inner, outer)
+
+
+def _resistance_on(laws: RollerLaws, load, speed) -> tuple[np.ndarray, np.ndarray]:
+    """Rolling resistance of both raceways [N]: in the spin equation, against the spin's own sign, and along +x."""
+    total = np.zeros(np.broadcast(load, speed).shape)
+    push = np.zeros(total.shape)
+    for contact, sign in ((laws.inner, 1.0), (laws.outer, -1.0)):
+        if contact.rolling is not None:
+            shear = -np.copysign(light_contact(contact.rolling, load, np.abs(speed))[1], speed)
+            total, push = total + shear, push + sign * (1.0 - 2.0 * contact.rolling.share_1) * shear
+    return np.asarray(total), np.asarray(push)
+
+
+def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where a roller lies under axial tractions, by the conditions of axial force and couple.
+
+    Parameters
+    ----------
+    pair : Pair
+    load : ndarray
+        Q [N].
+    axial : ndarray, shape (2, ...)
+        F of inner and outer raceway along z' [N].
+
+    Returns
+    -------
+    tilt, shift : ndarray
+        θ [rad] and δ [m].
+    middles : ndarray, shape (2, ...)
+        ζ_c [m].
+    """
+    r = pair.inner.roller_radius
+    sides = np.array([one.side for one in pair])
+    # By θ and δ: ζ_c, the place ζ + δ + k r θ on the raceway, and the arm of the normal force.
+    middle = np.array([[k * (one.along * r - 1.0), one.along] for k, one in zip(sides, pair, strict=True)])
+    middle /= np.array([[one.lateral] for one in pair])
+    arm = middle + np.stack([sides * r, np.zeros(2)], axis=1)
+    slope = np.array([[one.along] for one in pair]) * (arm + np.array([0.0, 1.0]))
+    conditions = np.stack([slope.sum(axis=0), sides @ (r * slope - arm)])
+    right = np.stack([axial.sum(axis=0), r * np.tensordot(sides, axial, 1)]) / load
+    lies = np.tensordot(np.linalg.inv(conditions), right, 1)
+    return lies[0], lies[1], np.tensordot(middle, lies, 1)
+
+
+def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equilibrium | None = None) -> Equilibrium:
+    """The slip, tilt and shift of a roller at a given skew.
+
+    Parameters
+    ----------
+    pair : Pair
+    laws : RollerLaws
+        For rolling resistance.
+    load : array_like
+        Q > 0 [N], the same at both raceways.
+    ring_speed : array_like
+        u2 ≠ 0 [m/s], the same at both.
+    skew : array_like
+        ψ [rad].
+    start : Equilibrium, optional
+        States nearby, such as those of a smaller skew, of the same shape.
+    """
+    states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (load, ring_speed, skew)))
+    shape = states[0].shape
+    load, ring_speed, skew = (one.ravel() for one in states)
+    (resistance, push), longest = _resistance_on(laws, load, ring_speed), _LONGEST * np.abs(ring_speed)
+    beside = push
+    push = push.copy()
+    slip, axial = np.zeros(load.size), np.zeros((2, load.size))
+    last_spin, taken = np.zeros(load.size), np.zeros(load.size)
+    if start is not None:
+        slip, axial = (np.nan_to_num(one).reshape(-1, load.size) for one in (start.slip, start.tractions))
+        slip = slip[0].copy()
+    tilt, shift, left = np.empty(load.size), np.empty(load.size), np.empty(load.size)
+    moments, power, inward = np.empty((load.size, 2)), np.empty((load.size, 2)), np.empty(load.size)
+    bend, r, going = pair.inner.along, pair.inner.roller_radius, np.arange(load.size)
+    for iteration in range(_ITERATIONS):
+        here, u = slip[going], ring_speed[going]
+        tilt[going], shift[going], middles = placed(pair, load[going], axial[:, going])
+        step = _STEP * np.abs(u)
+        # Each state, and the same with a little more slip.
+        twice = [np.tile(one, 2) for one in (load[going], u, skew[going], tilt[going])]
+        inner, outer = (
+            resultants(one, twice[0], twice[1], np.append(here, here + step), twice[2], np.tile(place, 2), twice[3])
+            for one, place in zip(pair, middles, strict=True)
+        )
+        count = going.size
+        spin, more = np.split(inner.spin + outer.spin, 2)
+        slope = (more - spin) / step
+        spin = spin + resistance[going]
+        push[going] = beside[going] + (inner.pull - outer.pull)[:count]
+        found = np.stack([inner.axial[:count], outer.axial[:count]])
+        change = np.abs(found - axial[:, going]).max(axis=0)
+        axial[:, going] = found if iteration < _DAMPED else 0.5 * (found + axial[:, going])
+        left[going] = np.abs(spin) / load[going]
+        moments[going] = np.stack([(one.moment + one.pressure_moment)[:count] for one in (inner, outer)], axis=-1)
+        power[going] = np.stack([one.power[:count] for one in (inner, outer)], axis=-1)
+        place = middles[0] + shift[going] - r * tilt[going]
+        inward[going] = load[going] * bend * place - found[0]
+        moving = (left[going] >= _LEFT) | (change >= _STILL * load[going])
+        # Behind a zero at most half of the way back: where the slope falls to both sides, whole steps would swing for ever.
+        most = np.where(spin * last_spin[going] < 0.0, 0.5 * np.abs(taken[going]), longest[going])
+        change = np.clip(spin / np.maximum(slope, np.abs(spin) / longest[going]), -most, most)
+        last_spin[going], taken[going] = spin, change
+        slip[going] = np.where(moving, here - change, here)
+        going = going[moving]
+        if not going.size:
+            break
+    for one in (slip, tilt, shift, moments, power, inward, push, left):
+        one[going] = np.nan
+    axial[:, going] = np.nan
+
+    def shaped(values: np.ndarray) -> np.ndarray:
+        return values.reshape((*shape, *values.shape[1:]))[()]
+
+    return Equilibrium(
+        shaped(slip), axial.reshape(2, *shape), shaped(tilt), shaped(shift), shaped(moments.sum(axis=-1)),
+        shaped(moments), shaped(power), shaped(inward), shaped(push), shaped(left),
+    )  # fmt: skip
+
+
+class Rest(NamedTuple):
+    """A skew at which the moment about the contact normal vanishes.
+
+    Attributes
+    ----------
+    skew : float
+        ψ [rad].
+    stable : bool
+        Whether a roller beside it turns towards it.
+    """
+
+    skew: float
+    stable: bool
+
+
+def rests(pair: Pair, laws: RollerLaws, load: float, ring_speed: float, alignment: float = 0.0) -> list[Rest]:
+    """All skews up to `LARGEST_SKEW` at which a roller may rest, in rising order.
+
+    Parameters
+    ----------
+    pair : Pair
+    laws : RollerLaws
+    load, ring_speed : float
+        Q > 0 [N] and u2 ≠ 0 [m/s].
+    alignment : float
+        Moment per skew by which a pressing spar straightens the roller [N m/rad], see `Pocket.alignment`.
+    """
+
+    def moment(skew):
+        return equilibrium(pair, laws, load, ring_speed, skew).moment - alignment * skew
+
+    moments = moment(_ANGLES)
+    changes = np.flatnonzero(moments[:-1] * moments[1:] < 0.0)
+    return [
+        Rest(brentq(lambda one: float(moment(one)), *_ANGLES[n : n + 2], xtol=1e-7), bool(moments[n] > 0.0))
+        for n in changes
+    ]
+
+
+class Pocket(NamedTuple):
+    """How the cage holds a roller against skew, by the shape of its spars.
+
+    Attributes
+    ----------
+    largest : float
+        Largest skew [rad].
+    arm : float
+        Moment of the two spars over the force of either, with the roller at its stop [m].
+    effective_radius : float
+        Moment by which one spar straightens the roller, over its force and the skew [m/rad].
+    """
+
+    largest: float
+    arm: float
+    effective_radius: float
+
+    def alignment(self, force: float) -> float:
+        """Moment per skew of a spar that presses with `force` [N] on a slightly skewed roller [N m/rad].
+
+        Examples
+        --------
+        >>> from macroslip import Bearing
+        >>> round(pocket(Bearing.read("skf-240-600-bc"), "straight-bars", 0.5e-3).alignment(30.0), 3)
+        11.148
+        """
+        return abs(force) * self.effective_radius
+
+
+def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = None) -> Pocket:
+    """The stop of a pocket whose spars follow the outer raceway's contour, or are straight.
+
+    A roller that turns by ψ in a pocket of curvature κ slides along it at its radius r, so that its contour comes nearer by
+    ψ ζ (1 − κ r) at the station ζ. It touches first at ζ = ψ (1 − κ r)/C, with C = 1/R_roller − κ, or at its end. A conforming
+    pocket of the base bearing therefore leaves 9 % more skew than one that is taken as flat over the radius.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    guidance : "conforming-pocket", "straight-bars", "guide-ring" or "none"
+        A guide ring stands beside straight spars; without guidance a roller turns up to `LARGEST_SKEW`.
+    gap : float
+        Free way of the roller between its two spars [m], ≥ 0.
+    play : float, optional
+        Largest skew in place of what follows from the gap [rad]; a guide ring needs it.
+
+    Examples
+    --------
+    >>> from macroslip import Bearing
+    >>> base = Bearing.read("skf-240-600-bc")
+    >>> [round(1e3 * pocket(base, one, 0.5e-3).largest, 2) for one in ("conforming-pocket", "straight-bars")]
+    [6.58, 36.68]
+    """
+    if guidance == "none":
+        return Pocket(LARGEST_SKEW if play is None else play, np.inf, 0.0)
+    r, half = geometry.roller_radius(bearing), 0.5 * bearing.roller_length
+    bend = 1.0 / bearing.outer_raceway_radius if guidance == "conforming-pocket" else 0.0
+    curvature = 1.0 / geometry.roller_contour_radius(bearing) - bend
+    nearer = 1.0 - bend * r
+    effective = nearer * (nearer / curvature - r)
+    if play is not None:
+        return Pocket(play, 2.0 * half * nearer, effective)
+    inside = float(np.sqrt(gap / effective))
+    if inside * nearer / curvature < half:
+        return Pocket(inside, 2.0 * effective * inside, effective)
+    end = (0.5 * gap + 0.5 * curvature * half**2) / (half * nearer)
+    return Pocket(end, 2.0 * half * nearer, effective)

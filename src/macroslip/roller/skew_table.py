@@ -1,0 +1,217 @@
+"""Skew of a roller as a table over load, speed and skew, and the rest that a straight roller turns to, as compiled functions find it.
+
+The table is made for a roller of the downwind row with the shaft forward (u2 < 0). Skew and moment change their signs with the
+row, and with the direction of turning; tilt and axial force with the row alone.
+
+A roller that the rings press turns from ψ = 0 the way its net moment drives it, to the first skew at which the moment of a spar
+that presses on it holds it, or to its stop. It takes tenths of a second, and is taken to be there at once.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.look_up import cell_of
+from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients, splines_in_cube
+from macroslip.contact.table import Box, contact_parts
+from macroslip.contact.table_store import remembered, stored, table_key
+from macroslip.errors import MacroslipError
+from macroslip.roller.skew import LARGEST_SKEW, Equilibrium, Pocket, equilibrium, raceways
+
+if TYPE_CHECKING:
+    from macroslip.bearing import Bearing
+    from macroslip.contact.laws import RollerLaws
+
+#: Lightest load [N], distances between nodes of ln Q, u^¼ [(m/s)^¼] and asinh(ψ/ψ0), and ψ0 [rad].
+_LIGHTEST, _LOAD, _SPEED, _SKEW, _SCALE = 2e3, 0.2, 0.06, 0.3, 2e-4
+#: Least speed of a table as part of the fastest; below it, powers are in proportion to speed, and moments do not change.
+_SLOWEST = 0.1
+#: Iterations for a rest between two nodes.
+_ITERATIONS = 6
+
+
+class SkewTable(NamedTuple):
+    """Two cubes of four splines: moment and what a result adds up, and what only traces need."""
+
+    tables: np.ndarray
+    more: int  #: Where the second cube begins
+    load: Axis
+    speed: Axis
+    skew: Axis
+
+
+class Guide(NamedTuple):
+    """What holds the rollers of one row: the row's axial sign, and the numbers of `Pocket`."""
+
+    side: float
+    largest: float
+    arm: float
+    effective_radius: float
+
+
+class Turned(NamedTuple):
+    """A roller at its rest."""
+
+    skew: float  #: ψ [rad]
+    held: float  #: Moment about +y' that its stop carries [N m]; 0 away from it
+    #: What skew adds to the power of inner and outer raceway [W].
+    inner_power: float
+    outer_power: float
+    axial: float  #: Force on the inner ring along z' [N]
+    tilt: float  #: θ [rad]
+    #: Moments of the raceways about +y' [N m].
+    inner_moment: float
+    outer_moment: float
+    left: float  #: Size of the moment about +y' that neither spar nor stop carries [N m]
+
+
+def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
+    """The table of a bearing's rollers, made or from store.
+
+    Parameters
+    ----------
+    laws : RollerLaws
+        Of the downwind row.
+    bearing : Bearing
+    box : Box
+        States that it holds; loads below 2 kN have the forces and powers of 2 kN in proportion to theirs.
+
+    Raises
+    ------
+    MacroslipError
+        Where no equilibrium was found.
+    """
+    slowest = max(box.slowest, _SLOWEST * box.fastest) ** 0.25
+    first = max(math.floor(slowest / _SPEED), 1)  # at rest there is no slip, and no equilibrium
+    last = max(math.ceil(box.fastest**0.25 / _SPEED), first + 4)
+    end = math.ceil(math.asinh(LARGEST_SKEW / _SCALE) / _SKEW)
+    load = axis(math.log(_LIGHTEST), math.log(max(box.load, 4.0 * _LIGHTEST)), _LOAD)
+    skew = Axis(-end * _SKEW, 1.0 / _SKEW, 2 * end)
+    speed = Axis(first * _SPEED, 1.0 / _SPEED, last - first)
+    pair = raceways(laws, bearing, 1)
+    numbers = [(contact_parts(one.laws), tuple(one)[2:], one.laws.rolling) for one in pair]
+    key = table_key("skew", tuple(numbers), load, skew)
+
+    def make() -> SkewTable:
+        sheets = [
+            stored(table_key(key, int(n)), lambda at=(n * _SPEED) ** 4: [_sheet(laws, bearing, load, skew, at)])[0]
+            for n in range(first, last + 1)
+        ]
+        cubes = [spline_coefficients(np.stack(sheets, axis=1)[..., part : part + 4], 3).ravel() for part in (0, 4)]
+        return SkewTable(np.concatenate(cubes), cubes[0].size, load, speed, skew)
+
+    return remembered(table_key(key, speed), make)
+
+
+def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: float) -> np.ndarray:
+    """Quantities at all loads and skews at one speed [m/s], shape (loads, skews, 8)."""
+    loads, angles = np.exp(load.nodes), _SCALE * np.sinh(skew.nodes[skew.cells // 2 :])
+    pair, both = raceways(laws, bearing, 1), np.array([-1.0, 1.0])[:, None]
+    states: list[Equilibrium] = []
+    for angle in angles:
+        at = equilibrium(pair, laws, loads, -speed, both * angle, states[-1] if states else None)
+        if np.isnan(at.slip).any():
+            worst = loads[np.isnan(at.slip).any(axis=0)].max()
+            raise MacroslipError(
+                f"no equilibrium of a skewed roller was found at {worst:.4g} N, {speed:.3g} m/s and {1e3 * angle:.3g} mrad. "
+                "This is a defect of the solver; please report it with the bearing and the oil."
+            )
+        states.append(at)
+    straight = states[0].power
+    found = np.stack([_scaled(one, straight, loads, speed) for one in states], axis=2)
+    return np.concatenate([found[0, :, :0:-1], found[1]], axis=1)
+
+
+def _scaled(at: Equilibrium, straight: np.ndarray, load: np.ndarray, speed: float) -> np.ndarray:
+    """Quantities of the table, shape (2, loads, 8)."""
+    per_moment, added = load ** (-4.0 / 3.0), (at.power - straight) / (load * speed)[:, None]
+    return np.stack(
+        [
+            at.moment * per_moment, added[..., 0], added[..., 1], at.axial / load,
+            at.tilt, at.moments[..., 0] * per_moment, at.push / load, at.shift,
+        ],
+        axis=-1,
+    )  # fmt: skip
+
+
+@jit_inline
+def _at(table, part, load, speed, place):
+    """Four quantities of cube 0 or 1 at the cell and place of load and speed, and at a coordinate of skew."""
+    j, u, _ = cell_of(table.skew, place)
+    inner = CHANNELS * (table.skew.cells + 3)
+    outer = inner * (table.speed.cells + 3)
+    start = part * table.more + load[0] * outer + speed[0] * inner + CHANNELS * j
+    value, _, _, _ = splines_in_cube(table.tables, start, (outer, inner), (load[1], speed[1], u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
+    return value
+
+
+@jit_inline
+def raceway_push(table, load, ring_speed):
+    """Force of the raceways on a straight roller along the orbit [N], which presses on a spar beside weight and drag."""
+    place, column = cell_of(table.load, math.log(load)), cell_of(table.speed, math.sqrt(math.sqrt(abs(ring_speed))))
+    return -math.copysign(load, ring_speed) * _at(table, 1, place, column, 0.0)[2]
+
+
+@jit
+def turned(table, guide, load, ring_speed, push):
+    """The rest of a roller under the elastic load Q > 0 [N] at u2 [m/s], on which a spar presses with `push` [N].
+
+    Parameters
+    ----------
+    table : SkewTable
+    guide : Guide
+    load, ring_speed, push : float
+
+    Returns
+    -------
+    Turned
+    """
+    size = abs(ring_speed)
+    i, t, _ = cell_of(table.load, math.log(load))
+    k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(size)))
+    row, column, heavy = (i, t), (k, s), load ** (4.0 / 3.0)
+    align = guide.effective_radius * abs(push) / heavy * _SCALE
+    first = _at(table, 0, row, column, 0.0)
+    way = math.copysign(1.0, first[0])
+    end = math.asinh(guide.largest / _SCALE)
+    low, high, excess, beyond = 0.0, 0.0, way * first[0], way * first[0]
+    while beyond > 0.0 and high < end:
+        low, excess = high, beyond
+        high = min(low + 1.0 / table.skew.per_spacing, end)
+        beyond = way * _at(table, 0, row, column, way * high)[0] - align * math.sinh(high)
+    place = high
+    if beyond <= 0.0 and high > 0.0:
+        # Regula falsi, which halves the value at an end that stays (Illinois).
+        side, place = 0, low + (high - low) * excess / (excess - beyond)
+        for _ in range(_ITERATIONS):
+            left = way * _at(table, 0, row, column, way * place)[0] - align * math.sinh(place)
+            if left > 0.0:
+                low, excess, beyond, side = place, left, 0.5 * beyond if side > 0 else beyond, 1
+            else:
+                high, beyond, excess, side = place, left, 0.5 * excess if side < 0 else excess, -1
+            place = low + (high - low) * excess / (excess - beyond)
+    value = _at(table, 0, row, column, way * place)
+    other = _at(table, 1, row, column, way * place)
+    angle = way * _SCALE * math.sinh(place)
+    rest = heavy * (value[0] - way * align * math.sinh(place))
+    held, left = (rest, 0.0) if beyond > 0.0 else (0.0, abs(rest))
+    # Straight, nothing is added, not even by rounding.
+    tilt, power, axial = 0.0, 0.0, 0.0
+    inner, outer = 0.0, 0.0
+    if place > 0.0:
+        power, axial, tilt = load * size, guide.side * load * value[3], guide.side * other[0]
+        inner, outer = power * value[1], power * value[2]
+    mirror = -guide.side * math.copysign(1.0, ring_speed)
+    return Turned(
+        mirror * angle, mirror * held, inner, outer, axial, tilt,
+        mirror * heavy * other[1], mirror * heavy * (value[0] - other[1]), left,
+    )  # fmt: skip
+
+
+def guide_of(pocket: Pocket, axial_sign: int) -> Guide:
+    """What holds the rollers of a row."""
+    return Guide(float(axial_sign), pocket.largest, pocket.arm, pocket.effective_radius)

@@ -1,0 +1,69 @@
+"""Force of skewed rollers on the inner ring, which its balance feels beside the load."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from macroslip.compiled import jit
+from macroslip.ring.balance import RingGeometry, roller_loads
+from macroslip.ring.orbit import Motion
+from macroslip.roller.model import RollerModel
+from macroslip.roller.skew_table import Guide, SkewTable, raceway_push, turned
+
+
+@jit
+def _forces(table, guides, ring, body, angle, speed, displacement, found):
+    """Sum up forces over the rollers of both rows, downwind first; `body` is weight [N], drag [N s²] and u2 over −Ω [m]."""
+    loads = np.empty(ring.cosine.size)
+    weight, drag, radius = body
+    for k in range(angle.size):
+        orbit_speed = ring.orbit_ratio * speed[k]
+        if orbit_speed == 0.0:
+            continue
+        roller_loads(ring, angle[k], displacement[k], loads)
+        turn = ring.orbit_ratio * angle[k]
+        turn_cosine, turn_sine = math.cos(turn), math.sin(turn)
+        for j in range(loads.size):
+            if loads[j] == 0.0:
+                continue
+            guide = guides[0] if 2 * j < loads.size else guides[1]
+            cosine = ring.cosine[j] * turn_cosine - ring.sine[j] * turn_sine
+            sine = ring.sine[j] * turn_cosine + ring.cosine[j] * turn_sine
+            push = weight * cosine + drag * orbit_speed * abs(orbit_speed)
+            push += raceway_push(table, loads[j], -orbit_speed * radius)
+            axial = turned(table, guide, loads[j], -orbit_speed * radius, push).axial
+            found[k, 0] -= axial * ring.axial[j] * cosine
+            found[k, 1] -= axial * ring.axial[j] * sine
+            found[k, 2] += axial * ring.cos_contact_angle
+
+
+def thrust(
+    table: SkewTable, guides: tuple[Guide, Guide], ring: RingGeometry, model: RollerModel, motion: Motion
+) -> np.ndarray:
+    """Force of all rollers on the inner ring by friction and turned normal forces, as they rest under its motion.
+
+    Parameters
+    ----------
+    table : SkewTable
+    guides : tuple of two Guide
+        Of the downwind and the upwind row.
+    ring : RingGeometry
+    model : RollerModel
+        Of the downwind row.
+    motion : Motion
+
+    Returns
+    -------
+    ndarray, shape (n, 3)
+        Along X0, Y0 and Z0 at the samples of the motion [N].
+
+    Notes
+    -----
+    A spar presses as on a gripped roller: with weight, drag and what both raceways leave on it.
+    """
+    found = np.zeros((motion.time.size, 3))
+    body = (model.weight_in_plane, model.drag, model.outer_radius)
+    _forces(table, guides, ring, body, motion.shaft_angle, motion.shaft_speed, motion.displacement, found)
+    return found

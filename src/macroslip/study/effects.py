@@ -1,0 +1,151 @@
+"""Effects of sampled parameters on a year: main effects, rank correlations and ranges."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from macroslip.errors import InputError
+from macroslip.study.weights import Weights, described
+from macroslip.study.year import CRITERIA, LIVES, designs, year
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+#: Quantiles of a quantity over the sample, and points below which nothing is said.
+QUANTILES = (0.05, 0.5, 0.95)
+_FEWEST = 4
+
+
+def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Spearman's rank correlation of results with each value of a sample, and its probability by chance.
+
+    Parameters
+    ----------
+    values : array_like, shape (n, parameters)
+    results : array_like, shape (n,)
+
+    Returns
+    -------
+    ndarray, ndarray, shape (parameters,)
+        NaN where a value or the results do not change, and for fewer than three points.
+
+    Notes
+    -----
+    `scipy.stats.spearmanr`.
+
+    Examples
+    --------
+    >>> ranks, chance = rank_correlations([[1.0, 7.0], [2.0, 7.0], [3.0, 7.0], [4.0, 7.0]], [1.0, 4.0, 9.0, 16.0])
+    >>> ranks.tolist()
+    [1.0, nan]
+    """
+    from scipy.stats import spearmanr
+
+    places, found = np.asarray(values, float), np.asarray(results, float)
+    ranks, chance = np.full((2, places.shape[1]), np.nan)
+    if found.size >= 3 and np.ptp(found) > 0.0:
+        for p in np.flatnonzero(np.ptp(places, axis=0) > 0.0):
+            ranks[p], chance[p] = spearmanr(places[:, p], found)
+    return ranks, chance
+
+
+def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Mean of the results in the upper half of each value less that in its lower half, and the standard error.
+
+    Parameters
+    ----------
+    values : array_like, shape (n, parameters)
+    results : array_like, shape (n,)
+
+    Examples
+    --------
+    >>> effect, error = main_effects([[1.0], [2.0], [3.0], [4.0]], [10.0, 12.0, 20.0, 22.0])
+    >>> effect.item(), round(error.item(), 3)
+    (10.0, 1.414)
+    """
+    places, found = np.asarray(values, float), np.asarray(results, float)
+    effect, error = np.full((2, places.shape[1]), np.nan)
+    for p, one in enumerate(places.T):
+        halves = found[one > np.median(one)], found[one <= np.median(one)]
+        if min(half.size for half in halves) >= 2:
+            effect[p] = halves[0].mean() - halves[1].mean()
+            error[p] = np.sqrt(sum(half.var(ddof=1) / half.size for half in halves))
+    return effect, error
+
+
+def sampled_parameters(study: xr.Dataset) -> list[str]:
+    """Keys that the study file samples, in `open_study`'s dataset."""
+    variations = json.loads(study.attrs.get("study", "{}")).get("variations") or {}
+    ranges = (variations.get("sample") or {}).get("ranges") or {}
+    return [str(key) for key in ranges if key in study.coords]
+
+
+def effects(
+    study: xr.Dataset, weights: Weights | None = None, *, field: str = "wind_speed", width: float = 2.0
+) -> xr.Dataset:
+    """How the criteria and lives of a year change with each sampled parameter.
+
+    Parameters
+    ----------
+    study, weights, field, width
+        As in `macroslip.study.year.year`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (quantity, parameter): `main_effect`, mean of the upper half of the parameter's values less that of the lower
+        half, in parts of the mean [1], its standard error `main_effect_error`, Spearman's `rank_correlation` and its
+        `probability` by chance. Over (quantity, quantile): `range`, in the coordinate `units`. `points`: of the sample. Where
+        bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean over the sample in each.
+
+    Raises
+    ------
+    InputError
+        If the study has no sample, or a label or a weight is wrong.
+
+    Notes
+    -----
+    Points without a value are left out, and quantities with fewer than four. An effect beside a standard error of its size
+    is none.
+    """
+    names = sampled_parameters(study)
+    if not names:
+        raise InputError("the study has no sample", allowed="studies with variations: {sample: ...}")
+    found = year(study, weights, field=field, width=width)
+    table, _ = designs(found)
+    labels = [str(name) for name, one in found.coords.items() if one.dims == ("group",) and name not in names]
+    table["_block"] = table.groupby(labels, dropna=False, sort=False).ngroup()
+    units = {name: unit for name, (_, unit, _) in CRITERIA.items()} | dict.fromkeys(LIVES, "h")
+    quantities = [name for name in units if name in table and np.isfinite(table[name].to_numpy()).sum() >= _FEWEST]
+    shape = len(quantities), len(names)
+    effect, error, ranks, chance = np.full((4, *shape), np.nan)
+    spread = np.full((shape[0], len(QUANTILES)), np.nan)
+    for q, name in enumerate(quantities):
+        known = table[np.isfinite(table[name])]
+        values = known[names].to_numpy(dtype=float)
+        mean = known.groupby("_block")[name].transform("mean")
+        relative = (known[name] / mean.where(mean != 0.0)).fillna(1.0).to_numpy()
+        effect[q], error[q] = main_effects(values, relative)
+        ranks[q], chance[q] = rank_correlations(values, relative)
+        spread[q] = np.quantile(known[name], QUANTILES)
+    over = ("quantity", "parameter")
+    return xr.Dataset(
+        {
+            "main_effect": (over, effect, described("1", "change from the lower to the upper half, over the mean")),
+            "main_effect_error": (over, error, described("1", "standard error of it")),
+            "rank_correlation": (over, ranks, described("1", "Spearman's rank correlation")),
+            "probability": (over, chance, described("1", "probability of such a correlation by chance")),
+            "range": (("quantity", "quantile"), spread, described("see units", "quantiles over the sample")),
+            "points": ((), len(table), described("1", "designs of the sample")),
+        },
+        {
+            "quantity": quantities,
+            "parameter": names,
+            "quantile": list(QUANTILES),
+            "units": ("quantity", [units[name] for name in quantities]),
+        },
+    )

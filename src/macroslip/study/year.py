@@ -1,0 +1,253 @@
+"""A year of each design of a study: energy, entries, wear and mixed film by wind speed and event, and one life."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from macroslip.damage.friction_energy import ThrustTest
+from macroslip.loads.bundled import EVENTS
+from macroslip.study.weights import CHOICES, YEAR, Weights, binned, described, weighted
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
+LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
+EXPONENTS = (4, 10)
+#: Sums over a year: by name the rate in the summary [1/s of the unit], unit and meaning.
+SUMS = {
+    "entries": ("entry_rate", "1", "entries beyond the slip of a smearing rig, all rollers of the row, at least"),
+    "wear": ("wear_rate", "m", "depth of wear at k = 1e-17 m2/N, at most"),
+    "pressure_slip": ("pressure_slip_rate", "J/m2", "pressure times slip per area, largest place"),
+    "mixed_time": ("mixed_film_time", "s", "time of a roller under load with Lambda below 1"),
+}
+
+
+def year(
+    study: xr.Dataset, weights: Weights | None, *, field: str = "wind_speed", width: float = 2.0, by: Sequence[str] = ()
+) -> xr.Dataset:
+    """What a year does to each design of a study; without weights all cases count alike, in one bin.
+
+    Lives accumulate by the rule of Palmgren and Miner, 1/L = Σ p_b/L_b, and ranges of damage-equivalent loads, which are
+    at 1 Hz, by S = (Σ p_b S_b^m)^(1/m), both with p_b as share of the time that the cases cover.
+
+    Parameters
+    ----------
+    study, weights, field, width, by
+        As in `macroslip.study.lifetime.lifetime_energy`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (group, bin): `runs` in the means and `left_out`, those that failed or are missing. Over bin: `hours` of a year
+        [h]. Over (group, bin, row): `energy` of a mean roller in a year [J], `per_hour` [J], `peak` and `entry_slip`, the
+        largest power [W] and slide-roll ratio at an entry [1] of any run, and the sums of `SUMS`, as far as the results
+        kept what they need; worst places of different bins are added, so `wear` and `pressure_slip` are upper bounds. Over
+        (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the scatter of runs that share
+        a bin; NaN where no bin has two. Over group: the lives [h] and damage-equivalent loads [N]; NaN where a bin of some
+        weight has none. `covered` [1].
+
+    Raises
+    ------
+    InputError
+        If a label or a weight is wrong.
+
+    Examples
+    --------
+    Half a year with a life of 10 000 h and half with 30 000 h, both on the way to failure:
+
+    >>> import xarray as xr
+    >>> from macroslip.study.weights import Given
+    >>> two = {name: ("case", ["-", "-"]) for name in ("bearing", "lubricant", "model")}
+    >>> rows = {"energy_mean": (("case", "row"), [[600.0], [1200.0]]), "basic_life": ("case", [1e4, 3e4])}
+    >>> study = xr.Dataset(rows | {"window_length": ("case", [600.0, 600.0])},
+    ...                    two | {"wind_speed": ("case", [8.0, 12.0], {"units": "m/s"}), "row": ["downwind"]})
+    >>> found = year(study, Given({8.0: 0.5, 12.0: 0.5}))
+    >>> found.basic_life.item(), f"{found.total.item():.5g} J"
+    (15000.0, '4.7336e+07 J')
+    """
+    bins = binned(study, None if weights is None else field, width, by)
+    share = bins.probabilities(weights)
+    weight = share[:, None]
+
+    def in_a_year(rates: np.ndarray) -> np.ndarray:
+        # A bin of no weight needs no run.
+        with np.errstate(invalid="ignore"):
+            return np.where(weight > 0.0, YEAR * weight * rates, 0.0)
+
+    def by_row(name: str) -> np.ndarray:
+        return study[name].transpose("case", "row").values
+
+    power = by_row("energy_mean") / study.window_length.values[:, None]
+    mean, runs, left_out = bins.means(power)
+    square, _, _ = bins.means(power**2)
+    energy = in_a_year(mean)
+    several = np.asarray(runs > 1)[:, :, None]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        # Variance of a mean of n runs: s²/n, with s² = n/(n − 1) (<P²> − <P>²).
+        variance = np.where(several, np.maximum(square - mean**2, 0.0) / (runs - 1.0)[:, :, None], 0.0)
+        scatter = np.sqrt((np.where(several, YEAR * weight, 0.0) ** 2 * variance).sum(axis=1)) / energy.sum(axis=1)
+    scatter[~np.any(several & (weight > 0.0), axis=1)[:, 0]] = np.nan
+    dims = ("group", "bin", "row")
+    data: dict[str, Any] = {
+        "hours": ("bin", share * YEAR / 3600.0, described("h", "time in a year")),
+        "runs": (dims[:2], runs, described("1", "runs of the means")),
+        "left_out": (dims[:2], left_out, described("1", "runs without a result for all rollers")),
+        "energy": (dims, energy, described("J", "energy of a mean roller in a year")),
+        "per_hour": (dims, 3600.0 * mean, described("J", "energy of a mean roller in an hour of it")),
+        "total": (("group", "row"), energy.sum(axis=1), described("J", "energy of a mean roller in a year")),
+        "scatter": (("group", "row"), scatter, described("1", "standard error of it by the scatter of runs in a bin")),
+        "covered": ((), share.sum(), described("1", "share of the year in the cases")),
+    }
+    for name, variable, units, about in (
+        ("peak", "peak_power_max", "W", "largest frictional power of any run"),
+        ("entry_slip", "largest_entry_slip", "1", "largest slide-roll ratio at an entry of any run"),
+    ):
+        if variable in study:
+            largest = np.full(mean.shape, np.nan)
+            for cell, value in zip(zip(bins.group, bins.bin, strict=True), by_row(variable), strict=True):
+                largest[cell] = np.fmax(largest[cell], value)
+            data[name] = (dims, largest, described(units, about))
+    for name, (rate, units, about) in SUMS.items():
+        if rate in study:
+            data[name] = (dims, in_a_year(bins.means(by_row(rate))[0]), described(units, f"{about}: in a year"))
+    known = share / share.sum()
+    for name in (one for one in LIVES if one in study):
+        with np.errstate(divide="ignore"):
+            damage = weighted(bins.means(1.0 / study[name].values)[0], known)
+            data[name] = ("group", 1.0 / damage, described("h", f"{name.replace('_', ' ')}, by Palmgren and Miner"))
+    for exponent in EXPONENTS:
+        if (name := f"damage_equivalent_load_{exponent}") in study:
+            raised = weighted(bins.means(study[name].values ** exponent)[0], known)
+            about = f"range of the damage-equivalent radial load at 1 Hz, exponent {exponent}"
+            data[name] = ("group", raised ** (1.0 / exponent), described("N", about))
+    coordinates = bins.coordinates(study) | {"row": study.row}
+    return xr.Dataset(data, coordinates, {"weighted": int(weights is not None)})
+
+
+#: Columns of `designs`: by name how rows and bins of a year are drawn together, unit and meaning.
+CRITERIA = {
+    "energy": ("sum", "J/year", "energy of a mean roller, both rows"),
+    "wear": ("max", "m/year", "wear at k = 1e-17 m²/N, deepest place"),
+    "entries": ("sum", "1/year", "entries beyond the slip of a smearing rig"),
+    "mixed_time": ("max", "1", "share of time with Λ < 1"),
+    "pressure_slip": ("max", "1", "e_a over the FE8 test"),
+    "entry_slip": ("largest", "1", "largest slide-roll ratio at an entry"),
+    "peak": ("largest", "W", "largest power"),
+}
+
+
+def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
+    """The designs of a year side by side, the least energy first; and sentences on what is not known.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `year`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A line a group, with its number as index: its labels, the columns of `CRITERIA` and the lives [h]. Energy and entries
+        are of both rows, the others of the worse one. NaN where something is not known; a criterion that no run has is left
+        out.
+    list of str
+        What was left out, and why.
+    """
+    import pandas as pd
+
+    labels = {str(name): one.values for name, one in found.coords.items() if one.dims == ("group",)}
+    table, told = pd.DataFrame(labels, index=range(found.sizes["group"])), []
+    missing = []
+    seconds = float(found.covered) * YEAR
+    scale = {"mixed_time": 1.0 / seconds, "pressure_slip": 1.0 / (seconds * reference_power())}
+    for name, (how, _, about) in CRITERIA.items():
+        known = found[name].where(found.hours > 0.0) if name in found else None
+        if known is None or not bool(known.notnull().any()):
+            missing.append(about)
+            continue
+        if how == "largest":
+            table[name] = known.reduce(np.fmax.reduce, ("bin", "row")).values
+            continue
+        values = found[name]
+        if name == "entries":  # they are counted by orbits
+            unknown = values.isnull().all("row").all("group") & (found.hours > 0.0)
+            if bool(unknown.any()):
+                hours = float(found.hours.where(unknown).sum())
+                told.append(f"Entries leave out {hours:.3g} h a year in which no orbit is complete.")
+                values = values.where(~unknown, 0.0)
+        whole = values.sum("bin", skipna=False)
+        drawn = whole.sum("row", skipna=False) if how == "sum" else whole.max("row", skipna=False)
+        table[name] = scale.get(name, 1.0) * drawn.values
+    for name in LIVES:
+        if name in found and bool(found[name].notnull().any()):
+            table[name] = found[name].values
+    if missing:
+        told.append(
+            f"Not known, because the results did not keep what it takes or the model has none: {', '.join(missing)}."
+        )
+    if left_out := int(found.left_out.sum()):
+        told.append(f"{left_out} runs without a result are left out.")
+    return table.sort_values("energy", kind="stable") if "energy" in table else table, told
+
+
+def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str]:
+    """Names of groups by the labels in which they differ, all but choices with the last part of their key and their unit.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> tilts = ("group", [4.0, 5.0], {"units": "deg"})
+    >>> design_names(xr.Dataset(coords={"bearing": ("group", ["A", "A"]), "drivetrain.tilt": tilts}))
+    ['tilt 4 deg', 'tilt 5 deg']
+    """
+    parts = []
+    for name, one in found.coords.items():
+        units = one.attrs.get("units", "1")
+        unit = "" if units in ("", "1") else f" {units}"
+        values = one.values.ravel().tolist()
+        texts = [f"{value:.{digits}g}" if isinstance(value, float) else str(value) for value in values]
+        if one.dims == ("group",) and len(set(texts)) > 1:
+            # A parameter that only other models set has no value.
+            head = "" if name in CHOICES else f"{str(name).rpartition('.')[2].replace('_', ' ')} "
+            parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
+    return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [""] * found.sizes["group"]
+
+
+def reference_power() -> float:
+    """e_a [W/m²] of the FE8 test, mean of its range: what friction energy is compared with.
+
+    Examples
+    --------
+    >>> f"{reference_power():.3g} W/m²"
+    '4.75e+06 W/m²'
+    """
+    return sum(ThrustTest().range()) / 2.0
+
+
+def coverage(found: xr.Dataset) -> str:
+    """What share of a year the cases of `year` cover, as a sentence.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> coverage(xr.Dataset({"hours": ("bin", [4000.0, 66.0, 0.0])}, {"event": ("bin", ["", "start-8", "idle-6"])}))
+    'The cases cover 46 % of a year: 4000 h of wind speeds and 66 h of events, whose supervisor is assumed; idle-6 counts nothing.'
+    """
+    hours = found.hours.values
+    if not found.attrs.get("weighted", 1):
+        return "The study has no weights: all its cases count alike, as if a year consisted of them."
+    if "event" not in found.coords:
+        return f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year, {hours.sum():.0f} h of wind speeds."
+    event = found.event.values.astype(str)
+    idle = [name for name, one in zip(event, hours, strict=True) if name and one == 0.0]
+    nothing = f"; {', '.join(idle)} count{'s' if len(idle) == 1 else ''} nothing" if idle else ""
+    assumed = ", whose supervisor is assumed" if set(event) & set(EVENTS) else ""
+    return (
+        f"The cases cover {100.0 * hours.sum() * 3600.0 / YEAR:.0f} % of a year: {hours[event == ''].sum():.0f} h of wind "
+        f"speeds and {hours[event != ''].sum():.3g} h of events{assumed}{nothing}."
+    )

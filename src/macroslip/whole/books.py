@@ -1,0 +1,143 @@
+"""Balances of angular momentum and energy: what the bearing holds, what has flowed in and out, and what does not balance.
+
+Momentum Σ(m r~² Ω + I_z' cos α ω_z') + Σ I_c Ω_c changes by the torques alone that raceways, weight, drag and guide exert,
+and by that of the pushes on a cage off the axis. A step's torques are summed with the method's weights, so that the balances
+close to what Newton's method leaves unbalanced. Kinetic energy of rollers and cages and elastic energy of the spars change
+by the work of the shaft and of weights, less what friction and pockets dissipate; the residual is the error of the
+method.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.whole.pocket import elastic_energy, guide_energy, guide_force
+from macroslip.whole.stage import FIRST, GUIDE_SPEED
+
+if TYPE_CHECKING:
+    from macroslip.whole.model import WholeBearing
+    from macroslip.whole.sdirk import Part
+
+#: Flows that are booked over time: angular impulses [N m s] and energies [J].
+FLOWS = (
+    "inner_impulse", "outer_impulse", "body_impulse", "guide_impulse", "eccentric_impulse",
+    "shaft_work", "body_work", "cage_weight_work", "raceway_loss", "friction_loss", "guide_loss", "pocket_work", "support_work",
+)  # fmt: skip
+#: Stocks of the bearing: angular momentum [N m s], kinetic and elastic energy [J].
+STOCKS = ("momentum", "kinetic_energy", "elastic_energy")
+#: Flows that bring energy (+) or take it away (−).
+_ENERGY_SIGNS = {
+    "shaft_work": 1.0, "body_work": 1.0, "cage_weight_work": 1.0, "raceway_loss": -1.0, "friction_loss": -1.0,
+    "guide_loss": -1.0, "pocket_work": -1.0, "support_work": -1.0,
+}  # fmt: skip
+
+
+@jit_inline
+def add_flows(assembly, shaft_speed, k, span, space, flows):
+    """Add what flows during `span` [s] in the state of the solved stage `k` to `flows`, shape (13,)."""
+    bearing, places, rollers, cages, moments = (
+        assembly.bearing[0], assembly.places, space.rollers, space.cages, space.moments[k]
+    )  # fmt: skip
+    pitch = bearing.pitch_radius
+    arm = bearing.lever * pitch
+    for j in range(places.size):
+        place, at, own = places[j], moments[j], rollers[j].y[FIRST + k]
+        orbital = 0.5 * (own[0] - own[1] + at.ring)
+        lag_in, lag_out = at.pull_inner - at.spin_inner, at.pull_outer - at.spin_outer
+        cage = cages[place.cage].y[FIRST + k]
+        flows[0] -= span * (pitch * at.pull_inner - arm * at.spin_inner)
+        flows[1] += span * (pitch * at.pull_outer + arm * at.spin_outer)
+        flows[2] -= span * pitch * at.tangential
+        flows[4] += span * at.push * (cage[4] * at.cosine + cage[5] * at.sine)
+        flows[5] -= span * shaft_speed * (place.inner_radius * at.spin_inner + pitch * lag_in)
+        flows[6] -= span * at.tangential * orbital
+        loss = at.spin_inner * own[0] - lag_in * (shaft_speed * pitch - orbital)
+        loss += at.spin_outer * own[1] - lag_out * orbital
+        flows[8] += span * loss
+        flows[9] += span * at.friction * at.sliding
+        flows[11] -= span * at.push * at.pocket_speed
+    for c in range(cages.size):
+        cage = cages[c].y[FIRST + k]
+        turning = cage[0] + 0.5 * shaft_speed * bearing.inner_radius
+        drag = bearing.guide_friction * math.tanh(turning / GUIDE_SPEED)
+        flows[3] -= span * pitch * drag
+        flows[7] -= span * bearing.cage_weight * cage[3]
+        flows[10] += span * drag * turning
+        if bearing.translates:
+            push, n_x, n_y, _, _ = guide_force(bearing.radial_play, cage[4], cage[5], cage[2], cage[3])
+            flows[12] += span * push * (n_x * cage[2] + n_y * cage[3])
+
+
+class Books:
+    """Books at given times.
+
+    Attributes
+    ----------
+    times : ndarray, shape (m,)
+        At which steps end, the start of the integration included [s].
+    flows, stocks : ndarray, shape (m, 13) and (m, 3)
+        Impulses [N m s] and energies [J] since the start, by `FLOWS`; and what the bearing holds, by `STOCKS`. NaN where
+        the integration did not arrive.
+    """
+
+    def __init__(self, bearing: WholeBearing, times: np.ndarray):
+        self.times = times
+        self.flows = np.full((times.size, len(FLOWS)), np.nan)
+        self.stocks = np.full((times.size, len(STOCKS)), np.nan)
+        self._bearing, self._sum = bearing, np.zeros(len(FLOWS))
+
+    def add(self, part: Part) -> None:
+        """Book a part of the integration."""
+        if not part.bearing.size:
+            return
+        sums = self._sum + np.cumsum(part.bearing["flows"], axis=0)
+        self._sum = sums[-1]
+        _, rows, places = np.intersect1d(part.bearing["end"], self.times, return_indices=True)
+        self.flows[places] = sums[rows]
+        self.stocks[places] = _stocks(self._bearing, part, rows)
+
+    def momentum_residual(self) -> np.ndarray:
+        """Change of angular momentum since the first time less the impulses of all torques [N m s], shape (m,)."""
+        held = self.stocks[:, STOCKS.index("momentum")]
+        impulse = self.flows[:, [k for k, name in enumerate(FLOWS) if name.endswith("_impulse")]].sum(axis=1)
+        return (held - held[0]) - (impulse - impulse[0])
+
+    def energy_residual(self) -> np.ndarray:
+        """Change of kinetic energy since the first time less what flowed in and out [J], shape (m,).
+
+        Work into pockets and supports holds what they store and what they dissipate.
+        """
+        kinetic = self.stocks[:, STOCKS.index("kinetic_energy")]
+        flow = self.flows[:, [FLOWS.index(name) for name in _ENERGY_SIGNS]] @ np.array(list(_ENERGY_SIGNS.values()))
+        return (kinetic - kinetic[0]) - (flow - flow[0])
+
+    def pocket_loss(self) -> np.ndarray:
+        """Energy dissipated by impacts and squeeze films, and by the cage's radial stop, since the first time [J]."""
+        stored = self.stocks[:, STOCKS.index("elastic_energy")]
+        work = self.flows[:, FLOWS.index("pocket_work")] + self.flows[:, FLOWS.index("support_work")]
+        return (work - work[0]) - (stored - stored[0])
+
+
+def _stocks(bearing: WholeBearing, part: Part, rows: np.ndarray) -> np.ndarray:
+    """Angular momentum, kinetic and elastic energy at the ends of steps, shape (rows, 3)."""
+    steps, whole = part.steps[rows], part.bearing[rows]
+    last = np.maximum(steps["stages"][:, 0] - 1, 0)
+    every = np.arange(rows.size)
+    slip_in, slip_out = steps["inner_slip"][every, :, last], steps["outer_slip"][every, :, last]
+    shaft_speed = whole["shaft_speed"][every, last][:, None]
+    ring = shaft_speed * bearing.places["inner_radius"]
+    orbital, spinning = 0.5 * (slip_in - slip_out + ring), -0.5 * (slip_in + slip_out + ring)
+    cages = whole["cages"][:, : bearing.cages]
+    turning = cages[..., 0] + 0.5 * shaft_speed * bearing.inner_radius
+    pitch, mass = bearing.pitch_radius, bearing.roller_mass
+    momentum = mass * pitch * (orbital + 0.5 * bearing.lever * spinning).sum(axis=1)
+    kinetic = 0.5 * mass * (orbital**2 + 0.5 * spinning**2).sum(axis=1)
+    kinetic += 0.5 * bearing.cage_mass * (turning**2 + cages[..., 2] ** 2 + cages[..., 3] ** 2).sum(axis=1)
+    elastic = elastic_energy(bearing.pocket, part.offset[rows]).sum(axis=1)
+    if bearing.translates:
+        elastic += guide_energy(bearing.radial_play, cages[..., 4], cages[..., 5]).sum(axis=1)
+    return np.stack([momentum + bearing.cage_mass * pitch * turning.sum(axis=1), kinetic, elastic], axis=-1)

@@ -1,0 +1,173 @@
+"""The cage: as a user describes it, and rollers off their nominal place and size."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+import numpy as np
+
+from macroslip.bearing import Bearing, geometry
+from macroslip.bearing.geometry import ROWS
+from macroslip.errors import InputError
+from macroslip.input.fields import Choice, Flag, Quantity, Whole
+from macroslip.input.section import input_section
+from macroslip.input.units import ANGLE, FORCE, INVERSE_SPEED, LENGTH, MASS, NUMBER
+
+#: How a roller meets a spar.
+IMPACTS = ("squeeze-film", "dry")
+#: One cage for both rows, or one a row.
+ARRANGEMENTS = ("one", "per-row")
+#: Whether a cage is free to move off the bearing's axis.
+AXES = ("free", "pinned")
+#: What holds rollers against skew, and whether a spar that presses straightens them.
+GUIDANCES, ALIGNMENTS = ("conforming-pocket", "straight-bars", "guide-ring", "none"), ("spar", "none")
+#: Keys that go with skew alone.
+SKEW_KEYS = ("guidance", "skew_play", "alignment")
+#: Where rollers are in their pockets at the start.
+OFFSETS = ("centred", "random")
+
+
+@input_section("cage", "the cage, with dynamics: whole-bearing, and its guidance of rollers that skew")
+class Cage:
+    """The cage of a coupled simulation. Defaults are engineering estimates for the base bearing.
+
+    Parameters
+    ----------
+    gap : float
+        Diametral play of a roller in its pocket [m], ≥ 0: free way along the orbit between the two spars.
+    impact : "squeeze-film" or "dry"
+        Whether oil between roller and spar resists their approach, or they meet dry.
+    damping : float
+        D of the dry contact [s/m], K δ^1.5 (1 + D δ'); larger takes more energy from an impact.
+    film_fullness : float
+        Part of the flooded squeeze film's force, above 0 to 1; how full the gaps of a real cage are is not known.
+    arrangement : "one" or "per-row"
+        One cage for both rows, or two that turn on their own.
+    mass : float
+        Mass of the cage [kg], of both together where each row has its own. It is a thin ring at the pitch radius.
+    weight : bool
+        Whether the cage's weight acts. It rests on the rollers at either side, through two translations of the cage.
+    axis : "free" or "pinned", optional
+        Whether the cage's axis moves by these translations, or a frictionless guide holds it in the middle. None: free, but
+        pinned where `weight` is false.
+    guide_friction : float
+        Friction force at the pitch radius that brakes each cage [N]; zero for a cage that only rollers guide.
+    offsets : "centred" or "random"
+        Rollers start in the middle of their pockets, or anywhere in them with equal probability.
+    diameter_scatter : float
+        Standard deviation of the roller diameters [m].
+    seed : int
+        Of the random offsets and diameters.
+    guidance : "conforming-pocket", "straight-bars", "guide-ring" or "none"
+        What stops skew: spars that follow the outer raceway's contour, straight ones, a guide ring beside straight spars, or
+        nothing up to 60 mrad.
+    skew_play : float, optional
+        Largest skew either way [rad]; None: from `gap`, the roller's length and its contour. A guide ring needs it.
+    alignment : "spar" or "none"
+        Whether a spar that presses on a roller straightens it.
+
+    Raises
+    ------
+    InputError
+        A value out of its range.
+
+    Examples
+    --------
+    >>> Cage(gap=2e-4).impact
+    'squeeze-film'
+    """
+
+    gap: Annotated[float, Quantity("play of a roller between the two spars of its pocket", LENGTH, 0.0, 0.1)] = 0.5e-3
+    impact: Annotated[str, Choice("how a roller meets a spar", lambda: IMPACTS)] = "squeeze-film"
+    damping: Annotated[float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)] = 50.0
+    film_fullness: Annotated[
+        float,
+        Quantity(
+            "part of the flooded squeeze film's force", NUMBER, 0.0, 1.0, above=True,
+            remedy="Without oil between roller and spar set impact: dry.",
+        ),
+    ] = 1.0  # fmt: skip
+    arrangement: Annotated[str, Choice("one cage for both rows, or one a row", lambda: ARRANGEMENTS)] = "one"
+    mass: Annotated[
+        float,
+        Quantity(
+            "mass of the cage, or of both together", MASS, 1e-3, 1e5,
+            remedy="A cage without mass has no speed of its own; 35 to 60 kg are likely for the base bearing.",
+        ),
+    ] = 50.0  # fmt: skip
+    weight: Annotated[bool, Flag("weight of the cage")] = True
+    axis: Annotated[str | None, Choice("whether the cage's axis moves", lambda: AXES)] = None
+    guide_friction: Annotated[
+        float,
+        Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6),
+    ] = 0.0
+    offsets: Annotated[str, Choice("where rollers start in their pockets", lambda: OFFSETS)] = "centred"
+    diameter_scatter: Annotated[float, Quantity("standard deviation of the roller diameters", LENGTH, 0.0, 1e-4)] = 0.0
+    seed: Annotated[int, Whole("seed of the random offsets and diameters")] = 1
+    guidance: Annotated[str, Choice("what stops the skew of rollers", lambda: GUIDANCES)] = "conforming-pocket"
+    skew_play: Annotated[
+        float | None, Quantity("largest skew; without it, from gap, length and contour", ANGLE, 0.0, 0.06)
+    ] = None
+    alignment: Annotated[str, Choice("whether a pressing spar straightens its roller", lambda: ALIGNMENTS)] = "spar"
+
+    def __post_init__(self) -> None:
+        if self.guidance == "guide-ring" and self.skew_play is None:
+            raise InputError(
+                "a guide ring stops skew by its play, which is not given",
+                where="skew_play",
+                allowed="the largest skew, such as 5 mrad, with guidance: guide-ring",
+                remedy="Its axial play over the distance of its edges is that angle.",
+            )
+
+    def check_fit(self, bearing: Bearing) -> None:
+        """Refuse pockets that do not fit between the rollers.
+
+        Raises
+        ------
+        InputError
+            If rollers, play and spars need more than the circumference.
+        """
+        spacing = 2.0 * bearing.pitch_radius * math.sin(math.pi / bearing.rollers_per_row)
+        if self.gap >= spacing - bearing.roller_diameter:
+            raise InputError(
+                f"the gap is {self.gap * 1e3:.4g} mm, and {bearing.rollers_per_row} rollers a row leave "
+                f"{(spacing - bearing.roller_diameter) * 1e3:.4g} mm between neighbours, so pockets would overlap",
+                where="cage.gap",
+                allowed="less than the distance between neighbouring rollers",
+                remedy="Check the gap and the bearing's rollers_per_row, roller_diameter and pitch_radius.",
+            )
+
+    def start_offsets(self, count: int) -> np.ndarray:
+        """Offsets of all rollers in their pockets at the start [m], shape (rows, count)."""
+        if self.offsets == "centred":
+            return np.zeros((len(ROWS), count))
+        generator = np.random.default_rng([self.seed, 0])
+        return generator.uniform(-0.5 * self.gap, 0.5 * self.gap, (len(ROWS), count))
+
+    def diameter_deviations(self, count: int) -> np.ndarray:
+        """Deviations of the roller diameters from their mean [m], shape (rows, count)."""
+        if self.diameter_scatter == 0.0:
+            return np.zeros((len(ROWS), count))
+        drawn = np.random.default_rng([self.seed, 1]).normal(0.0, self.diameter_scatter, (len(ROWS), count))
+        return drawn - drawn.mean(axis=1, keepdims=True)
+
+
+def inner_radii(bearing: Bearing, diameter_deviation: np.ndarray) -> np.ndarray:
+    """Effective inner contact radius r~_in of rollers whose diameter deviates [m].
+
+    A thicker roller touches the outer raceway's sphere at the same place, has its centre further in and touches an inner
+    ring of smaller radius; pure rolling then has δΩ/Ω = −(r cos α/r~_in)(r~_out/r~) δr/r, −0.11 δr/r for the base bearing.
+    The model gives the roller the inner contact radius that turns it at this orbit speed and leaves all else.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> base = Bearing.read("skf-240-600-bc")
+    >>> nominal, thick = inner_radii(base, np.array([0.0, 70e-6]))
+    >>> round(float((thick - nominal) / nominal / 1e-3), 3)
+    -0.111
+    """
+    inner, outer = geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing)
+    slope = math.cos(bearing.contact_angle) / inner * outer / bearing.pitch_radius
+    return inner * (1.0 - slope * 0.5 * diameter_deviation)

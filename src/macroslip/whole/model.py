@@ -1,0 +1,132 @@
+"""Everything about a bearing with its cages that does not change with time, and as records for compiled functions."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.bearing import Bearing, geometry
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.constants import GRAVITY
+from macroslip.contact.mechanisms import Laws
+from macroslip.contact.table import Box
+from macroslip.lubricant import Lubricant
+from macroslip.roller.model import RollerModel, TableReport, roller_model
+from macroslip.roller.model import with_tables as rollers_with_tables
+from macroslip.whole.cage import Cage, inner_radii
+from macroslip.whole.pocket import POCKET, Pocket, prepare_pocket
+
+_NUMBERS = (
+    "roller_mass", "radius", "pitch_radius", "inner_radius", "outer_radius", "orbit_ratio", "lever", "cage_mass",
+    "cage_weight", "radial_play", "guide_friction",
+)  # fmt: skip
+#: The numbers of a `WholeBearing`.
+BEARING = np.dtype([*((name, "f8") for name in _NUMBERS), ("cages", "i8"), ("translates", "i8"), ("pocket", POCKET)])
+#: Numbers that differ between rollers: index of row and cage; angle of the pocket at the first sample [rad] with cosine and
+#: sine; effective r~_in [m], see `macroslip.whole.cage.inner_radii`.
+PLACE = np.dtype(
+    [("row", "i8"), ("cage", "i8"), ("angle", "f8"), ("cosine", "f8"), ("sine", "f8"), ("inner_radius", "f8")]
+)
+
+
+@dataclass(frozen=True)
+class WholeBearing:
+    """All rollers, pockets and cages."""
+
+    models: dict[str, RollerModel]  #: By row
+    places: np.ndarray  #: Shape (n,). Rollers, downwind row first.
+    pocket: Pocket
+    #: m [kg]; r, r~ and nominal r~_in, r~_out [m].
+    roller_mass: float
+    radius: float
+    pitch_radius: float
+    inner_radius: float
+    outer_radius: float
+    orbit_ratio: float  #: Ω/Ω_in of pure rolling [-]
+    lever: float  #: r cos α/r~ [-]
+    cages: int  #: Number of cages, one or two
+    cage_mass: float  #: Of one cage [kg]
+    cage_weight: float  #: Weight of one cage in the bearing plane, along −Y0 [N]
+    translates: bool  #: Whether the cages can leave the bearing's axis, see `macroslip.whole.cage`
+    radial_play: float  #: Distance by which a cage can leave the axis before rollers hold it radially [m]
+    guide_friction: float  #: Brakes each cage at the pitch radius [N]
+
+
+class Assembly(NamedTuple):
+    """A bearing with its cages as compiled functions take it."""
+
+    bearing: np.ndarray  #: shape (1,)
+    bodies: np.ndarray  #: Shape (2,). A roller of each row.
+    tables: np.ndarray  #: The flat array of their tables
+    places: np.ndarray  #: shape (n,)
+
+
+def whole_bearing(
+    bearing: Bearing,
+    lubricant: Lubricant,
+    cage: Cage,
+    *,
+    tilt: float,
+    laws: Laws,
+    gravity: bool = True,
+    drag: bool = True,
+) -> WholeBearing:
+    """Prepare a bearing with its cages; parameters as for `macroslip.roller.model.roller_model`.
+
+    Raises InputError if the pockets do not fit, and as `roller_model`.
+    """
+    cage.check_fit(bearing)
+    count = bearing.rollers_per_row
+    models = {
+        row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, gravity=gravity, drag=drag, laws=laws)
+        for row in ROWS
+    }
+    model = models[ROWS[0]]
+    cages = 2 if cage.arrangement == "per-row" else 1
+    weighs = gravity and cage.weight
+    places = np.zeros(len(ROWS) * count, PLACE)
+    places["row"] = np.repeat(np.arange(len(ROWS)), count)
+    places["cage"] = places["row"] if cages == 2 else 0
+    places["angle"] = np.concatenate([initial_angles(row, count) for row in ROWS])
+    places["cosine"], places["sine"] = np.cos(places["angle"]), np.sin(places["angle"])
+    places["inner_radius"] = inner_radii(bearing, cage.diameter_deviations(count).ravel())
+    return WholeBearing(
+        models=models,
+        places=places,
+        pocket=prepare_pocket(cage, bearing, lubricant, model.laws.cage.interface.hertz.stiffness),
+        roller_mass=2.0 / model.mobility,
+        radius=model.radius,
+        pitch_radius=bearing.pitch_radius,
+        inner_radius=geometry.inner_contact_radius(bearing),
+        outer_radius=model.outer_radius,
+        orbit_ratio=model.orbit_ratio,
+        lever=model.radius * math.cos(bearing.contact_angle) / bearing.pitch_radius,
+        cages=cages,
+        cage_mass=float(cage.mass) / cages,
+        cage_weight=float(cage.mass) / cages * GRAVITY * math.cos(tilt) if weighs else 0.0,
+        translates=weighs if cage.axis is None else cage.axis == "free",
+        radial_play=float(cage.gap),
+        guide_friction=float(cage.guide_friction),
+    )
+
+
+def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]:
+    """The bearing with tables of its contacts for the states of a box.
+
+    The oil in a pocket is as wide as its play leaves it; without play roughness keeps surfaces apart.
+    """
+    pocket = bearing.pocket
+    # Rollers run through their play beside the motion of the rings: ahead as fast as they fall through it, and behind up to
+    # twice as fast, where oil brakes them too.
+    fall = math.sqrt(2.0 * GRAVITY * bearing.radial_play)
+    box = box._replace(slowest=max(box.slowest - 2.0 * fall, 0.0), fastest=box.fastest + fall)
+    rollers, report = rollers_with_tables(bearing.models, box, max(pocket.half_gap, pocket.least_film))
+    numbers = np.zeros(1, BEARING)
+    for name in (*_NUMBERS, "cages", "translates"):
+        numbers[name] = getattr(bearing, name)
+    numbers["pocket"] = tuple(pocket)
+    bodies = np.concatenate([rollers[row].body for row in ROWS])
+    return Assembly(numbers, bodies, rollers[ROWS[0]].tables, bearing.places), report

@@ -1,0 +1,157 @@
+"""Forces between a roller and the two spars of its pocket, and the cage's radial guidance.
+
+The pocket offset x is the roller's way ahead of the middle of its pocket, along the orbit. The front spar is at
+x = c/2, the rear one at −c/2; N is their push on the roller along the orbit. A spar never pulls.
+
+Dry, a spar pushes with K δ^1.5 (1 + D δ'). A **squeeze film** resists the approach: between a cylinder of radius R and a
+plane, Reynolds' equation for a gap h + x²/(2R) that closes at V gives p = 6 η V R/(h + x²/(2R))², hence the force
+3√2 π η l V (R/h)^1.5. On opening the film cavitates and gives nothing. It would keep surfaces apart for ever. Real ones
+are rough: when the gap g falls below their roughness h_m, their asperities meet (Hertz, on −g) while oil is left in the
+valleys, so the film thickness of the formula is h_m + ½(g + √(g² + h_m²)). It tends to g + h_m in the open gap and to h_m
+in a loaded contact, without a corner, so that the film's damping is bounded by that at h_m.
+
+Pockets follow the rollers' contour, so a cage that leaves the bearing's axis by more than the radial play rests on
+rollers all round, which the raceways hold. The model replaces them by one elastic, damped stop at the distance of the gap.
+It is the same in every direction and has no friction of its own. Gripped rollers at either side, whose spars close at half
+of that distance, carry the cage first. Without the stop only the few gripped rollers would hold the cage and, with it, the
+weight of all other rollers. The stop's push on single rollers is small against their load and is neglected.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.bearing import Bearing, geometry
+from macroslip.compiled import jit_inline
+from macroslip.lubricant import Lubricant
+from macroslip.whole.cage import Cage
+
+#: Composite roughness times this is the film in a loaded contact; beyond Λ = 3 surfaces count as apart.
+_ROUGHNESS_FILMS = 3.0
+#: Stiffness [N/m] and damping [N s/m] of the radial stop, estimates: it yields some micrometres to the cage's weight and does
+#: not bounce.
+STIFFNESS, DAMPING = 1e8, 1e5
+
+
+class Pocket(NamedTuple):
+    """Numbers of the spars' forces."""
+
+    half_gap: float  #: c/2 [m]
+    stiffness: float  #: K of the roller on a spar [N/m^1.5]
+    damping: float  #: D [s/m]; zero with a squeeze film
+    film: float  #: 3√2 π η l R^1.5 times the film's fullness [N s √m]; zero without film
+    least_film: float  #: h_m [m]
+
+
+#: A pocket as compiled functions take it.
+POCKET = np.dtype([(name, "f8") for name in Pocket._fields])
+
+
+def squeeze_coefficient(viscosity: float, length: float, radius: float) -> float:
+    """3√2 π η l R^1.5 [N s √m] of a long cylinder [m] and a plane in oil of η [Pa s]; over h^1.5 the resistance to approach.
+
+    Examples
+    --------
+    >>> round(squeeze_coefficient(0.54, 0.106, 0.035) / 1e-4**1.5)     # at 0.1 mm, N s/m
+    4996
+    """
+    return 3.0 * math.sqrt(2.0) * math.pi * viscosity * length * radius**1.5
+
+
+def prepare_pocket(cage: Cage, bearing: Bearing, lubricant: Lubricant, stiffness: float) -> Pocket:
+    """The spars of a cage; `stiffness` is that of the cage's Hertz contact [N/m^1.5]."""
+    dry = cage.impact == "dry"
+    film = squeeze_coefficient(lubricant.viscosity, bearing.roller_length, geometry.roller_radius(bearing))
+    return Pocket(
+        half_gap=0.5 * cage.gap,
+        stiffness=stiffness,
+        damping=cage.damping if dry else 0.0,
+        film=0.0 if dry else cage.film_fullness * film,
+        least_film=_ROUGHNESS_FILMS * bearing.composite_roughness,
+    )
+
+
+@jit_inline
+def spar_push(pocket, gap, closing):
+    """Push of one spar [N], and its derivatives by the gap [N/m] and by its closing speed [N s/m].
+
+    The gap g [m] is negative where the bodies press on each other; `closing` is −g' [m/s].
+    """
+    push, by_gap, by_closing = 0.0, 0.0, 0.0
+    if gap < 0.0:
+        yielding = 1.0 + pocket.damping * closing
+        if yielding > 0.0:
+            root = math.sqrt(-gap)
+            elastic = -pocket.stiffness * gap * root
+            push = elastic * yielding
+            by_gap = -1.5 * pocket.stiffness * root * yielding
+            by_closing = elastic * pocket.damping
+    if closing > 0.0 and pocket.film > 0.0:
+        root = math.sqrt(gap * gap + pocket.least_film * pocket.least_film)
+        film = pocket.least_film + 0.5 * (gap + root)
+        resistance = pocket.film / (film * math.sqrt(film))
+        push += resistance * closing
+        by_closing += resistance
+        by_gap -= 0.75 * resistance * closing * (1.0 + gap / root) / film
+    return push, by_gap, by_closing
+
+
+@jit_inline
+def pocket_force(pocket, offset, speed):
+    """Push N of the pocket on its roller along the orbit [N], ∂N/∂x [N/m] and ∂N/∂x' [N s/m], at x [m] and x' [m/s].
+
+    Examples
+    --------
+    >>> dry = Pocket(half_gap=1e-4, stiffness=1e10, damping=50.0, film=0.0, least_film=1e-6)
+    >>> push, _, _ = pocket_force(dry, 1.1e-4, 0.0)
+    >>> round(push, 1), pocket_force(dry, 0.9e-4, 0.1)[0]
+    (-316.2, 0.0)
+    """
+    front, front_by_gap, front_by_closing = spar_push(pocket, pocket.half_gap - offset, speed)
+    rear, rear_by_gap, rear_by_closing = spar_push(pocket, pocket.half_gap + offset, -speed)
+    return rear - front, rear_by_gap + front_by_gap, -(rear_by_closing + front_by_closing)
+
+
+def elastic_energy(pocket: Pocket, offset: np.ndarray) -> np.ndarray:
+    """Energy stored in the spars ⅖ K δ^2.5 [J], of offsets [m] of any shape."""
+    return 0.4 * pocket.stiffness * np.maximum(np.abs(offset) - pocket.half_gap, 0.0) ** 2.5
+
+
+@jit_inline
+def guide_force(play, a, b, p, q):
+    """Push of the rollers on a cage that has left the axis by (a, b) [m] at the speed (p, q) [m/s].
+
+    `play` is the distance [m] that is free.
+
+    Returns
+    -------
+    push : float
+        Towards the axis [N], never below zero.
+    n_x, n_y : float
+        Direction in which the cage has left it.
+    by_place, by_speed : float
+        Derivatives of the push by the distance [N/m] and by its rate [N s/m].
+
+    Examples
+    --------
+    >>> push, n_x, n_y, _, _ = guide_force(1e-4, 0.0, -1.05e-4, 0.0, 0.0)
+    >>> round(push), n_y
+    (500, -1.0)
+    """
+    distance = math.sqrt(a * a + b * b)
+    depth = distance - play
+    if depth <= 0.0 or distance == 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    n_x, n_y = a / distance, b / distance
+    push = STIFFNESS * depth + DAMPING * (p * n_x + q * n_y)
+    if push <= 0.0:
+        return 0.0, n_x, n_y, 0.0, 0.0
+    return push, n_x, n_y, STIFFNESS, DAMPING
+
+
+def guide_energy(play: float, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Elastic energy of the stop [J] of cages that have left the axis by (a, b) [m]."""
+    return 0.5 * STIFFNESS * np.maximum(np.hypot(a, b) - play, 0.0) ** 2

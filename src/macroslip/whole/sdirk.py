@@ -1,0 +1,619 @@
+"""The integration of the whole bearing by Alexander's method: two implicit stages, second order, L-stable.
+
+Nodes γ and 1, γ = 1 − 1/√2, the last stage being the step's end. The error is the difference to a third-order quadrature of
+the slopes at the step's start and both stages, divided by the stage's matrix, which takes out what a gripped contact damps.
+
+Tractions rest: at every evaluation the force predicted by the slopes of the evaluation before is compared with the one found,
+and the time to the next evaluation follows from the difference.
+
+It computes steps and nothing else. They go into buffers; when these are full the kernel returns, and goes on where it was when
+it is called again.
+
+References
+----------
+Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.look_up import REST_SPEED
+from macroslip.errors import InputError
+from macroslip.imposed.status import COMPLETED, NOT_FINITE, OUTSIDE_TABLES, STEP_TOO_SMALL, TOO_MANY_STEPS, UNDER_WAY
+from macroslip.ring.orbit import Motion, instant, interval_of
+from macroslip.roller.step import STEP
+from macroslip.whole import tuning
+from macroslip.whole.books import FLOWS, add_flows
+from macroslip.whole.cage import Cage
+from macroslip.whole.model import Assembly, WholeBearing
+from macroslip.whole.stage import (
+    FIRST,
+    FIRST_RATE,
+    LAST,
+    LAST_RATE,
+    SLOPE,
+    STAR,
+    STATE,
+    Stage,
+    new_space,
+    solve,
+    solve_stage,
+)
+from macroslip.whole.tractions import cage_shear_from, evaluate_marked, locate, raceway_from, raceway_powers, shear_from
+
+#: Node of the first stage.
+GAMMA = 1.0 - math.sqrt(0.5)
+#: Weights of the slopes at start, first and second stage in (third-order quadrature) − (the method's).
+_E1 = (0.5 - 1.0 / 3.0) / (GAMMA * (1.0 - GAMMA))
+_E2 = 0.5 - GAMMA * _E1
+_ERROR = (1.0 - _E1 - _E2, _E1 - (1.0 - GAMMA), _E2 - GAMMA)
+#: γh of the stage that evaluates the start [s].
+_INSTANT = 1e-12
+#: Size of the buffer of steps [bytes].
+_BUFFER = 6 * 2**20
+
+#: Tolerance and bounds.
+#:
+#: allowed_speed : error of speed that a step may make [m/s]
+#: power : allowed relative error of power where slopes predict it
+#: force : largest force an iteration may leave unbalanced [N]
+#: rounding : of speeds [m/s]; times mass over step it is the force below which no iteration can get
+#: longest_step, longest_rest : of a step, and between evaluations of tractions [s]
+#: cage_reach : relative change of load or slip within which the slopes of a cage's contact serve; what they leave out goes with
+#: its square
+#: slowest : least speed of a raceway contact in its tables [m/s]
+#: rests : whether tractions may follow from slopes between evaluations
+LIMITS = np.dtype(
+    [
+        *((name, "f8") for name in ("allowed_speed", "power", "force", "rounding", "longest_step", "longest_rest")),
+        ("cage_reach", "f8"), ("slowest", "f8"), ("max_steps", "i8"), ("rests", "i8"),
+    ]
+)  # fmt: skip
+#: State of the kernel between two calls: whether it has begun; time [s], sample interval and shaft speed [rad/s]; the next
+#: step [s], whether the last one was rejected, and the next stop; energy of the raceways so far [J] and the largest force that
+#: an accepted step left unbalanced [N]; and counts: evaluations are those of a raceway contact.
+MEMORY = np.dtype(
+    [
+        ("begun", "i8"), ("time", "f8"), ("interval", "i8"), ("shaft_speed", "f8"), ("step", "f8"), ("failed", "i8"),
+        ("next_stop", "i8"), ("spent", "f8"), ("unbalanced", "f8"),
+        ("steps", "i8"), ("rejections", "i8"), ("evaluations", "i8"), ("iterations", "i8"),
+    ]
+)  # fmt: skip
+#: A step of the whole bearing; cages are two where there is one, the second being zero.
+#:
+#: start, end : times [s]
+#: shaft_speed : at the stages [rad/s]
+#: turn : angle by which the cages' pockets have turned at the stages [rad]
+#: cages : at the end, by lead w [m/s] at the pitch radius, lag ∫w dt [m], speeds p, q [m/s] and displacements a, b [m]
+#: torque : of the rollers on the cages at the end, positive along the orbit [N m]
+#: flows : angular impulses [N m s] and energies [J] of the step, by `macroslip.whole.books.FLOWS`
+BEARING_STEP = np.dtype(
+    [
+        ("start", "f8"), ("end", "f8"), ("shaft_speed", "f8", (2,)), ("turn", "f8", (2, 2)), ("cages", "f8", (2, 6)),
+        ("torque", "f8", (2,)), ("flows", "f8", (len(FLOWS),)),
+    ]
+)  # fmt: skip
+
+
+class Clock(NamedTuple):
+    """Time [s], the sample interval that holds it, and the shaft speed there [rad/s]."""
+
+    time: float
+    interval: int
+    shaft_speed: float
+
+
+class Start(NamedTuple):
+    """State at the first sample other than pure rolling on the bearing's axis."""
+
+    offset: np.ndarray  #: Shape (n,). Places in the pockets [m].
+    #: Shape (n,). [m/s].
+    slip_inner: np.ndarray
+    slip_outer: np.ndarray
+    cage_lead: np.ndarray  #: Shape (c,). w, speed of a cage at the pitch radius beyond that of pure rolling [m/s].
+
+
+class Part(NamedTuple):
+    """Steps that follow one another. The arrays are views of buffers that the next part overwrites."""
+
+    status: int  #: UNDER_WAY, but for the last part a `macroslip.imposed.status.Status`
+    #: Shape (m, n). Two stages each. The first row of an integration is its start: it has no length, one stage and no
+    #: weight.
+    steps: np.ndarray
+    bearing: np.ndarray  #: shape (m,)
+    offset: np.ndarray  #: Shape (m, n). Rollers' ways ahead of the middle of their pockets at the end [m].
+    memory: np.void  #: Record of `MEMORY`. Time, counts and unbalanced force so far.
+
+
+def pure_rolling(bearing: WholeBearing, cage: Cage) -> Start:
+    """All rollers in pure rolling at their initial offsets, cages with them."""
+    count = bearing.places.size
+    offset = cage.start_offsets(count // 2).ravel()
+    return Start(offset, np.zeros(count), np.zeros(count), np.zeros(bearing.cages))
+
+
+def steps_of(
+    assembly: Assembly,
+    motion: Motion,
+    start: Start,
+    stops: np.ndarray,
+    *,
+    tolerance: float = 2e-4,
+    max_steps: int = 100_000_000,
+    rests: bool = True,
+) -> Iterator[Part]:
+    """Integrate all rollers and cages over the motion of the inner ring.
+
+    Raises InputError if a start is not finite.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion : Motion
+    start : Start
+        State at the first sample.
+    stops : ndarray
+        Times at which a step must end [s], rising, after the first sample; the last is the end.
+    tolerance : float
+        Of energies.
+    max_steps : int
+        Steps, with those rejected, after which it gives up.
+    rests : bool
+        Whether tractions may follow from their slopes between evaluations; without, every iteration evaluates all.
+
+    Yields
+    ------
+    Part
+        Some hundred steps each.
+    """
+    for name, values in zip(start._fields, start, strict=True):
+        if not np.isfinite(values).all():
+            raise InputError("it is not finite", where=f"start, {name}", allowed="finite numbers")
+    stops = np.ascontiguousarray(stops, dtype=float)
+    memory = np.zeros(1, MEMORY)
+    memory["time"], memory["shaft_speed"], memory["step"] = motion.time[0], motion.shaft_speed[0], tuning.FIRST_STEP
+    space = new_space(assembly, memory)
+    space.rollers["y"][:, STATE] = np.column_stack([start.slip_inner, start.slip_outer, start.offset])
+    space.cages["y"][:, STATE, 0] = start.cage_lead
+    limits = _limits(assembly, motion, float(stops[-1]), tolerance)
+    limits["max_steps"], limits["rests"] = max_steps, rests
+    count = assembly.places.size
+    rows = max(_BUFFER // (STEP.itemsize * count), 16)
+    steps, whole, offset = np.zeros((rows, count), STEP), np.zeros(rows, BEARING_STEP), np.zeros((rows, count))
+    status = UNDER_WAY
+    while status == UNDER_WAY:
+        status, done = integrate(assembly, motion, stops, limits, space, steps, whole, offset)
+        yield Part(status, steps[:done], whole[:done], offset[:done], memory[0])
+
+
+def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) -> np.ndarray:
+    """Bounds for a relative tolerance and the largest raceway speed of the history."""
+    bearing, body = assembly.bearing[0], assembly.bodies[0]
+    scale = float(np.abs(motion.shaft_speed).max()) * bearing["orbit_ratio"] * bearing["outer_radius"]
+    scale = max(float(scale), tuning.LEAST_SPEED)
+    dry = bearing["pocket"]["film"] == 0.0
+    limits = np.zeros(1, LIMITS)
+    limits["allowed_speed"] = tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
+    limits["power"], limits["force"] = tuning.POWER_SHARE * tolerance, tuning.FORCE_SHARE * tolerance
+    limits["rounding"] = 4.0 * float(np.finfo(float).eps) * scale
+    limits["longest_step"] = min(tuning.LONGEST_STEP, 0.1 * (end - float(motion.time[0])))
+    limits["longest_rest"] = tuning.LONGEST_REST
+    limits["cage_reach"] = min(tuning.CAGE_REACH, tuning.CAGE_REACH * math.sqrt(tolerance / 2e-4))
+    limits["slowest"] = max(float(body[name]["traction"]["speed"]["first"]) for name in ("inner", "outer")) ** 4
+    return limits
+
+
+@jit_inline
+def _interval_of(motion, time, start):
+    """Sample interval of `time` [s]; a sample's own time belongs to the interval that ends there, if `start` is before it."""
+    k = interval_of(motion, time, start)
+    return k - 1 if k > start and time <= motion.time[k] else k
+
+
+@jit_inline
+def _clock_at(motion, time, start):
+    """The clock at `time` [s], searched from sample interval `start`."""
+    interval = _interval_of(motion, time, start)
+    return Clock(time, interval, instant(motion, interval, time).shaft_speed)
+
+
+@jit_inline
+def _copy(target, source):
+    """Copy an array of two dimensions."""
+    for j in range(target.shape[0]):
+        for i in range(target.shape[1]):
+            target[j, i] = source[j, i]
+
+
+@jit_inline
+def _guess(y, k, step, span, lost):
+    """Write y* of stage `k`, and a first guess, into the unknowns `y` of a roller or cage.
+
+    The first stage's slope acts during `span` [s]; `step` is γh [s]. The first unknown, a speed, loses `lost` [m/s] with the
+    shaft's.
+    """
+    rate = SLOPE if k == 0 else FIRST_RATE
+    for i in range(y.shape[1]):
+        y[STAR, i] = y[STATE, i] + span * y[FIRST_RATE, i]
+    y[STAR, 0] -= lost
+    for i in range(y.shape[1]):
+        y[FIRST + k, i] = y[STAR, i] + step * y[rate, i]
+
+
+@jit_inline
+def _write_stage(assembly, k, time, weight, space, row):
+    """Write the solved stage `k` of a step at `time` into the rollers' records, with its weight [s]."""
+    bearing, moments, sheets, rollers = assembly.bearing[0], space.moments[k], space.sheets[0], space.rollers
+    inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
+    for j in range(row.size):
+        step, at, sheet, own = row[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
+        at_inner, at_outer = (at.inner_load, at.inner_speed, own[0]), (at.outer_load, at.outer_speed, own[1])
+        shear_in, shear_out = shear_from(sheet.inner, *at_inner), shear_from(sheet.outer, *at_outer)
+        shear_cage = cage_shear_from(sheet.cage, at.push, at.sliding)
+        inner = raceway_powers(sheet.inner, inner_ratio, at.spin_inner, at.pull_inner, shear_in, *at_inner)
+        outer = raceway_powers(sheet.outer, outer_ratio, at.spin_outer, at.pull_outer, shear_out, *at_outer)
+        step.time[k], step.weight[k] = time, weight
+        step.inner_load[k], step.inner_speed[k], step.inner_slip[k] = at_inner
+        step.outer_load[k], step.outer_speed[k], step.outer_slip[k] = at_outer
+        step.elastic_load[k], step.cage_load[k], step.cage_speed[k] = at.elastic_load, at.push, -at.sliding
+        force, power, rolling, rough = step.force[k], step.power[k], step.rolling[k], step.rough[k]
+        # Without rolling resistance, as on an imposed orbit.
+        force[0], force[1] = at.spin_inner - shear_in, at.spin_outer - shear_out
+        force[2] = at.friction - shear_cage
+        power[0], power[1] = inner[0] + inner[1] + inner[2], outer[0] + outer[1] + outer[2]
+        power[2] = force[2] * at.sliding
+        rolling[0], rolling[1], rolling[2] = inner[3], outer[3], shear_cage * at.sliding
+        rough[0], rough[1] = inner[4], outer[4]
+        rough[2] = sheet.cage.rough * abs(at.push) / sheet.cage.load if sheet.cage.load > 0.0 else 0.0
+        step.lag_power[k, 0], step.lag_power[k, 1] = inner[1], outer[1]
+        step.skew_power[k, 0], step.skew_power[k, 1] = inner[2], outer[2]
+
+
+@jit_inline
+def _keep_rate(step, k, space):
+    """Slopes of a solved stage."""
+    rollers, cages, moments = space.rollers, space.cages, space.moments[k]
+    for j in range(rollers.size):
+        y = rollers[j].y
+        for i in range(2):
+            y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
+        y[FIRST_RATE + k, 2] = moments[j].pocket_speed
+    for c in range(cages.size):
+        y = cages[c].y
+        for i in range(6):
+            y[FIRST_RATE + k, i] = (y[FIRST + k, i] - y[STAR, i]) / step
+
+
+@jit_inline
+def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
+    """Solve the stages of a step, and write them; a step without length has one, which evaluates the state.
+
+    Returns the largest residual [N], and whether the stages are solved.
+    """
+    h, tolerance = end.time - start.time, math.inf
+    stages, step = 2, GAMMA * h
+    if h == 0.0:
+        stages, step = 1, _INSTANT
+    else:
+        tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
+    _copy(space.numbers[0], space.numbers[1])
+    rests = space.rests
+    for j in range(rests.size):
+        rests[j].fresh = limits.rests == 0 or rests[j].rest < h or h == 0.0
+    worst, solved = 0.0, True
+    for k in range(stages):
+        if solved:
+            time = start.time + GAMMA * h if k == 0 else end.time
+            interval = _interval_of(motion, time, start.interval)
+            now = instant(motion, interval, time)
+            span, change = k * (1.0 - GAMMA) * h, now.shaft_speed - start.shaft_speed
+            for j in range(rests.size):
+                _guess(space.rollers[j].y, k, step, span, assembly.places[j].inner_radius * change)
+            for c in range(space.cages.size):
+                _guess(space.cages[c].y, k, step, span, 0.5 * assembly.bearing[0].inner_radius * change)
+            locate(assembly, now, FIRST + k, space.rollers, space.cages, space.moments[k], whole.turn[k])
+            rest = solve_stage(assembly, Stage(step, time, now.shaft_speed, tolerance, limits.cage_reach), k, space)
+            solved = rest <= tolerance
+            worst = max(worst, rest) if solved else rest
+            if solved:
+                _keep_rate(step, k, space)
+                whole.shaft_speed[k] = now.shaft_speed
+                _write_stage(assembly, k, time, h * (1.0 - GAMMA if k == 0 else GAMMA), space, row)
+    return worst, solved
+
+
+@jit_inline
+def _off(y, i):
+    """Error of the rate of an unknown."""
+    return _ERROR[0] * y[SLOPE, i] + _ERROR[1] * y[FIRST_RATE, i] + _ERROR[2] * y[LAST_RATE, i]
+
+
+@jit_inline
+def _step_error(assembly, limits, h, space):
+    """Error of a solved step of `h` [s] over what is allowed."""
+    bearing, allowed, worst = assembly.bearing[0], limits.allowed_speed, 0.0
+    rollers, cages, blocks, borders = space.rollers, space.cages, space.blocks, space.borders
+    for j in range(rollers.size):
+        y, rest = rollers[j].y, blocks[j].rest
+        for i in range(2):
+            rest[i] = bearing.roller_mass / GAMMA * _off(y, i)
+        worst = max(worst, abs(h * _off(y, 2)) / (allowed * tuning.PLACE_TIME))
+    for c in range(cages.size):
+        y, rest = cages[c].y, borders[c].rest
+        for i in range(3):
+            rest[i] = bearing.cage_mass / GAMMA * _off(y, 0 if i == 0 else i + 1)
+    size = 3 if bearing.translates else 1
+    solve(assembly.places, size, blocks, borders)
+    for j in range(rollers.size):
+        rest = blocks[j].rest
+        worst = max(worst, abs(rest[0]) / allowed, abs(rest[1]) / allowed)
+    for c in range(cages.size):
+        for i in range(size):
+            worst = max(worst, abs(borders[c].rest[i]) / allowed)
+    return worst
+
+
+@jit_inline
+def _contact_off(known, sheet, ratio, mass, limits, load, speed, span, power_scale):
+    """Error of the spin force, pull and powers of a raceway contact that the `known` sheet predicted, over what is allowed.
+
+    `sheet` is the new one, at `load` [N] and `speed` [m/s] and `span` [s] later; `ratio` is r~ over the raceway's radius, `mass` a
+    roller's [kg].
+    """
+    slip = sheet.slip
+    spin, pull = raceway_from(known, load, speed, slip)
+    off = max(abs(spin - sheet.spin), abs(pull - sheet.pull))
+    drift = off / (mass / max(span, 1e-9) + max(sheet.spin_by_slip, sheet.pull_by_slip, 0.0))
+    shear = shear_from(known, load, speed, slip)
+    predicted = raceway_powers(known, ratio, spin, pull, shear, load, speed, slip)
+    found = raceway_powers(sheet, ratio, sheet.spin, sheet.pull, sheet.shear, load, speed, slip)
+    wrong, power = 0.0, 0.0
+    for k in range(4):
+        wrong += predicted[k] - found[k]
+        power += abs(found[k])
+    change = abs(load - known.load) / (tuning.LOAD_CHANGE * max(load, known.load) + 1e-9)
+    worst = max(drift / limits.allowed_speed, abs(wrong) / (limits.power * (power + power_scale) + 1e-12))
+    return max(worst, change * change)
+
+
+@jit_inline
+def _refresh(assembly, limits, time, space, power_scale):
+    """Evaluate the rollers that are due at the step's end `time` [s], and set the times to their next evaluations.
+
+    `power_scale` is the mean frictional power of a raceway contact so far [W]. Returns whether the forces of all resting
+    rollers were near those predicted; otherwise the step has to be repeated.
+    """
+    bearing, rests, moments = assembly.bearing[0], space.rests, space.moments[1]
+    sheets, known = space.sheets[0], space.sheets[1]
+    for j in range(rests.size):
+        one = rests[j]
+        one.due = one.fresh or time - known[j].when >= one.rest
+        one.marked = one.due and (not one.fresh or sheets[j].when != time)
+    # The last stage as a sum, as stages are numbered elsewhere: for a constant all of it would be compiled once more.
+    space.memory[0].evaluations += evaluate_marked(assembly, time, moments, space.rollers, FIRST + 1, rests, sheets)
+    inner_ratio, outer_ratio = bearing.pitch_radius / bearing.inner_radius, bearing.pitch_radius / bearing.outer_radius
+    good = True
+    for j in range(rests.size):
+        one, at, new, old = rests[j], moments[j], sheets[j], known[j]
+        if one.due:
+            span, mass = time - old.when, bearing.roller_mass
+            inner = _contact_off(
+                old.inner, new.inner, inner_ratio, mass, limits, at.inner_load, at.inner_speed, span, power_scale
+            )
+            outer = _contact_off(
+                old.outer, new.outer, outer_ratio, mass, limits, at.outer_load, at.outer_speed, span, power_scale
+            )
+            one.ratio = max(inner, outer)
+            if not one.fresh and one.ratio > tuning.FAR_OFF and span > 0.0:
+                one.rest = 0.0
+                good = False
+    # Times change only after a good step: a roller that has to be evaluated in its repetition would rest again.
+    for j in range(rests.size):
+        one = rests[j]
+        if good and one.due:
+            factor = tuning.REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
+            one.rest = min(
+                limits.longest_rest, (time - known[j].when) * max(tuning.REST_PART, min(factor, tuning.REST_GROWTH))
+            )
+    return good
+
+
+@jit_inline
+def _touch_ahead(pocket, rollers, h):
+    """Part of `h` [s] after which the first roller meets a spar, if it is free now; 1 if none does."""
+    part = 1.0
+    for j in range(rollers.size):
+        y = rollers[j].y
+        offset, speed = y[STATE, 2], y[SLOPE, 2]
+        if abs(offset) < pocket.half_gap and speed != 0.0:
+            way = pocket.half_gap - offset if speed > 0.0 else pocket.half_gap + offset
+            part = min(part, way / (abs(speed) * h))
+    return part
+
+
+@jit_inline
+def _impact_step(bearing, rollers):
+    """First step [s] of the fastest dry impact that has just begun; infinite if none has.
+
+    A mass m that runs at v into K δ^1.5 goes in by (5 m v²/4K)^0.4; the step is the time in which it travels a part of
+    that.
+    """
+    pocket, shortest = bearing.pocket, math.inf
+    for j in range(rollers.size):
+        y = rollers[j].y
+        offset, speed = y[STATE, 2], y[SLOPE, 2]
+        depth = abs(offset) - pocket.half_gap
+        if depth > 0.0 and offset * speed > 0.0:
+            deepest = (1.25 * bearing.roller_mass * speed * speed / pocket.stiffness) ** 0.4
+            if depth < tuning.BEGUN * deepest:
+                shortest = min(shortest, tuning.IMPACT_PART * deepest / abs(speed))
+    return shortest
+
+
+@jit_inline
+def _cut(bearing, rollers, step, left):
+    """Step [s] to the next stop or half-way to it.
+
+    With dry impacts to just after a touch, so that the impact begins in the step after, which is as short as it needs.
+    """
+    dry = bearing.pocket.film == 0.0
+    if dry:
+        step = min(step, _impact_step(bearing, rollers))
+    h = left if step >= 0.95 * left else (0.5 * left if step > 0.6 * left else step)
+    if dry:
+        part = _touch_ahead(bearing.pocket, rollers, h)
+        if part * h > 2e-5 and part < 0.98:
+            h = 1.0005 * part * h
+    return h
+
+
+@jit_inline
+def _leaves_tables(assembly, limits, space):
+    """Whether a roller ends the step in a state that its tables do not hold."""
+    body, moments, rollers = assembly.bodies[0], space.moments[1], space.rollers
+    for j in range(moments.size):
+        at, own = moments[j], rollers[j].y[LAST]
+        if max(at.inner_load, at.outer_load, abs(at.push)) > body.highest_load:
+            return True
+        inner = math.sqrt(at.inner_speed * at.inner_speed + 0.25 * own[0] * own[0])
+        outer = math.sqrt(at.outer_speed * at.outer_speed + 0.25 * own[1] * own[1])
+        if max(inner, outer) > body.highest_speed + 2.0 * REST_SPEED or min(inner, outer) < limits.slowest:
+            return True
+    return False
+
+
+@jit_inline
+def _write_end(assembly, start, end, space, row, whole, offset):
+    """Write the records' parts on a whole step and its end; a step without length is the start."""
+    bearing, memory, places = assembly.bearing[0], space.memory[0], assembly.places
+    begins = end.time == start.time
+    last = 0 if begins else 1
+    rollers, cages, moments = space.rollers, space.cages, space.moments[last]
+    pure_speed = -bearing.orbit_ratio * end.shaft_speed * bearing.outer_radius
+    whole.start, whole.end = start.time, end.time
+    for i in range(whole.flows.size):
+        whole.flows[i] = 0.0
+    for k in range(last + 1):
+        add_flows(assembly, whole.shaft_speed[k], k, row[0].weight[k], space, whole.flows)
+    for c in range(bearing.cages):
+        whole.torque[c] = 0.0
+        for i in range(6):
+            whole.cages[c, i] = cages[c].y[FIRST + last, i]
+    for j in range(row.size):
+        step, at, own = row[j], moments[j], rollers[j]
+        step.start, step.end, step.stages, step.pure_speed = start.time, end.time, last + 1, pure_speed
+        # Loads have a kink at every sample and pockets one at every touch; no parabola for a peak reaches across a step.
+        step.stretch, step.sampled = memory.steps, 1 if begins else 0
+        for i in range(3):
+            step.power_before[i] = step.power[0, i] if begins else own.power[i]
+            own.power[i] = step.power[last, i]
+        offset[j] = own.y[FIRST + last, 2]
+        cage = cages[places[j].cage].y[FIRST + last]
+        step.ahead = (offset[j] + cage[1] - cage[4] * at.sine + cage[5] * at.cosine) / bearing.pitch_radius
+        whole.torque[places[j].cage] -= bearing.pitch_radius * (at.push + bearing.lever * at.friction)
+
+
+@jit_inline
+def _take_over(y):
+    """Make the last stage of a roller or cage its state."""
+    for i in range(y.shape[1]):
+        y[STATE, i], y[SLOPE, i] = y[LAST, i], y[LAST_RATE, i]
+
+
+@jit_inline
+def _advance(end, space, row):
+    """Take over state, slopes and evaluations of an accepted step."""
+    memory, rollers, cages, rests, numbers = space.memory[0], space.rollers, space.cages, space.rests, space.numbers
+    memory.steps += 1
+    for j in range(row.size):
+        for k in range(2):
+            memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
+        if rests[j].due:
+            for i in range(numbers.shape[2]):
+                numbers[1, j, i] = numbers[0, j, i]
+        _take_over(rollers[j].y)
+    for c in range(cages.size):
+        _take_over(cages[c].y)
+    memory.time, memory.interval, memory.shaft_speed = end.time, end.interval, end.shaft_speed
+
+
+@jit
+def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
+    """Integrate all rollers and cages, until the history ends or the buffers are full.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion : Motion
+    stops : ndarray
+        Times at which a step must end [s], rising, the last being the end of the integration.
+    bounds : ndarray of `LIMITS`, shape (1,)
+    space : Space
+        With the state at the first sample; then as the last call left it.
+    steps, wholes, offsets : ndarray of `STEP`, shape (m, n), of `BEARING_STEP`, shape (m,), and of float, shape (m, n)
+        Filled from the start.
+
+    Returns
+    -------
+    status : int
+        A `Status`; UNDER_WAY where the buffers are full.
+    count : int
+        Rows that were written.
+    """
+    limits, memory = bounds[0], space.memory[0]
+    rows, status = 0, UNDER_WAY
+    while rows < wholes.size:
+        while memory.next_stop < stops.size and stops[memory.next_stop] <= memory.time:
+            memory.next_stop += 1
+        if memory.next_stop == stops.size:
+            status = COMPLETED
+            break
+        if memory.steps + memory.rejections >= limits.max_steps:
+            status = TOO_MANY_STEPS
+            break
+        stop = stops[memory.next_stop]
+        start, left = Clock(memory.time, memory.interval, memory.shaft_speed), stop - memory.time
+        h = _cut(assembly.bearing[0], space.rollers, min(memory.step, limits.longest_step), left)
+        if h <= 4e-16 * abs(start.time) + 1e-300:
+            status = STEP_TOO_SMALL
+            break
+        end = _clock_at(motion, stop if h == left else start.time + h, start.interval)
+        if memory.begun == 0:
+            end = start
+        row, whole = steps[rows], wholes[rows]
+        worst, solved = _solve_stages(assembly, motion, limits, start, end, space, row, whole)
+        if memory.begun == 0:
+            _copy(space.numbers[1], space.numbers[0])
+            _write_end(assembly, start, end, space, row, whole, offsets[rows])
+            memory.begun, rows = 1, rows + 1
+            continue
+        error = _step_error(assembly, limits, h, space) if solved else math.inf
+        if np.isnan(error) or (not worst < math.inf and h < 1e-12):
+            status = NOT_FINITE
+            break
+        factor = tuning.SAFETY / max(error, 1e-4) ** (1.0 / 3.0)
+        if error > 1.0:
+            memory.rejections += 1
+            memory.step = h * (max(tuning.LEAST_PART, factor) if solved else tuning.UNSOLVED_PART)
+            memory.failed = 1
+            continue
+        power_scale = max(memory.spent, 0.0) / (end.time - motion.time[0]) / (2 * row.size)
+        if not _refresh(assembly, limits, end.time, space, power_scale):
+            memory.rejections += 1
+            memory.step = h
+            continue
+        if _leaves_tables(assembly, limits, space):
+            status = OUTSIDE_TABLES
+            break
+        memory.unbalanced = max(memory.unbalanced, worst)
+        _write_end(assembly, start, end, space, row, whole, offsets[rows])
+        _advance(end, space, row)
+        memory.step, memory.failed = h * min(1.0 if memory.failed else tuning.GROWTH, factor), 0
+        rows += 1
+    return status, rows

@@ -1,0 +1,400 @@
+"""One implicit stage of all rollers and cages, solved by Newton's method.
+
+A stage is solved for y in y = y* + γh f(t, y). Newton's equations are divided by γh, so that residuals are forces [N]. Unknowns
+are each roller's slips v_in and v_out and each cage's lead w and, where it translates, its speeds p along X0 and q along Y0;
+offsets and displacements follow from them.
+
+The matrix has the shape of an arrow: two equations a roller, and a border of one or three a cage. A roller meets only its cage,
+so its two unknowns are eliminated on their own, and a solution costs in proportion to the number of rollers.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from macroslip.compiled import jit_inline
+from macroslip.whole import tuning
+from macroslip.whole.model import Assembly
+from macroslip.whole.pocket import guide_force, pocket_force
+from macroslip.whole.tractions import (
+    address,
+    cage_from,
+    evaluate_marked,
+    is_out_of_reach,
+    new_moments,
+    new_sheets,
+    raceway_from,
+)
+
+#: Speed over which the guide's friction turns its sign [m/s].
+GUIDE_SPEED = 1e-3
+#: Sets of unknowns or their rates: at the step's start, y*, at both stages.
+STATE, SLOPE, STAR, FIRST, LAST, FIRST_RATE, LAST_RATE = range(7)
+#: Unknowns or rates of a roller, by set: slips v_in, v_out [m/s] and pocket offset x [m]; and its frictional power at the step's
+#: start by interface [W].
+ROLLER = np.dtype([("y", "f8", (7, 3)), ("power", "f8", (3,))])
+#: Unknowns or rates of a cage, by set: lead w [m/s], lag ∫w dt [m], translation speeds p, q [m/s] and translations a, b [m].
+CAGE = np.dtype([("y", "f8", (7, 6))])
+#: When a roller's tractions are evaluated: time [s] for which those kept serve; error of the last predicted values over what is
+#: allowed; whether it is evaluated in every iteration, needs no further evaluation in this stage, is evaluated now, has new
+#: values to keep after the step.
+REST = np.dtype(
+    [("rest", "f8"), ("ratio", "f8"), ("fresh", "?"), ("settled", "?"), ("marked", "?"), ("due", "?"), ("unused", "i4")]
+)
+#: A roller's part of the matrix.
+#:
+#: inverse : of its 2 × 2 block
+#: column, row : its border: derivatives of its residuals by w, p, q and of the cage's residuals by v_in, v_out
+#: give, by_sliding, by_push : derivatives of N by x' [N s/m], and of F_c by slip [N s/m] and by N [-]
+#: rest : its residuals [N], or the right-hand side of a solution
+BLOCK = np.dtype(
+    [
+        ("inverse", "f8", (4,)), ("column", "f8", (2, 3)), ("row", "f8", (2, 3)),
+        ("give", "f8"), ("by_sliding", "f8"), ("by_push", "f8"), ("rest", "f8", (2,)),
+    ]
+)  # fmt: skip
+#: A cage's part of the matrix, and its residuals [N].
+BORDER = np.dtype([("matrix", "f8", (3, 3)), ("rest", "f8", (3,))])
+
+
+class Space(NamedTuple):
+    """State of an integration and its work space."""
+
+    rollers: np.ndarray  #: shape (n,)
+    cages: np.ndarray  #: shape (c,)
+    moments: np.ndarray  #: Shape (2, n). At both stages.
+    sheets: np.ndarray  #: Shape (2, n). Those of the step under way, and those kept from before it.
+    numbers: np.ndarray  #: Shape (2, n, columns). The same memory.
+    rests: np.ndarray  #: shape (n,)
+    blocks: np.ndarray  #: shape (n,)
+    borders: np.ndarray  #: shape (c,)
+    memory: np.ndarray  #: shape (1,)
+
+
+def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
+    """State and work space for a bearing; `memory` is the integrator's."""
+    count, cages = assembly.places.size, int(assembly.bearing[0]["cages"])
+    return Space(
+        np.zeros(count, ROLLER), np.zeros(cages, CAGE), new_moments(count), *new_sheets(count), np.zeros(count, REST),
+        np.zeros(count, BLOCK), np.zeros(cages, BORDER), memory,
+    )  # fmt: skip
+
+
+class Stage(NamedTuple):
+    """A stage to solve."""
+
+    step: float  #: γh [s]
+    time: float  #: [s]
+    shaft_speed: float  #: [rad/s]
+    tolerance: float  #: Largest force that may be left unbalanced [N]
+    cage_reach: float  #: Relative change of load or slip within which the slopes of a cage's contact serve
+
+
+class Meeting(NamedTuple):
+    """Contact of a roller with its pocket."""
+
+    #: N and F_c [N].
+    push: float
+    friction: float
+    give: float  #: Derivative of N by x', with the offset that follows from it in this stage [N s/m]
+    #: Derivatives of F_c by the slip against the cage [N s/m] and by N [-].
+    by_sliding: float
+    by_push: float
+    arm: float  #: Lever of N about the cage's own axis over the pitch radius [-]
+    cage_turn: float  #: Speed of the cage [rad/s]
+
+
+@jit_inline
+def meet(bearing, contact, stage, at, own, star, cage, sheet):
+    """Push and friction of a roller's pocket; its offset follows from its speed.
+
+    `contact` are a roller's body and the address of its tables, `own` and `cage` the unknowns of the roller and its cage, `star` the roller's y*.
+    """
+    shaft_speed = stage.shaft_speed
+    v_in, v_out = own[0], own[1]
+    cage_turn = (cage[0] + 0.5 * shaft_speed * bearing.inner_radius) / bearing.pitch_radius
+    off_axis = cage[4] * at.cosine + cage[5] * at.sine
+    speed = 0.5 * (v_in - v_out) - cage[0] + cage[2] * at.sine - cage[3] * at.cosine + cage_turn * off_axis
+    speed += 0.5 * (at.ring - shaft_speed * bearing.inner_radius)
+    own[2] = star[2] + stage.step * speed
+    push, by_offset, by_speed = pocket_force(bearing.pocket, own[2], speed)
+    # r ω_z' = −(v_in + v_out + Ω_in r~_in)/2
+    sliding = 0.5 * (v_in + v_out + at.ring) + bearing.lever * bearing.pitch_radius * cage_turn
+    body, tables = contact
+    friction, by_sliding, by_push = cage_from(body, tables, sheet.cage, push, sliding, stage.cage_reach)
+    at.friction, at.push, at.sliding, at.pocket_speed = friction, push, sliding, speed
+    give = by_speed + stage.step * by_offset
+    return Meeting(push, friction, give, by_sliding, by_push, 1.0 - off_axis / bearing.pitch_radius, cage_turn)
+
+
+@jit_inline
+def _write_block(inertia, at, sheet, met, block):
+    """Inverse of a roller's block, and the derivatives by which its pocket's forces follow."""
+    block.give, block.by_sliding, block.by_push = met.give, met.by_sliding, met.by_push
+    spin_in, pull_in, spin_out, pull_out = 0.0, 0.0, 0.0, 0.0
+    if at.inner_load > 0.0:
+        spin_in, pull_in = sheet.inner.spin_by_slip, sheet.inner.pull_by_slip
+    if at.outer_load > 0.0:
+        spin_out, pull_out = sheet.outer.spin_by_slip, sheet.outer.pull_by_slip
+    # Derivatives of 2 F_c and of N by v_in; those by v_out differ in the sign of the push's part.
+    shared, tilted = met.by_sliding, met.by_push * met.give
+    j11 = inertia + pull_in + 2.0 * spin_in + shared + tilted - 0.5 * met.give
+    j12 = -pull_out + 2.0 * spin_out + shared - tilted + 0.5 * met.give
+    j21 = -pull_in + 2.0 * spin_in + shared + tilted + 0.5 * met.give
+    j22 = inertia + pull_out + 2.0 * spin_out + shared - tilted - 0.5 * met.give
+    part = 1.0 / (j11 * j22 - j12 * j21)
+    inverse = block.inverse
+    inverse[0], inverse[1], inverse[2], inverse[3] = j22 * part, -j12 * part, -j21 * part, j11 * part
+
+
+@jit_inline
+def _add_to_border(bearing, stage, at, met, block, border):
+    """Add a roller to its cage's equations, and the cage to the roller's."""
+    matrix, rest, row, column = border.matrix, border.rest, block.row, block.column
+    lever, by_w = bearing.lever, -met.give
+    rest[0] += met.push * met.arm + met.friction * lever
+    half_push, half_friction = 0.5 * met.give, 0.5 * met.by_push * met.give
+    row[0, 0] = half_push * met.arm + lever * (0.5 * met.by_sliding + half_friction)
+    row[1, 0] = -half_push * met.arm + lever * (0.5 * met.by_sliding - half_friction)
+    friction_by_w = met.by_sliding * lever + met.by_push * by_w
+    column[0, 0], column[1, 0] = 2.0 * friction_by_w - by_w, 2.0 * friction_by_w + by_w
+    matrix[0, 0] += met.arm * by_w + lever * friction_by_w
+    if bearing.translates:
+        cosine, sine = at.cosine, at.sine
+        rest[1] -= met.push * sine
+        rest[2] += met.push * cosine
+        by_p = met.give * (sine + stage.step * met.cage_turn * cosine)
+        by_q = met.give * (-cosine + stage.step * met.cage_turn * sine)
+        row[0, 1], row[1, 1] = -sine * half_push, sine * half_push
+        row[0, 2], row[1, 2] = cosine * half_push, -cosine * half_push
+        column[0, 1], column[1, 1] = (2.0 * met.by_push - 1.0) * by_p, (2.0 * met.by_push + 1.0) * by_p
+        column[0, 2], column[1, 2] = (2.0 * met.by_push - 1.0) * by_q, (2.0 * met.by_push + 1.0) * by_q
+        by_turn = met.arm + lever * met.by_push
+        matrix[0, 1] += by_turn * by_p
+        matrix[0, 2] += by_turn * by_q
+        for k, by in enumerate((by_w, by_p, by_q)):
+            matrix[1, k] -= sine * by
+            matrix[2, k] += cosine * by
+
+
+@jit_inline
+def eliminate(places, size, blocks, borders):
+    """Take the rollers out of the cages' borders, once for all right-hand sides; a cage has `size` unknowns, one or three."""
+    for j in range(places.size):
+        matrix, inverse = borders[places[j].cage].matrix, blocks[j].inverse
+        column, row = blocks[j].column, blocks[j].row
+        i0, i1, i2, i3 = inverse[0], inverse[1], inverse[2], inverse[3]
+        for k in range(size):
+            ahead, behind = column[0, k], column[1, k]
+            first, second = i0 * ahead + i1 * behind, i2 * ahead + i3 * behind
+            for i in range(size):
+                matrix[i, k] -= row[0, i] * first + row[1, i] * second
+
+
+@jit_inline
+def _solve_border(matrix, rest, size):
+    """Solve the small border in place by Cramer's rule; its diagonal is dominated by mass over step."""
+    if size == 1:
+        rest[0] /= matrix[0, 0]
+        return
+    m00, m01, m02 = matrix[0, 0], matrix[0, 1], matrix[0, 2]
+    m10, m11, m12 = matrix[1, 0], matrix[1, 1], matrix[1, 2]
+    m20, m21, m22 = matrix[2, 0], matrix[2, 1], matrix[2, 2]
+    c00, c01, c02 = m11 * m22 - m12 * m21, m12 * m20 - m10 * m22, m10 * m21 - m11 * m20
+    determinant = m00 * c00 + m01 * c01 + m02 * c02
+    r0, r1, r2 = rest[0], rest[1], rest[2]
+    rest[0] = (r0 * c00 + r1 * (m02 * m21 - m01 * m22) + r2 * (m01 * m12 - m02 * m11)) / determinant
+    rest[1] = (r0 * c01 + r1 * (m00 * m22 - m02 * m20) + r2 * (m02 * m10 - m00 * m12)) / determinant
+    rest[2] = (r0 * c02 + r1 * (m01 * m20 - m00 * m21) + r2 * (m00 * m11 - m01 * m10)) / determinant
+
+
+@jit_inline
+def solve(places, size, blocks, borders):
+    """Turn `rest` of blocks and borders into the solution of the system that `eliminate` has prepared; parameters as there."""
+    for j in range(places.size):
+        inverse, rest, row = blocks[j].inverse, blocks[j].rest, blocks[j].row
+        first = inverse[0] * rest[0] + inverse[1] * rest[1]
+        second = inverse[2] * rest[0] + inverse[3] * rest[1]
+        rest[0], rest[1] = first, second
+        border_rest = borders[places[j].cage].rest
+        for i in range(size):
+            border_rest[i] -= row[0, i] * first + row[1, i] * second
+    for c in range(borders.size):
+        _solve_border(borders[c].matrix, borders[c].rest, size)
+    for j in range(places.size):
+        inverse, rest, column = blocks[j].inverse, blocks[j].rest, blocks[j].column
+        change = borders[places[j].cage].rest
+        first, second = 0.0, 0.0
+        for k in range(size):
+            first += column[0, k] * change[k]
+            second += column[1, k] * change[k]
+        rest[0] -= inverse[0] * first + inverse[1] * second
+        rest[1] -= inverse[2] * first + inverse[3] * second
+
+
+@jit_inline
+def _begin_cage(bearing, stage, cage, star, border):
+    """Parts of a cage's equations that no roller enters."""
+    inertia = bearing.cage_mass / stage.step
+    matrix, rest = border.matrix, border.rest
+    for i in range(3):
+        for k in range(3):
+            matrix[i, k] = inertia if i == k else 0.0
+    turning = cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius
+    drive = math.tanh(turning / GUIDE_SPEED)
+    rest[0] = inertia * (cage[0] - star[0]) + bearing.guide_friction * drive
+    matrix[0, 0] += bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED
+    rest[1] = inertia * (cage[2] - star[2])
+    rest[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
+    if bearing.translates:
+        push, n_x, n_y, by_place, by_speed = guide_force(bearing.radial_play, cage[4], cage[5], cage[2], cage[3])
+        rest[1] += push * n_x
+        rest[2] += push * n_y
+        radial = by_speed + stage.step * by_place
+        turning_push = stage.step * push / math.sqrt(cage[4] ** 2 + cage[5] ** 2) if push > 0.0 else 0.0
+        matrix[1, 1] += radial * n_x * n_x + turning_push * n_y * n_y
+        matrix[1, 2] += (radial - turning_push) * n_x * n_y
+        matrix[2, 1] += (radial - turning_push) * n_x * n_y
+        matrix[2, 2] += radial * n_y * n_y + turning_push * n_x * n_x
+
+
+@jit_inline
+def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
+    """Raceway forces at the present state of stage `k`, evaluated where slopes do not serve. Returns the evaluations."""
+    for j in range(moments.size):
+        rest, at, sheet, own = rests[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
+        at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, own[0])
+        at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, own[1])
+        if not rest.fresh and is_out_of_reach(sheet, at):
+            rest.fresh = True
+        rest.marked = rest.fresh and not rest.settled
+    evaluations = evaluate_marked(assembly, stage.time, moments, rollers, FIRST + k, rests, sheets)
+    for j in range(moments.size):
+        if rests[j].marked:
+            at, inner, outer = moments[j], sheets[j].inner, sheets[j].outer
+            off = abs(at.spin_inner - inner.spin) + abs(at.pull_inner - inner.pull)
+            off += abs(at.spin_outer - outer.spin) + abs(at.pull_outer - outer.pull)
+            # Slopes that predicted the force well enough serve until the stage is solved.
+            rests[j].settled = off <= tuning.PREDICTED * stage.tolerance
+            at.spin_inner, at.pull_inner, at.spin_outer, at.pull_outer = inner.spin, inner.pull, outer.spin, outer.pull
+    return evaluations
+
+
+@jit_inline
+def _place_cages(stage, k, cages):
+    """Lag and translations of the cages in stage `k`, which follow from their speeds."""
+    for c in range(cages.size):
+        own, star = cages[c].y[FIRST + k], cages[c].y[STAR]
+        own[1] = star[1] + stage.step * own[0]
+        own[4] = star[4] + stage.step * own[2]
+        own[5] = star[5] + stage.step * own[3]
+
+
+@jit_inline
+def _assemble(assembly, stage, k, size, space):
+    """Residuals and derivatives of stage `k` at its present state. Returns the largest residual [N]."""
+    rollers, cages, moments, sheets = space.rollers, space.cages, space.moments[k], space.sheets[0]
+    places, blocks, borders = assembly.places, space.blocks, space.borders
+    bearing, contact = assembly.bearing[0], (assembly.bodies[0], address(assembly))
+    _place_cages(stage, k, cages)
+    for c in range(cages.size):
+        _begin_cage(bearing, stage, cages[c].y[FIRST + k], cages[c].y[STAR], borders[c])
+    memory = space.memory[0]
+    memory.evaluations += _raceway_forces(assembly, stage, k, moments, rollers, space.rests, sheets)
+    memory.iterations += 1
+    inertia, worst, finite = bearing.roller_mass / stage.step, 0.0, True
+    for j in range(moments.size):
+        c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
+        own, star = rollers[j].y[FIRST + k], rollers[j].y[STAR]
+        met = meet(bearing, contact, stage, at, own, star, cages[c].y[FIRST + k], sheet)
+        turning = 2.0 * (at.spin_inner + at.spin_outer + met.friction)
+        driving = met.push - at.tangential - at.pull_inner + at.pull_outer
+        rest_in = inertia * (own[0] - star[0]) + turning - driving
+        rest_out = inertia * (own[1] - star[1]) + turning + driving
+        block.rest[0], block.rest[1] = rest_in, rest_out
+        worst = max(worst, abs(rest_in), abs(rest_out))
+        # `max` may ignore a NaN.
+        finite = finite and abs(rest_in) + abs(rest_out) < math.inf
+        _write_block(inertia, at, sheet, met, block)
+        _add_to_border(bearing, stage, at, met, block, borders[c])
+    for c in range(cages.size):
+        for i in range(size):
+            rest = abs(borders[c].rest[i])
+            worst = max(worst, rest)
+            finite = finite and rest < math.inf
+    return worst if finite else math.inf
+
+
+@jit_inline
+def _update(k, size, space):
+    """Subtract a solution from the unknowns of stage `k`."""
+    rollers, cages, blocks, borders = space.rollers, space.cages, space.blocks, space.borders
+    for j in range(rollers.size):
+        own, change = rollers[j].y[FIRST + k], blocks[j].rest
+        own[0] -= change[0]
+        own[1] -= change[1]
+    for c in range(cages.size):
+        cage, change = cages[c].y[FIRST + k], borders[c].rest
+        cage[0] -= change[0]
+        if size == 3:
+            cage[2] -= change[1]
+            cage[3] -= change[2]
+
+
+@jit_inline
+def _follow(assembly, stage, k, space):
+    """Forces and places of the rollers of stage `k` to first order after the update of speeds that blocks and borders hold."""
+    bearing, places, rollers, cages = assembly.bearing[0], assembly.places, space.rollers, space.cages
+    moments, sheets, blocks, borders = space.moments[k], space.sheets[0], space.blocks, space.borders
+    for j in range(blocks.size):
+        c, at, sheet, block = places[j].cage, moments[j], sheets[j], blocks[j]
+        cage, border = cages[c].y[FIRST + k], borders[c].rest
+        v_in, v_out = -block.rest[0], -block.rest[1]
+        if at.inner_load > 0.0:
+            at.spin_inner += sheet.inner.spin_by_slip * v_in
+            at.pull_inner += sheet.inner.pull_by_slip * v_in
+        if at.outer_load > 0.0:
+            at.spin_outer += sheet.outer.spin_by_slip * v_out
+            at.pull_outer += sheet.outer.pull_by_slip * v_out
+        speed = 0.5 * (v_in - v_out) + border[0]
+        if bearing.translates:
+            turn = stage.step * (cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius) / bearing.pitch_radius
+            speed -= (at.sine + turn * at.cosine) * border[1] + (turn * at.sine - at.cosine) * border[2]
+        sliding = 0.5 * (v_in + v_out) - bearing.lever * border[0]
+        push = block.give * speed
+        at.push += push
+        at.friction += block.by_sliding * sliding + block.by_push * push
+        at.sliding += sliding
+        at.pocket_speed += speed
+        rollers[j].y[FIRST + k, 2] += stage.step * speed
+
+
+@jit_inline
+def solve_stage(assembly, stage, k, space):
+    """Solve stage `k` (0 or 1) from y* and the guess in its unknowns, which it replaces, with the rollers located.
+
+    Returns the largest residual [N], or the part that the last update is predicted to leave of it; above the tolerance or
+    not finite where the stage is not solved. The matrix is left prepared for further right-hand sides.
+    """
+    places, blocks, borders, rests = assembly.places, space.blocks, space.borders, space.rests
+    size = 3 if assembly.bearing[0].translates else 1
+    worst, before = math.inf, math.inf
+    for j in range(blocks.size):
+        rests[j].settled = False
+    for _ in range(tuning.ITERATIONS):
+        worst = _assemble(assembly, stage, k, size, space)
+        eliminate(places, size, blocks, borders)
+        if worst <= stage.tolerance or not worst < math.inf:
+            break
+        solve(places, size, blocks, borders)
+        _update(k, size, space)
+        predicted = worst * max((worst / before) ** 2, tuning.PREDICTED_REST)
+        if predicted <= stage.tolerance:
+            _place_cages(stage, k, space.cages)
+            _follow(assembly, stage, k, space)
+            return predicted
+        before = worst
+    return worst

@@ -1,0 +1,69 @@
+"""Numbers that steer the integration of the whole bearing, in one place, each with what chose it.
+
+None is physics: every result converges to the same value as the tolerance falls, whatever they are. "The page's cases" are
+those of docs/notes/whole-bearing.md, whose tables `docs/whole_bearing.py` makes. Where no measurement is known the number is a
+judgement and called one.
+"""
+
+from __future__ import annotations
+
+# --- Steps ------------------------------------------------------------------------------------------------------------
+
+#: First step [s], most growth of a step, and its least part after an error. Judgement, near Hairer and Wanner's RADAU5,
+#: IV.8: error control corrects the first step within a few.
+FIRST_STEP, GROWTH, LEAST_PART = 1e-4, 3.0, 0.2
+#: Part of a step after stages that were not solved, and the safety factor on the step that the error allows (Hairer and
+#: Wanner, IV.8: 0.8 to 0.9). Judgement.
+UNSOLVED_PART, SAFETY = 0.25, 0.85
+#: Longest step [s]: the weight's direction, loads and places in the pocket change over it. Judgement: the
+#: sample interval of the bundled loads.
+LONGEST_STEP = 0.05
+#: Part of the deepest indentation below which a dry impact has just begun, and part of it in the first step then. Judgement;
+#: a test compares the restitution of single impacts.
+BEGUN, IMPACT_PART = 0.1, 0.5
+
+# --- Error ------------------------------------------------------------------------------------------------------------
+
+#: Error of speed that a step may make in tolerances of the raceway speed, error of power where slopes predict it and
+#: force [N] left unbalanced in tolerances. Energies of the page's cases are good to 1e-3 with them at the default
+#: tolerance, 2e-4, with squeeze films and dry impacts under either set of laws.
+SPEED_SHARE, POWER_SHARE, FORCE_SHARE = 5.0, 3.0, 1.0
+#: Factor on the error of speed with dry impacts: most of it is made while spars ring after a touch, where its sign is random.
+#: With it the line above holds for dry impacts too.
+RINGING = 2.0
+#: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale. Judgement.
+LEAST_SPEED = 1e-3
+#: Time [s] in which an error of speed becomes one of place. Judgement.
+PLACE_TIME = 0.02
+
+# --- Stage equations --------------------------------------------------------------------------------------------------
+
+#: Newton iterations before a step counts as unsolved. Judgement.
+ITERATIONS = 12
+#: Tolerances by which the slopes may be off at the last evaluation, for Newton's next update is far smaller. Judgement.
+PREDICTED = 10.0
+#: Least part of a residual that is taken to be left by the next update. Newton's iteration squares it, but slopes of
+#: contacts are those of a state nearby. Judgement.
+PREDICTED_REST = 1e-3
+
+# --- Tractions between evaluations ------------------------------------------------------------------------------------
+
+#: Longest time between evaluations of a roller's tractions [s]. Judgement: the sample interval of the bundled loads.
+LONGEST_REST = 0.05
+#: Factors by which the time between evaluations changes. Judgement.
+REST_GROWTH, REST_PART = 2.0, 0.3
+#: Safety factor on the time to the next evaluation. Judgement, as of a step.
+REST_SAFETY = 0.8
+#: How many times its allowance a predicted force may be off before the step is repeated. Judgement.
+FAR_OFF = 30.0
+#: Relative change of a raceway's load over which the time between evaluations shortens, and that beyond which slopes no
+#: longer serve. Judgement.
+LOAD_CHANGE, LOAD_REACH = 0.2, 0.25
+#: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most.
+CAGE_REACH = 0.1
+#: Force of the cage that never matters [N], and change of the load of a pocket full of oil that never matters [N]: its film is
+#: bounded by the pocket. Judgement.
+LIGHT, FLOATING = 1e-7, 0.05
+#: Relative change of a place up to which the films of a roller with play carry the same. They carry newtons, of which
+#: traction is some hundredths: 1e-4 N, the tolerance of Newton's iteration at the default.
+FILM_REACH = 1e-3

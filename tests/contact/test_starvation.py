@@ -1,0 +1,129 @@
+"""Films of inlets that are not full, against the integral of Reynolds' equation in the inlet."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from macroslip import Bearing, BearingLoads, Case, Laws, Lubricant
+from macroslip.case.case_file import build_case
+from macroslip.contact.gap import starved_martin
+from macroslip.contact.laws import prepare
+from macroslip.contact.rolling import light_contact, pocket_contact, replenishment, starvation_factor
+from macroslip.contact.starvation import (
+    film_factor,
+    inlet_at_gap,
+    inlet_for_film,
+    inlet_for_rolling,
+    rigid_rolling_factor,
+)
+from macroslip.errors import InputError
+from macroslip.input.files import Source
+
+LOADS = BearingLoads.constant([0.0, -3.4e5, 1.6e5], 2.14, 10.0)
+LOAD, SPEED = 2e4, 0.4
+
+
+@pytest.mark.parametrize("inlet", [1.2, 2.0, 3.0, 10.0, 100.0])
+def test_film_reaches_the_reduced_pressure_with_the_inlet_that_it_has(inlet):
+    # Along the way t from the edge, h = h* + t^1.5: film and start of the inlet such that ∫ (h − h*)/h³ dt is the same.
+    def pressure(film, first):
+        return quad(lambda t: t**1.5 / (film + t**1.5) ** 3, 0.0, first, limit=200)[0]
+
+    film = float(film_factor(inlet))
+    full = pressure(1.0, 1.0) + quad(lambda s: s**-3.5 / (1.0 + s**-1.5) ** 3, 0.0, 1.0)[0]  # t = 1/s beyond 1
+    assert pressure(film, ((inlet - 1.0) * film) ** (2.0 / 3.0)) == pytest.approx(full, rel=1e-7)
+
+
+def test_inverses():
+    for inlet in (1.5, 3.0, 30.0, 175.0):
+        assert inlet_for_film(float(film_factor(inlet))) == pytest.approx(inlet, rel=1e-6)
+        assert inlet_for_rolling(starvation_factor(inlet)) == pytest.approx(inlet, rel=1e-9)
+        assert inlet_at_gap(inlet * film_factor(inlet) * 1e-6, 1e-6) == pytest.approx(inlet, rel=1e-6)
+        assert rigid_rolling_factor(inlet) == pytest.approx(starved_martin(inlet)[1], rel=1e-5)
+    assert inlet_for_film(1.0) == math.inf
+
+
+def case(supply, **other):
+    return Case(loads=LOADS, laws=Laws.physical(), oil_supply=supply, **other)
+
+
+def contacts(supply, **other):
+    one = case(supply, **other)
+    return prepare(one.laws, one.bearing, one.oil, 1)
+
+
+def test_flooded_is_a_lubricant_that_floods():
+    flood = Lubricant.read("vg460-pao").replace(starvation=1.0, fullness=1.0, inlet_film=1e6)
+    known, found = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), flood, 1), contacts("flooded")
+    assert found.inner.film_thickness(LOAD, SPEED) == known.inner.film_thickness(LOAD, SPEED)
+    for load in (1.0, LOAD):
+        one, other = (np.array(light_contact(law.inner.rolling, load, SPEED)) for law in (found, known))
+        # S = 1e6 is not yet infinite.
+        assert one == pytest.approx(other, rel=1.1 * (1.0 - starved_martin(1e6)[1]))
+    assert math.isinf(found.inner.oil_gap) and math.isinf(contacts(1.0).inner.oil_gap)
+
+
+@pytest.mark.parametrize("supply", [0.3, 0.5, 0.7, 0.9])
+def test_number_is_film_over_flooded_film_under_the_mean_load(supply):
+    one = case(supply)
+    gap, full = one.oil.oil_gap, contacts("flooded").inner
+    inlet = inlet_for_film(supply)
+    flooded = gap / (inlet * supply)
+    # The film law at a load between that of one roller and ten times it: somewhere there is the mean load.
+    assert contacts(supply).inner.film_thickness(2.3e4, SPEED) / full.film_thickness(2.3e4, SPEED) == pytest.approx(
+        supply, abs=0.02
+    )
+    assert 0.5e-6 < flooded < 3e-6
+
+
+def test_less_oil_makes_thinner_films_less_resistance_and_idle_films_below_the_gap():
+    found = [contacts(supply) for supply in ("flooded", 0.9, 0.7, 0.5)]
+    films = [float(one.inner.film_thickness(LOAD, SPEED)) for one in found]
+    rolling = [float(light_contact(one.inner.rolling, LOAD, SPEED)[1]) for one in found]
+    idle = [[float(value) for value in light_contact(one.inner.rolling, 5.0, 0.2)] for one in found]
+    for series in (films, rolling, [one[1] for one in idle], [one[2] for one in idle]):
+        assert series == sorted(series, reverse=True)
+    for one, law in zip(idle[1:], found[1:], strict=True):
+        assert one[2] < law.inner.oil_gap
+
+
+def test_skf_gives_the_rolling_resistance_its_replenishment_factor():
+    one = case("skf")
+    oil, full = one.oil, contacts("flooded").inner
+    filled = float(
+        replenishment(oil.viscosity / oil.density, 2.14, one.bearing.bore_diameter, one.bearing.outside_diameter)
+    )
+    ratio = light_contact(contacts("skf").inner.rolling, 2.3e4, SPEED)[1] / light_contact(full.rolling, 2.3e4, SPEED)[1]
+    assert ratio == pytest.approx(filled, abs=0.03)
+
+
+def test_skf_needs_the_size_of_the_bearing():
+    bearing = Bearing.read("skf-240-600-bc").replace(name="mine", bore_diameter=None)
+    with pytest.raises(
+        InputError, match=r"oil_supply: .*mine has no bore_diameter.*give the film over the flooded film as a number"
+    ):
+        case("skf", bearing=bearing)
+    assert case(0.7, bearing=bearing).oil.oil_gap > 0.0
+
+
+@pytest.mark.parametrize("value", ["full", 0.2, 1.1, True, [0.7]])
+def test_other_supplies_are_refused(value):
+    data = {"loads": {"bundled": "14B"}, "oil_supply": value}
+    with pytest.raises(InputError, match="oil_supply: it is .*Allowed: flooded, skf, or film / flooded film"):
+        build_case(data, Source(), __import__("pathlib").Path())
+
+
+def test_yield_stress_of_a_grease_holds_rollers_back():
+    plain = Lubricant.read("vg460-pao")
+    stiff = plain.replace(grease_yield_stress=300.0)
+    here, there = (contacts("flooded", lubricant=one) for one in (plain, stiff))
+    speed = 0.05
+    added = [pocket_contact(law.cage.rolling, 1.0, speed, 2.5e-4)[0] * 2.0 * speed for law in (here, there)]
+    # A flooded pocket holds the roller on a roller's radius to either side: 2 r l τ_y.
+    assert added[1] - added[0] == pytest.approx(0.07 * 0.106 * 300.0, rel=1e-6)
+    resistance = [float(light_contact(law.inner.rolling, 5.0, 0.2)[1]) for law in (here, there)]
+    assert 0.0 < resistance[1] - resistance[0] <= 0.035 * 0.106 * 300.0
+    heavy = [float(light_contact(law.inner.rolling, 3e4, 0.4)[1]) for law in (here, there)]
+    assert heavy[0] < heavy[1] < 1.005 * heavy[0]

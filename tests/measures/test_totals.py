@@ -1,0 +1,339 @@
+"""From steps to numbers: totals against plain sums, peaks against known maxima, energies of places and stations, and looks."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from macroslip import Laws
+from macroslip.measures import details as looks
+from macroslip.measures.details import SECTORS, Looker, new_details, prepare
+from macroslip.measures.roller import RollerMeasures, Row, Wanted
+from macroslip.measures.totals import (
+    END,
+    HIGHEST_RISE,
+    SPIN_RATIO_SPEED,
+    book,
+    film_times,
+    new_totals,
+    orbit_at,
+    vertex,
+)
+from macroslip.roller.step import STEP
+from tests.one_roller import RATED, limits_of, models, motion_of, rollers, walk
+
+EDGES = np.array([0.5, 2.0, 7.9, 14.6])
+WIDTH = 2.0 * math.pi / SECTORS
+ANGLE = -0.55
+#: A time under load after a sample of the loads, 4.9 s, by rounding only.
+LATE = float(np.nextafter(4.9, 10.0))
+
+
+@pytest.fixture(scope="module")
+def walked():
+    """A roller with all mechanisms through two and a half orbits with load zones: model, roller, motion and steps."""
+    made = models(Laws.physical())
+    roller = rollers(made)["downwind"]
+    motion = motion_of(
+        np.linspace(0.0, 16.0, 321), RATED * (1.0 + 0.01 * np.sin(np.arange(321.0))), (0.0, -2.2e-4, 0.0)
+    )
+    steps, status, _ = walk(roller, motion, limits_of(roller, motion, 2e-4), sorted([*EDGES, LATE, 16.0]), ANGLE)
+    assert status == 0 and LATE not in steps["end"] and 4.9 in steps["end"]
+    return made["downwind"], roller, motion, steps
+
+
+def booked(steps, cuts=()):
+    return booked_with_ends(steps, cuts)[0]
+
+
+def booked_with_ends(steps, cuts=()):
+    totals, states = new_totals(EDGES, 0.4), np.zeros(steps.size, END)
+    for part, ends in zip(np.split(steps, cuts), np.split(states, cuts), strict=True):
+        book(part[:, None].copy(), 0, totals, ends)
+    return totals, states
+
+
+def test_totals_are_sums_over_the_steps(walked):
+    steps = walked[3]
+    totals, inside = booked(steps), steps[steps["start"] >= EDGES[0]]
+    weight = inside["weight"][..., None]
+    for name, field in (("energy", "power"), ("rolling_energy", "rolling"), ("asperity_energy", "rough")):
+        expected = (weight * inside[field]).sum(axis=(0, 1))
+        assert (expected[:2] > 0.0).all()
+        np.testing.assert_allclose(getattr(totals, name), expected, rtol=1e-10)
+    lag, skew = ((weight * inside[name]).sum(axis=(0, 1)) for name in ("lag_power", "skew_power"))
+    np.testing.assert_allclose(totals.mechanism_energy[:2, 1:], np.stack([lag, skew], axis=1), rtol=1e-9)
+    np.testing.assert_allclose(totals.mechanism_energy.sum(axis=1), totals.energy, rtol=1e-10)
+    assert (totals.mechanism_energy[2, 1:] == 0.0).all()
+    middle = 0.5 * (inside["start"] + inside["end"])
+    for orbit in range(3):
+        here = inside[(middle >= EDGES[orbit]) & (middle < EDGES[orbit + 1])]
+        np.testing.assert_allclose(
+            totals.orbit_energy[orbit], (here["weight"][..., None] * here["power"]).sum(axis=(0, 1)), rtol=1e-10
+        )
+        # A peak is at least the largest sample and, by the parabola, at most a tenth above it.
+        largest = np.where((np.arange(3) < here["stages"][:, None])[..., None], here["power"], 0.0).max(axis=(0, 1))
+        largest = np.maximum(largest, here["power_before"][0])
+        assert (totals.peak_power[orbit] >= largest).all() and (
+            totals.peak_power[orbit] <= HIGHEST_RISE * largest
+        ).all()
+    rows = inside[inside["weight"][:, 0] > 0.0]
+    ratio = ((rows["outer_speed"] - rows["outer_slip"])[:, 2] / rows["pure_speed"]).min()
+    assert totals.spin_ratio[0] == pytest.approx(ratio, rel=1e-12)
+
+
+def test_nothing_depends_on_where_buffers_end(walked):
+    steps = walked[3]
+    one = booked(steps)
+    for cuts in ([5], [1, 2, 3, 100], range(1, steps.size)):
+        for name, other in booked(steps, cuts)._asdict().items():
+            np.testing.assert_array_equal(other, getattr(one, name), err_msg=name)
+
+
+def test_spin_ratio_is_taken_where_rings_run(walked):
+    slow = walked[3].copy()
+    slow["pure_speed"] = 0.9 * SPIN_RATIO_SPEED * 0.4
+    assert booked(slow).spin_ratio[0] == math.inf
+
+
+def test_time_with_load_and_out_of_range(walked):
+    model, _, _, steps = walked
+    found = film_times(booked_with_ends(steps)[1], model.laws)
+    inside = steps[(steps["start"] >= EDGES[0]) & (steps["weight"][:, 0] > 0.0)]
+    span = inside["end"] - inside["start"]
+    loaded = [inside["inner_load"][:, 2] > 0.0, inside["outer_load"][:, 2] > 0.0, inside["cage_load"][:, 2] != 0.0]
+    np.testing.assert_allclose(found[0], [span[one].sum() for one in loaded], rtol=1e-10)
+    assert ((found[1] >= 0.0) & (found[1] <= found[0] * (1 + 1e-12))).all()
+
+
+def test_load_of_films_is_what_raceways_carry_beside_the_rings(walked):
+    """Against a trapezoid through the ends of the steps."""
+    _, _, _, steps = walked
+    time, films = booked(steps).film_load
+    inside = steps[steps["start"] >= EDGES[0]]
+    assert time == pytest.approx(16.0 - EDGES[0], rel=1e-12)
+    at, last = inside["end"], inside["stages"] - 1
+    load = {name: inside[name][np.arange(at.size), last] for name in ("elastic_load", "inner_load", "outer_load")}
+    beside = np.minimum(load["inner_load"], load["outer_load"]) - load["elastic_load"]
+    assert films == pytest.approx(np.trapezoid(beside, at), rel=0.05) and films > 0.0
+
+
+# --- Peaks -----------------------------------------------------------------------------------------------------------
+
+
+@given(top=st.floats(-0.9, 0.9), height=st.floats(0.1, 100.0), bend=st.floats(0.1, 10.0))
+def test_vertex_of_a_parabola_is_exact(top, height, bend):
+    middle = round(top)
+    places = (middle - 1.1, middle, middle + 0.9) if middle == 0 else (middle - 1.0, middle, middle + 1.0)
+    found = vertex(*(number for t in places for number in (float(t), height - bend * (t - top) ** 2)))
+    assert found == pytest.approx(height, rel=1e-12, abs=1e-9)
+    assert vertex(0.0, 1.0, 1.0, 2.0, 2.0, 3.0) == 2.0
+
+
+def peak_of(times, power, *, sampled=False, orbit_start=0.0):
+    """Peak of a power given at times, each a step of one stage."""
+    rows = np.zeros((len(times) - 1, 1), STEP)
+    for row, (start, end) in zip(rows[:, 0], itertools.pairwise(times), strict=True):
+        row["start"], row["end"], row["stages"], row["sampled"] = start, end, 1, sampled
+        row["time"][0], row["weight"][0] = end, end - start
+        row["power"][0, 0], row["power_before"][0] = power(end), power(start)
+    totals = new_totals(np.array([orbit_start, 50.0, 60.0]), 1.0)
+    book(rows, 0, totals, np.zeros(len(rows), END))
+    return totals.peak_power[:, 0]
+
+
+def test_error_of_a_smooth_peak_is_of_third_order():
+    errors = [
+        abs(peak_of(np.arange(0.13, 5.0, step), lambda t: math.exp(math.sin(t)))[0] - math.e)
+        for step in (0.4, 0.2, 0.1)
+    ]
+    assert errors[0] < 5e-3 * math.e and errors[2] < errors[0] / 4**2.5
+
+
+def test_a_kink_adds_a_tenth_at_most_and_uneven_samples_are_not_extrapolated():
+    kinked = peak_of([0.0, 1.0, 2.0, 3.0], lambda t: max(0.0, 1.0 - 20.0 * abs(t - 1.3)) + (t == 1.0))[0]
+    assert 1.0 <= kinked <= HIGHEST_RISE
+    uneven = dict(zip((0.0, 1e-3, 1.0), (0.9, 1.0, 0.5), strict=True))
+    assert peak_of(list(uneven), uneven.__getitem__)[0] == 1.0
+    smooth = dict(zip((0.0, 0.3, 1.0), (0.9, 1.0, 0.5), strict=True))
+    assert peak_of(list(smooth), smooth.__getitem__)[0] > 1.0
+
+
+def test_outside_all_orbits_powers_count_for_the_rest_of_the_window():
+    assert peak_of([70.0, 71.0, 72.0], lambda t: 5.0).tolist() == [0.0, 0.0, 5.0]
+    assert [orbit_at(EDGES, time, -1) for time in (0.4, 0.5, 1.9, 2.0, 14.5, 14.6)] == [-1, 0, 0, 1, 2, -1]
+
+
+# --- Details ---------------------------------------------------------------------------------------------------------
+
+
+def looked(walked, cuts=(), edges=EDGES):
+    model, roller, motion, steps = walked
+    looker = Looker(edges, roller, model.laws, prepare(model.laws), motion, ANGLE)
+    for part in np.split(steps, cuts):
+        looker.add(part[:, None].copy(), 0)
+    looker.finish()
+    return looker.details
+
+
+@pytest.fixture(scope="module")
+def details(walked):
+    return looked(walked)
+
+
+def test_energies_of_stations_and_places_add_up_to_the_energy(walked, details):
+    energy = booked(walked[3]).energy[:2]
+    np.testing.assert_allclose(details.station_energy.sum(axis=1), energy, rtol=1e-9)
+    np.testing.assert_allclose(details.surface_energy.sum(axis=(1, 2, 3, 4)), energy, rtol=1e-9)
+    np.testing.assert_allclose(details.surface_energy.sum(axis=(1, 3, 4)), details.station_energy, rtol=1e-9)
+    assert (details.station_energy >= 0.0).all() and (details.surface_density >= 0.0).all()
+    # The outer raceway is loaded at the bottom.
+    by_sector = details.surface_energy[1].sum(axis=(1, 2, 3))
+    assert by_sector[45:63].sum() > 0.9 * by_sector.sum()
+
+
+def test_looks_do_not_depend_on_where_buffers_end(walked, details):
+    for name, other in looked(walked, [3, 50, 51, 200])._asdict().items():
+        if name not in ("memory", "maps"):
+            np.testing.assert_allclose(other, getattr(details, name), rtol=1e-12, err_msg=name)
+
+
+def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch):
+    """Against looks at every step: extremes low by little, and little energy at other stations."""
+    assert details.memory["count"][0] < 0.8 * np.count_nonzero(walked[3]["weight"][:, 0])
+    every = new_details(EDGES)
+    model, roller, motion, steps = walked
+    looker = Looker(EDGES, roller, model.laws, prepare(model.laws), motion, ANGLE)
+    for row in steps:
+        # A new highest power makes every step a look.
+        looker.details.memory["highest"][0, :] = -1.0
+        looker.add(np.array([[row]]), 0)
+    looker.finish()
+    every = looker.details
+    assert every.memory["count"][0] == np.count_nonzero((steps["weight"][:, 0] > 0.0) & (steps["start"] >= EDGES[0]))
+    moved = np.abs(details.station_energy - every.station_energy).sum() / every.station_energy.sum()
+    assert moved < 0.01
+    for k in range(3):
+        np.testing.assert_allclose(details.extreme[:, :2, k], every.extreme[:, :2, k], rtol=0.1)
+    assert (details.extreme[:, :2, :3] <= every.extreme[:, :2, :3] * (1 + 1e-9)).all()
+    assert (details.extreme[:, :2, 3] >= every.extreme[:, :2, 3] * (1 - 1e-9)).all()
+
+
+def test_energy_between_two_looks_lies_as_at_both_of_them():
+    """In parts that the mean time of the energy gives; with one look only, a fast change would lie at wrong stations."""
+    maps = new_details(EDGES).maps
+    before, after = maps["along"][0, 2:]
+    before["power"][3], after["power"][20] = 2.0, 5.0
+    spent = (0.3 * 8.0 / 2.0, 0.7 * 8.0 / 5.0, 0.0, 0.0, 0.0, 0.0)
+    looks._spread(maps[0], 1, (0.5, 0.5), 0.7, spent, before, after)
+    stations = maps["station_energy"][0, 1]
+    assert stations[3] == pytest.approx(2.4) and stations[20] == pytest.approx(5.6)
+
+
+def test_extremes_and_quadrature(details):
+    flash, density, ratio, film = np.moveaxis(details.extreme, -1, 0)
+    assert (flash[:, :2] > 0.0).all() and (density[:, :2] > 1e3).all() and ((ratio > 0.0) & (ratio < 3.0)).all()
+    assert ((film[:, :2] > 0.01) & (film[:, :2] < 100.0)).all()
+    fine, off = details.quadrature.T
+    assert (fine > 0.0).all() and (off < 5e-3 * fine).all()
+
+
+def by_brute_force(start, end, energy, growth=0.0):
+    """Energy of each sector from a hundred thousand equal pieces of the way."""
+    parts = (np.arange(100_000) + 0.5) / 100_000
+    weights = energy * (1.0 + growth * (2.0 * parts - 1.0)) / parts.size
+    return np.bincount(np.floor(start + (end - start) * parts).astype(int) % SECTORS, weights, minlength=SECTORS)
+
+
+@pytest.mark.parametrize("interface", [0, 1])
+@pytest.mark.parametrize("mean_time", [0.5, 0.61, 0.4])
+@pytest.mark.parametrize(("start", "end"), [(-17.2, -16.1), (4.6, 41.3), (35.0, 29.7), (0.0, 208.0), (11.4, 11.4)])
+def test_energy_lies_where_the_roller_passes(interface, start, end, mean_time):
+    details, energy = new_details(EDGES), 8.0
+    before, after = details.maps["along"][0, :2]
+    after["power"][[3, 10]], after["regime"] = [-2.0, 6.0], 1
+    spent = (0.0, energy / 8.0, 0.0, 0.0, 0.0, 0.0)
+    looks._spread(details.maps[0], interface, (start, end), mean_time, spent, before, after)
+    surface = details.surface_energy
+    expected = by_brute_force(start, end, energy, 3.0 * (2.0 * mean_time - 1.0))
+    np.testing.assert_allclose(surface.sum(axis=(0, 2, 3, 4)), expected, atol=2e-3)
+    assert surface.sum() == pytest.approx(energy, rel=1e-12) and surface[1 - interface].sum() == 0.0
+    # A quarter of it where slip is negative, the rest where it is positive, all in the film regime of the powers.
+    assert surface[interface, :, 3, 0, 1].sum() == pytest.approx(0.25 * energy)
+    assert surface[interface, :, 10, 1, 1].sum() == pytest.approx(0.75 * energy)
+
+
+def test_no_power_along_the_roller_takes_no_energy(walked):
+    model, roller, motion, steps = walked
+    idle = steps[np.argmax(steps["start"] >= EDGES[0])].copy()
+    idle["inner_load"] = idle["outer_load"] = 0.0
+    details = looked((model, roller, motion, np.array([idle])))
+    assert details.surface_energy.sum() == 0.0 == details.station_energy.sum()
+
+
+def test_what_makes_a_look_due(walked):
+    """After a change of power, a new highest value, or a way; thresholds pin the numbers that choose looks."""
+    _, roller, _, steps = walked
+    held = steps[np.argmax(steps["elastic_load"][:, 2])]
+
+    def count(change, turn=0.0, spacing=1.0):
+        rows = np.zeros((2, 1), STEP)
+        rows[:, 0] = held
+        radius = float(roller.body[0]["outer_radius"])
+        rows["start"][:, 0], rows["end"][:, 0] = [1.0, 1.1], [1.1, 1.1 + max(turn * radius / 0.4, 1e-3)]
+        for name in ("inner_slip", "outer_slip", "outer_speed", "inner_load", "outer_load"):
+            rows[name] = {"slip": 1e-3, "peed": -0.4, "load": 1e4}[name[-4:]]
+        rows["power"] = 10.0
+        for name, value in change.items():
+            rows[name.split()[0]][1, 0][(..., int(name[-1])) if " " in name else ...] = value
+        found = new_details(EDGES)
+        return looks._choose(rows, 0, EDGES, found.entries, found.memory[0], radius, spacing, np.zeros(2, looks._LOOK))
+
+    assert count({}) == 1
+    for name, few, many in (
+        ("power 0", 10.2, 11.2),
+        ("power 0", 9.1, 8.9),
+        ("power 1", 9.1, 8.9),
+        ("power 2", 10.2, 10.4),
+    ):
+        assert count({name: few}) == 1 and count({name: many}) == 2, (name, few, many)
+    assert count({"power 2": 0.0}) == 1
+    assert count({"outer_slip": 1.02e-3}) == 1 and count({"outer_slip": 1.04e-3}) == 2
+    assert count({"inner_load": 0.98e4}) == 1 and count({"inner_load": 0.95e4}) == 2
+    assert count({}, turn=0.34) == 1 and count({}, turn=0.36) == 2
+    # Closer looks where they are asked for.
+    assert count({}, turn=0.34, spacing=0.5) == 2 and count({"power 0": 10.7}, spacing=0.5) == 2
+
+
+# --- Traces ----------------------------------------------------------------------------------------------------------
+
+
+def test_traces_are_the_states_at_their_times(walked):
+    model, roller, motion, steps = walked
+    times = np.array([0.0, 2.0, LATE, 16.0])
+    row = Row(model, roller, motion, Wanted(EDGES, 0.4, times, False))
+    for cuts in ((), (1, 30, 31)):
+        measures = RollerMeasures(row, ANGLE)
+        for part in np.split(steps, cuts):
+            measures.add(part[:, None].copy(), 0)
+        measures.finish()
+        found = measures.traces()
+        speed = np.interp(times, motion.time, motion.shaft_speed) * model.orbit_ratio * model.outer_radius
+        np.testing.assert_allclose(found["spin_pure"], -speed / model.radius, rtol=1e-12)
+        for k, time in enumerate(times[1:], start=1):
+            at = steps[(np.abs(steps["end"] - time) < 1e-12) & (steps["weight"][:, 0] > 0.0)][0]
+            assert found["slip"][k] == at["outer_slip"][2] and found["roller_load"][k] == at["elastic_load"][2]
+            np.testing.assert_array_equal(found["power"][k], at["power"][2])
+            skew = -at["skew_power"][2] / (at["outer_speed"][2] * np.array([1.0, -1.0]))
+            skew /= [model.laws.inner.shape.spin_ratio, model.laws.outer.shape.spin_ratio]
+            np.testing.assert_allclose(found["skew_moment"][k], skew, rtol=1e-12)
+        assert measures.details is None and measures.end_slip == steps["outer_slip"][-1, 2]
+    # Where an integration ended early there is none.
+    measures = RollerMeasures(row, ANGLE)
+    measures.add(steps[steps["end"] < 4.0][:, None].copy(), 0)
+    assert np.isnan(measures.traces()["slip"]).tolist() == [False, False, True, True]

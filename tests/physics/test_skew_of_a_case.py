@@ -1,0 +1,105 @@
+"""Skew over a case: nothing without play, books of its energy, its signs, and input that is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from macroslip import BearingLoads, Case, InputError, Laws, RollerLoads, Traces, simulate
+from macroslip.result.prepared import prepare
+from macroslip.result.skew import thrust_on_ring
+from macroslip.ring.motion import elastic_loads
+from macroslip.roller.model import ring_geometry
+from macroslip.roller.skew import pocket
+from macroslip.whole.cage import Cage
+
+SKEWED = Laws.physical().but(skew="quasi-static")
+#: Below 16 kN a roller, so that tables are small.
+LOADS = BearingLoads.constant([0.0, -60e3, 40e3], 2.143, 10.0)
+
+
+def case(laws=SKEWED, **cage):
+    traces = Traces(step=0.1)
+    return Case(loads=LOADS, rollers=[0], laws=laws, cage=Cage(**cage), traces=traces, contact_details=False)
+
+
+@pytest.fixture(scope="module")
+def straight():
+    return simulate(case(Laws.physical()), threads=1)
+
+
+@pytest.mark.slow
+def test_without_play_nothing_changes(straight):
+    found = simulate(case(skew_play=0.0), threads=1)
+    for name in ("energy", "orbit_energy", "peak_power", "power", "slip", "cage_force"):
+        assert np.array_equal(found[name], straight[name]), name
+    assert (found.skew_energy == 0.0).all() and (found.skew_residual == 0.0).all()
+    assert (found.stop_force.sel(row="downwind", roller=0) > 0.0).all()
+
+
+@pytest.mark.slow
+def test_energy_is_that_of_a_straight_roller_and_of_skew():
+    """Under given loads, which skew does not change; in both rows."""
+    places = np.radians(np.tile(np.arange(0.0, 360.0, 45.0), (2, 2, 1)))
+    loads = RollerLoads(np.array([0.0, 10.0]), np.full(2, 2.143), places, np.full(places.shape, 9e3), "even")
+    straight, found = (
+        simulate(replace(case(laws, **cage), loads=loads), threads=1)
+        for laws, cage in ((Laws.physical(), {}), (SKEWED, {"alignment": "none"}))
+    )
+    added = (found.energy - straight.energy).sel(interface=["inner", "outer"]).values
+    assert added == pytest.approx(found.skew_energy.values, rel=1e-9)
+    assert (found.skew_energy > 0.0).all()
+    assert np.array_equal(found.power.sel(interface="cage"), straight.power.sel(interface="cage"))
+    # The shaft turns forward: rollers turn the unfavourable way, and push the ring as the thrust that their row carries does.
+    stop = pocket(Case(loads=loads).bearing, "conforming-pocket", 0.5e-3)
+    for row, sign in (("downwind", 1.0), ("upwind", -1.0)):
+        one = found.sel(row=row, roller=0)
+        assert one.skew_angle.values == pytest.approx(np.full(one.time.size, sign * stop.largest), rel=1e-9)
+        assert (sign * one.axial_force > 0.0).all()
+        assert sign * one.frictional_thrust > 0.0
+        assert one.stop_force.values == pytest.approx(
+            np.abs(one.skew_moment.sum("raceway")).values / stop.arm, rel=1e-9
+        )
+
+
+@pytest.mark.slow
+def test_the_ring_feels_the_force_that_a_result_shows():
+    """By the ring's balance, which takes rollers as gripped, and by the rollers' own integration."""
+    every = replace(case(), rollers="all", traces=None)
+    found, ready = simulate(every), prepare(every)
+    model = ready.model
+    on_ring = thrust_on_ring(every, model, ring_geometry(every.bearing, model), ready.motion, ready.box)
+    inside = ready.motion.time >= found.window_start
+    mean = np.trapezoid(on_ring[inside, 2], ready.motion.time[inside]) / (found.window_end - found.window_start)
+    assert float(found.frictional_thrust.sum()) == pytest.approx(mean, rel=0.02)
+    # Rollers carry the load and this force.
+    loads = elastic_loads(every.ring_loads, ring_geometry(every.bearing, model), ready.motion)
+    carried = (loads * ring_geometry(every.bearing, model).axial).sum(axis=1)
+    assert carried == pytest.approx(40e3 + on_ring[:, 2], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("laws", "cage", "part"),
+    [
+        (SKEWED, {"guidance": "guide-ring"}, "guide ring stops skew by its play"),
+        (SKEWED, {"mass": 40.0}, "imposed orbits do not use it"),
+        (Laws.physical(), {"skew_play": 5e-3}, "held straight"),
+        (Laws.physical(), {"gap": 2e-4}, "imposed orbits do not use it"),
+        (SKEWED, {"gap": 0.09}, "pockets would overlap"),
+    ],
+)
+def test_cages_that_do_not_go_with_the_laws_are_refused(laws, cage, part):
+    with pytest.raises(InputError, match=part):
+        case(laws, **cage)
+
+
+def test_laws_with_one_slip_all_over_have_no_skew():
+    with pytest.raises(InputError, match=r"Choose model: physical"):
+        Laws.paper().but(skew="quasi-static")
+
+
+def test_a_whole_bearing_has_no_skew():
+    with pytest.raises(InputError, match="imposed orbits only"):
+        Case(loads=LOADS, laws=SKEWED, dynamics="whole-bearing")

@@ -1,0 +1,170 @@
+"""Criteria of damage of whole results against numbers derived by hand, and against what the result holds elsewhere."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from macroslip import Bearing, BearingLoads, Case, HubLoads, InputError, Laws, simulate
+from macroslip.bearing import geometry
+from macroslip.result.damage import PLACES, YEAR, Threshold, damage, lines
+from macroslip.result.stored import to_netcdf
+
+BEARING = Bearing.read("skf-240-600-bc")
+RATED = 20.463 * math.pi / 30.0
+
+
+def thrust(load: float) -> Case:
+    """A downwind row whose every roller carries a load [N]."""
+    force = [0.0, 0.0, 28 * load * math.sin(BEARING.contact_angle)]
+    loads = BearingLoads.constant(force, RATED, 30.0)
+    return Case(loads=loads, laws=Laws.physical(), rollers=[0, 14], gravity=False, drag=False)
+
+
+@pytest.fixture(scope="module")
+def result():
+    """Thrust and weight that turn in direction, so that rollers leave the load zone and enter it."""
+    return simulate(
+        Case(loads=HubLoads.bundled("14B").window(0.0, 30.0), laws=Laws.physical(), rollers=[0, 14], temperature=323.15)
+    )
+
+
+@pytest.mark.parametrize(
+    ("load", "inner", "outer"), [(20e3, 0.59e4, 0.48e4), (35e3, 1.15e4, 0.93e4), (50e3, 1.74e4, 1.41e4)]
+)
+def test_pressure_times_slip_of_a_pass(load, inner, outer):
+    """Derived apart from this code: largest ∫ p |v| dt of a pass [J/m²], and passes a second at rated speed."""
+    result = simulate(thrust(load))
+    found = damage(result)
+    passes = found.pass_rate.values
+    assert passes[:2] == pytest.approx([5.21, 4.33], rel=2e-3)
+    spin = (
+        RATED * geometry.orbit_ratio(BEARING) * geometry.outer_contact_radius(BEARING) / geometry.roller_radius(BEARING)
+    )
+    assert passes[2] == pytest.approx(2.0 * spin / (2.0 * math.pi), rel=1e-6)
+    inner_pass = float(found.pressure_slip_rate.sel(row="downwind", place="inner").max()) / passes[0]
+    # Two rollers pass one place of the ring at rest once more than another in a window of a few orbits: its mean.
+    one = result.sel(row="downwind", raceway="outer")
+    seconds = result.attrs["window_end"] - result.attrs["window_start"]
+    outer_pass = float((one.surface_work.mean("angle") / one.cell_area).max()) * 14.0 / seconds / passes[1]
+    # Stations of 4.4 mm do not catch the very top.
+    assert [inner_pass, outer_pass] == pytest.approx([inner, outer], rel=0.025)
+    where = 1e3 * result.station.values[found.pressure_slip_rate.sel(row="downwind", place="inner").argmax("station")]
+    assert 15.0 < abs(where) < 25.0
+    assert float(result.working_load.sel(row="downwind", raceway="inner")) == pytest.approx(load, rel=1e-6)
+    # Full contact at k = 1e-17 m²/N for a year: 9.8, 18.9, 28.7 µm.
+    full = 1e-17 * YEAR * float(found.pressure_slip_rate.sel(row="downwind", place="inner").max())
+    assert 1e6 * full == pytest.approx({20e3: 9.8, 35e3: 18.9, 50e3: 28.7}[load], rel=0.025)
+
+
+def test_maps_hold_all_that_asperities_dissipate(result):
+    by_row = result.surface_asperity_energy.sum(("angle", "station"))
+    total = result.asperity_energy.sel(interface=["inner", "outer"]).sum("roller").rename(interface="raceway")
+    assert (total > 0.0).all()
+    np.testing.assert_allclose(by_row.values, total.transpose("row", "raceway").values, rtol=1e-9)
+    # Asperities dissipate no more than µ_b times pressure times slip, nor more than the contact does.
+    friction = json.loads(result.attrs["input"])["lubricant"]["boundary_friction"]["value"]
+    places = ("angle", "station")
+    assert (result.surface_asperity_energy.sum(places) <= friction * result.surface_work.sum(places)).all()
+    energy = result.surface_energy.sum(("slip_sign", "film_regime"))
+    assert float(result.surface_asperity_energy.sum()) < float(energy.sum()) < float(result.surface_work.sum())
+
+
+def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
+    found = damage(result)
+    settings = json.loads(result.attrs["input"])
+    friction = settings["lubricant"]["boundary_friction"]["value"]
+    seconds = result.attrs["window_end"] - result.attrs["window_start"]
+    area = result.cell_area.sel(raceway="inner") * result.sizes["angle"]
+    volume = (found.asperity_work_rate.sel(place="inner", drop=True) * area).sum("station")
+    energy = result.asperity_energy.sel(interface="inner").sum("roller") * (28 / result.sizes["roller"])
+    np.testing.assert_allclose(volume.values, energy.values / friction / seconds, rtol=1e-9)
+    half = damage(result, wear_coefficients=[5e-18])
+    np.testing.assert_allclose(half.wear_time.values[..., 0], 2.0 * found.wear_time.values[..., 1], rtol=1e-12)
+    hard = damage(result, wear_coefficients=[7e-8], hardness=7e9)
+    np.testing.assert_allclose(hard.wear_time.values[..., 0], found.wear_time.values[..., 1], rtol=1e-12)
+    # A thousandth of the time to 1 µm wears a thousandth of it, at the place that wears most.
+    rate = found.asperity_work_rate.max("station")
+    first = found.wear_time.isel(depth=0, wear_coefficient=1) * 1e-17 * rate
+    np.testing.assert_allclose(first.sel(row="downwind").values, 1e-6, rtol=0.2)
+    assert list(found.place.values) == list(PLACES)
+
+
+def test_films_and_slip_are_shares_of_loaded_time(result):
+    found = damage(result)
+    mixed = found.mixed_time.sel(row="downwind").values
+    assert (np.diff(mixed, axis=-1) >= 0.0).all() and (mixed <= 1.0).all() and mixed.max() > 0.9
+    loaded = result.film_slip_time.sum(("film_class", "slip_class"))
+    seconds = result.attrs["window_end"] - result.attrs["window_start"]
+    assert (loaded <= seconds * result.sizes["roller"]).all() and (loaded.sel(row="downwind") > 0.0).all()
+    passes = result.film_slip_passes.sum(("film_class", "slip_class")) / loaded
+    # Over either ring a roller travels as its orbit does against it.
+    np.testing.assert_allclose(passes.sel(row="downwind").values * 28, found.pass_rate.values[:2], rtol=0.05)
+
+
+def test_entries_into_the_load_zone(result):
+    found = damage(result)
+    held = result.entries > 0
+    assert held.any() and (found.entry_rate > 0.0).any()
+    for name in ("entry_slide_roll_ratio", "entry_power_density", "entry_flash_temperature"):
+        values = result[name]
+        assert (values.where(held.any("roller")).max() > 0.0).all()
+        interface = result[name.removeprefix("entry_")].sel(interface=["inner", "outer"]).max()
+        # A transient is below what the same power gives for ever, and no entry is above the orbit's extreme.
+        assert float(values.max()) <= float(interface) * (1 + 1e-9)
+    at_least, at_most = (found[f"entry_slide_roll_ratio_beyond_{one}"] for one in ("least", "most"))
+    assert (at_least <= at_most).all() and (at_most <= found.entry_rate.max()).all()
+
+
+def test_a_line_a_criterion_and_own_thresholds(result):
+    found, missing = lines(result)
+    assert all(one["value"] >= 0.0 and one["how sure"].startswith("factor") for one in found) and len(found) >= 7
+    assert not any("zero" in one for one in missing)
+    own = damage(result, thresholds={"entry_power_density": Threshold(2e6, "our rig")}).sel(
+        criterion="entry_power_density"
+    )
+    assert float(own.ratio) == float(own.value) / 2e6 and own.compared_with.item() == "your threshold: our rig"
+    assert {one.attrs["units"] for one in damage(result).data_vars.values()} and len(to_netcdf(damage(result))) > 0
+
+
+def test_what_was_not_kept_is_said_and_no_zero(result):
+    found, (sentence,) = lines(
+        simulate(Case(loads=HubLoads.bundled("14B").window(0.0, 10.0), rollers=[0], laws=Laws.paper()))
+    )
+    assert found == [] and "contact_details: true" in sentence
+    found, missing = lines(simulate(Case(loads=HubLoads.bundled("parked-12").window(0.0, 20.0), rollers=[0])))
+    assert not any("entry" in one["criterion"] for one in found) and any("No roller entered" in one for one in missing)
+    bare = simulate(thrust(20e3))
+    found, missing = lines(bare)
+    assert not any(one["criterion"].startswith("entry") for one in found) and any(
+        "No roller entered" in one for one in missing
+    )
+
+
+def test_wear_without_asperities_names_the_law_to_choose():
+    smooth = simulate(Case(loads=thrust(20e3).loads, laws=Laws.physical().but(asperities="none"), rollers=[0]))
+    found, missing = lines(smooth)
+    assert not any(one["criterion"] == "wear_time" for one in found) and any(
+        "masjedi-khonsari" in one for one in missing
+    )
+    with pytest.raises(InputError, match="masjedi-khonsari"):
+        damage(smooth, wear_coefficients=[1e-17])
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"wear_coefficients": [1e-17, 1e-18]}, "rising"),
+        ({"wear_coefficients": []}, "rising"),
+        ({"wear_coefficients": [-1.0]}, "rising"),
+        ({"hardness": 7e9}, "without wear coefficients"),
+        ({"thresholds": {"luck": Threshold(1.0, "me")}}, "threshold of 'luck'"),
+        ({"thresholds": {"mixed_time": Threshold(1.0, " ")}}, "where it comes from"),
+    ],
+)
+def test_bad_options(result, given, words):
+    with pytest.raises(InputError, match=words):
+        damage(result, **given)

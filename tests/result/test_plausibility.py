@@ -1,0 +1,72 @@
+"""Loads and results that cannot be meant so are told in words, and loads as they should be are not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from macroslip import Bearing, BearingLoads, Case, HubLoads, Laws, Traces, Window, bundled_cases, simulate
+from macroslip.result.plausibility import doubtful_loads, doubtful_result
+from macroslip.result.rating import with_rating
+
+BEARING = Bearing.read("skf-240-600-bc")
+FORCE, MOMENT = (164e3, -2e3, -263e3), (726e3, 154e3, 37e3)
+
+
+def test_bundled_loads_are_plausible():
+    assert all(doubtful_loads(HubLoads.bundled(name), BEARING) == [] for name in bundled_cases())
+
+
+@pytest.mark.parametrize(
+    ("force", "speed", "words"),
+    [
+        ((164.0, -2.0, -263.0), 2.14, "the rotor weighs 0.263 kN, which is 1/"),  # kN in a column named N
+        ((164e3, 0.0, 263e3), 2.14, "the rotor's weight acts upwards: the mean of the vertical force is +263 kN"),
+        ((-164e3, 0.0, -263e3), 2.14, "the mean thrust is -164 kN, against the wind"),
+        (FORCE, 20.0, "the shaft turns at up to 191 rpm"),
+    ],
+)
+def test_what_cannot_be_meant_so_is_told(force, speed, words):
+    (found,) = doubtful_loads(HubLoads.constant(force, MOMENT, speed, 1.0), BEARING)
+    assert words in found
+
+
+def test_means_count_and_not_samples():
+    """A gust may push a rotor against the wind, or lift it, for a while."""
+    times = np.linspace(0.0, 10.0, 101)
+    force = np.tile(FORCE, (times.size, 1))
+    force[:20] *= -1.0
+    assert (
+        doubtful_loads(HubLoads(times, np.full_like(times, 2.1), force, np.tile(MOMENT, (101, 1)), "gust"), BEARING)
+        == []
+    )
+
+
+def test_loads_in_another_unit_show_in_the_result():
+    case = Case(loads=BearingLoads.constant([0.0, -300.0, 60.0], 2.1, 0.5), laws=Laws.paper(), rollers=[0])
+    found = " ".join(doubtful_result(with_rating(simulate(case), case)))
+    assert (
+        "the static safety is" in found and "below the minimum that the maker requires for 100 % of the time" in found
+    )
+    pressed = with_rating(simulate(case), case)
+    pressed["largest_pressure"] = pressed.largest_pressure + 5e9
+    assert "beyond the 4 GPa" in " ".join(doubtful_result(pressed))
+
+
+@pytest.mark.parametrize(("load", "doubted"), [(3e3, True), (300e3, False)])
+def test_films_that_carry_what_the_rings_do_not_know_are_told(load, doubted):
+    """Cold oil under a load of a hundredth of the usual; with all rollers the rings' load balances what is applied."""
+    turning = BearingLoads.constant([0.0, -load, 0.2 * load], 2.1, 2.0)
+    case = Case(
+        loads=turning,
+        temperature=273.15,
+        rollers=[0, 9],
+        window=Window(start=0.0),
+        traces=Traces(step=1e-3),
+        contact_details=False,
+    )
+    result = simulate(case)
+    assert any("films of oil carry" in one for one in doubtful_result(result)) == doubted
+    assert (result.mean_film_load.values > 0.0).all()
+    everything = simulate(replace(case, rollers="all", laws=Laws.paper(), traces=Traces(step=0.02)))
+    assert everything.attrs["mean_elastic_load"] == pytest.approx(float(everything.roller_load.mean()), rel=1e-2)

@@ -1,0 +1,31 @@
+"""`python -m validation [NAME]`: the program beside what was measured, as one table and a figure for each comparison."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+from pathlib import Path
+
+from validation.comparison import table
+
+#: Comparisons by name; each is a module with `compare`, which gives its lines of the table, and `draw`.
+NAMES = ("thrust_friction", "skf_parts", "regime", "wear_lines", "heat")
+
+
+def main() -> None:
+    """Print the lines of every comparison, and draw it."""
+    parser = argparse.ArgumentParser(prog="python -m validation", description=__doc__)
+    parser.add_argument("name", nargs="?", choices=NAMES, help="one comparison; all if not given")
+    parser.add_argument("-o", "--output", type=Path, default=Path("docs/figures"), help="folder of the figures")
+    given = parser.parse_args()
+    given.output.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for name in [given.name] if given.name else NAMES:
+        module = import_module(f"validation.{name}")
+        rows += module.compare()
+        module.draw(given.output / f"measured_{name}.png")
+    print(table(rows), f"\nfigures: {given.output}", sep="\n")
+
+
+if __name__ == "__main__":
+    main()
