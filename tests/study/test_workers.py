@@ -106,6 +106,28 @@ def test_fifteen_kills_lose_nothing(tmp_path, begin, slow_content, wait_for, don
     assert all(identities(out)[name] == place for name, place in before.items())
 
 
+def test_processes_killed_as_they_start_are_no_missing_main_guard():
+    """Forty processes, each killed within milliseconds of its start, while the pool's own thread waits for them too."""
+    notes, ended = [], threading.Event()
+
+    def kill():
+        while not ended.is_set():
+            kill_a_worker(psutil.Process())
+
+    killer = threading.Thread(target=kill, daemon=True)
+    with module.Processes(1, notes.append) as pool:
+        killer.start()
+        try:
+            for number in range(10):
+                task = {"run": f"{number}"}
+                pool.submit([task])
+                assert [(one["run"], str(found["outcome"])) for one, found in pool.wait()] == [(f"{number}", "failed")]
+        finally:
+            ended.set()
+            killer.join()
+    assert len(notes) >= 40
+
+
 def test_a_run_that_kills_its_workers_is_recorded_and_the_others_computed(tmp_path, load_files, content, monkeypatch):
     """A worker that ends where it would store a certain result stands for one that the system ends for its memory."""
     run_study(study_of(content, load_files), tmp_path / "before")

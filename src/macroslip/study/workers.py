@@ -134,9 +134,9 @@ class Processes:
             seat = self._idle.pop()
             try:
                 future = seat.pool.submit(work_several, [task])
-            except BrokenProcessPool:  # it has died while it was idle
-                seat = self._another(seat)
-                future = seat.pool.submit(work_several, [task])
+            except BrokenProcessPool as error:  # it has died while it was idle
+                future = Future()
+                future.set_exception(error)
             self._under_way[future] = seat, task
 
     def wait(self) -> Done:
@@ -159,8 +159,8 @@ class Processes:
         return found
 
     def _another(self, seat: _Seat) -> _Seat:
-        # Whoever kills a process leaves a signal; without a main guard it ends by itself.
-        if not seat.has_started() and not seat.was_killed():
+        # Without a main guard a process ends by itself as it starts; whoever kills one leaves a signal instead.
+        if not seat.has_started() and seat.has_ended_itself():
             raise MacroslipError(_NO_GUARD) from None
         self._note("a worker process has died; another takes over")
         seat.pool.shutdown(wait=False)
@@ -180,12 +180,13 @@ class _Seat:
     def has_started(self) -> bool:
         return self._ready.done() and not self._ready.cancelled() and self._ready.exception() is None
 
-    def was_killed(self) -> bool:
-        """Whether the process, which has ended, was ended by a signal."""
-        if self._process is None:
-            return False
-        self._process.join(_PATIENCE)
-        return (self._process.exitcode or 0) < 0
+    def has_ended_itself(self) -> bool:
+        """Whether the process, which has died, is known to have left by a failure of its own and not by a signal."""
+        end = time.monotonic() + _PATIENCE
+        # The pool's own thread waits for the process too; until it has noted the exit code, there is none here.
+        while self._process is not None and self._process.exitcode is None and time.monotonic() < end:
+            time.sleep(0.01)
+        return self._process is not None and (self._process.exitcode or 0) > 0
 
     def kill(self) -> None:
         if self._process is not None:
