@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 from macroslip.bearing import Bearing
 from macroslip.case.load_source import LoadSource
-from macroslip.case.oil_supply import OilSupply, check_supply, oil_gap
+from macroslip.case.oil_supply import OilSupply, check_supply, inlet_supply, oil_gap
 from macroslip.case.parts import INTEGRATORS, BackwardEuler, ExplicitEuler, Heat, Radau, Traces, Window
 from macroslip.contact.mechanisms import PRESETS, Laws
 from macroslip.errors import InputError
@@ -88,8 +88,8 @@ class Case:
         Goes with "balance".
     oil_supply : "flooded", "skf" or float, optional
         How full the inlets of all contacts are: flooded; as SKF's replenishment factor says; or the film over the flooded
-        film, 0.3 to 1, at the inner raceway under the mean load and speed. Film, rolling resistance and idle contacts follow
-        from it. None: as the lubricant's `starvation`, `inlet_film` and `fullness` say.
+        film, 0.3 to 1, at the inner raceway under the mean load and speed. Film, rolling resistance, idle contacts and the
+        squeeze films of pockets follow from it. None: "skf" where the laws have one of these, see `inlet_supply`.
     loads : HubLoads, BearingLoads or RollerLoads
     drivetrain : Drivetrain
         Turns hub loads into main-bearing load; its tilt also directs the rollers' weight.
@@ -173,7 +173,7 @@ class Case:
     def __post_init__(self) -> None:
         problems = [
             *_temperature(self),
-            *_raised(check_supply, self.oil_supply, self.bearing),
+            *_raised(check_supply, self.oil_supply, self.bearing, self.lubricant, self.laws),
             *_dynamics(self),
             *_times_and_rollers(self),
         ]
@@ -197,9 +197,15 @@ class Case:
                 remedy="Give the temperature of the oil; inlet_temperature of a result has the one it found.",
             )
         oil = self.lubricant if self.temperature is None else self.lubricant.at(self.temperature)
-        if self.oil_supply is None:
+        if not self.laws.asks_for_oil:
             return oil
-        return oil.supplied(oil_gap(self.oil_supply, self.bearing, oil, self.bearing_loads, self.laws))
+        return oil.supplied(oil_gap(self.inlet_supply, self.bearing, oil, self.bearing_loads, self.laws))
+
+    @property
+    def inlet_supply(self) -> str | float:
+        """How full inlets are: `oil_supply`; where that is None, "skf" with laws that have a starved film or rolling
+        resistance, and "flooded" with others."""
+        return inlet_supply(self.oil_supply, self.lubricant, self.laws)
 
     @property
     def ring_loads(self) -> BearingLoads | RollerLoads:
@@ -242,7 +248,7 @@ class Case:
             "lubricant": self.lubricant.as_dict(),
             "temperature": self.temperature,
             "heat": {key: one for key, one in asdict(self.heat).items() if one is not None} if self.heat else None,
-            **({"oil_supply": self.oil_supply} if self.oil_supply is not None else {}),
+            **({"oil_supply": self.inlet_supply} if self.laws.asks_for_oil else {}),
             "drivetrain": asdict(self.drivetrain),
             "forces": {"gravity": self.gravity, "drag": self.drag},
             "laws": {"model": self.laws.name, **asdict(self.laws)},

@@ -126,7 +126,7 @@ def build_case(
             problems += [place.inside(*keys).blamed(part) for part, keys in found if keys[0] not in wrong]
     if problems or case is None:
         raise together(problems)
-    check_lubricant(case.laws, case.lubricant if case.oil_supply is None else case.lubricant.supplied(1.0))
+    check_lubricant(case.laws, case.lubricant)
     return case
 
 

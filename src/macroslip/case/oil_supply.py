@@ -13,12 +13,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from macroslip.constants import FLOODED as FLOODED_GAP
 from macroslip.errors import InputError
 from macroslip.input.fields import Form, Given
 from macroslip.input.units import is_finite_number
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
+    from macroslip.case.case import Case
     from macroslip.contact.mechanisms import Laws
     from macroslip.loads import BearingLoads
     from macroslip.lubricant import Lubricant
@@ -47,8 +49,28 @@ class OilSupply(Form):
         return {"anyOf": [{"enum": list(WORDS)}, {"type": "number", "minimum": _LEAST, "maximum": 1}]}
 
 
-def check_supply(supply: str | float | None, bearing: Bearing) -> None:
-    """Refuse a bearing that lacks a diameter, which SKF's replenishment needs."""
+def inlet_supply(given: str | float | None, oil: Lubricant, laws: Laws) -> str | float:
+    """The supply that counts: what a case gives; otherwise SKF's replenishment where a mechanism depends on it.
+
+    A lubricant file from before version 0.2 gives a film factor, `starvation`, which is read as the supply.
+    """
+    if given is not None:
+        return given
+    if not laws.asks_for_oil:
+        return FLOODED
+    return SKF if oil.starvation is None else max(oil.starvation, _LEAST)
+
+
+def check_supply(given: str | float | None, bearing: Bearing, oil: Lubricant, laws: Laws) -> None:
+    """Refuse a supply that no law uses, and a bearing that lacks a diameter, which SKF's replenishment needs."""
+    supply = inlet_supply(given, oil, laws)
+    if supply not in (FLOODED, 1.0) and not laws.asks_for_oil:
+        raise InputError(
+            f"oil_supply is {supply!r}, and laws: {laws.name} have neither a starved film nor rolling resistance",
+            where="oil_supply",
+            allowed=f"{FLOODED} with these laws",
+            remedy="Leave it out, set laws.starvation: true, or choose model: physical.",
+        )
     missing = [key for key in ("bore_diameter", "outside_diameter") if getattr(bearing, key) is None]
     if supply == SKF and missing:
         raise InputError(
@@ -77,11 +99,10 @@ def _gap(
     """`oil_gap` from the mean force [N] and the mean size of the shaft's speed [rad/s]."""
     from macroslip.contact.laws import prepare
     from macroslip.contact.rolling import replenishment
-    from macroslip.contact.starvation import FLOODED as FULL
     from macroslip.contact.starvation import film_factor, inlet_for_film, inlet_for_rolling
 
     if supply in (FLOODED, 1.0) or speed == 0.0:
-        return FULL
+        return FLOODED_GAP
     if supply == SKF:
         diameters = bearing.bore_diameter, bearing.outside_diameter
         filled = float(replenishment(oil.viscosity / oil.density, speed, *diameters))
@@ -90,9 +111,9 @@ def _gap(
         inlet = inlet_for_film(float(supply))
     load, entrainment = _inner_raceway(bearing, oil, force, speed)
     if not load > 0.0 or math.isinf(inlet):
-        return FULL
-    flooded = float(prepare(laws, bearing, oil.supplied(FULL), 1).inner.film_thickness(load, entrainment))
-    return min(inlet * float(film_factor(inlet)) * flooded, FULL)
+        return FLOODED_GAP
+    flooded = float(prepare(laws, bearing, oil.supplied(FLOODED_GAP), 1).inner.film_thickness(load, entrainment))
+    return min(inlet * float(film_factor(inlet)) * flooded, FLOODED_GAP)
 
 
 def _inner_raceway(bearing: Bearing, oil: Lubricant, force: tuple[float, ...], speed: float) -> tuple[float, float]:
@@ -110,16 +131,17 @@ def _inner_raceway(bearing: Bearing, oil: Lubricant, force: tuple[float, ...], s
     return (float(loaded.mean()) if loaded.size else 0.0), speed * model.orbit_ratio * model.outer_radius
 
 
-def supply_note(supply: str | float | None, oil: Lubricant, laws: Laws) -> str:
-    """A sentence on the state of the inlets, for a result; empty where no law depends on it."""
-    if supply is not None:
-        gap = oil.oil_gap or 0.0
-        known = "flooded inlets" if gap >= 1.0 else f"inlets are full from a gap of {1e6 * gap:.3g} um on"
-        return f"oil_supply {supply}: {known}; the lubricant's starvation, inlet_film and fullness do not count"
-    if not laws.starvation and laws.rolling == "none":
-        return ""
-    return (
-        f"the lubricant's starvation {oil.starvation or 1.0:g}, inlet_film {oil.inlet_film or math.inf:g} and fullness "
-        f"{oil.fullness or 1.0:g} are three numbers for one inlet and go with the next version; oil_supply: "
-        f"{max(oil.starvation or 1.0, _LEAST):g} in the case takes the place of all three"
-    )
+def supply_note(case: Case) -> str:
+    """A line on the state of the inlets, for a result, and one on keys of earlier versions; empty without either."""
+    oil, notes = case.oil, []
+    if case.laws.asks_for_oil:
+        full = oil.oil_gap >= FLOODED_GAP
+        known = "flooded inlets" if full else f"inlets are full from a gap of {1e6 * oil.oil_gap:.3g} um on"
+        translated = case.oil_supply is None and oil.starvation is not None
+        source = f", read from the lubricant's starvation {oil.starvation:g}" if translated else ""
+        notes.append(f"oil_supply {case.inlet_supply}{source}: {known}")
+    old = {key: getattr(oil, key) for key in ("starvation", "inlet_film", "fullness")}
+    old |= {"cage.film_fullness": case.cage.film_fullness}
+    if given := [key for key, value in old.items() if value is not None]:
+        notes.append(f"{', '.join(given)}: keys of before version 0.2, of which starvation alone is read; give oil_supply")
+    return "\n".join(notes)

@@ -10,9 +10,6 @@ Over the gap h = h0 + x²/(2R_x) + z²/(2R_y), |z| ≤ l/2, Reynolds' equation w
 over ln(1 + κ) and √s, s = λ √(1 + κ) the width of the pressure over that of the film; c = 1 at s = 0, where every slice
 is Martin's line. A given contact moves along the line κ λ² = R_x/R_y, so that two splines over one variable serve it.
 
-Fullness φ is the share of the length l over which the gap holds oil, in streaks along the motion that are wide against
-√(2R_x h0) and full to far upstream: at a given gap load, resistance and shear go with φ; at a given load h0 goes with φ
-where the contact is a line. Narrower streaks lose pressure at their sides, so that F_R and Q are then smaller still.
 An inlet that begins to be full at S times the film has the factors of `starved_martin` on Q, F_R and ∫∫ dA/h.
 """
 
@@ -26,8 +23,6 @@ from typing import NamedTuple
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 from scipy.optimize import brentq
-
-from macroslip.errors import InputError
 
 #: Martin's rigid, isoviscous, flooded line contact: in x = √(2 R h0) t the gap is h0 (1 + t²), and the pressure that vanishes
 #: far upstream and ends with zero slope at t_e is dp/dt = 12 η0 u √(2 R h0)/h0² (t² − t_e²)/(1 + t²)³. Martin, Engineering
@@ -114,15 +109,14 @@ class GapShape(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """Rigid, isoviscous film of a contact of finite length; groups are per η0 u φ (load, rolling) or per φ (shear)."""
+    """Rigid, isoviscous film of a contact of finite length; load and rolling resistance are per η0 u."""
 
     log_gaps: np.ndarray  #: Shape (knots,). ln h0 [ln m], even.
-    #: Shape (4, knots − 1, 3). Cubics of ln Q/(φ η0 u) [ln m], ln F_R/(φ η0 u) [ln m] and ln S/φ [ln m] over ln h0,
+    #: Shape (4, knots − 1, 3). Cubics of ln Q/(η0 u) [ln m], ln F_R/(η0 u) [ln m] and ln S [ln m] over ln h0,
     #: highest power first.
     by_gap: np.ndarray
-    log_loads: np.ndarray  #: Shape (knots,). ln Q/(φ η0 u) [ln m], even.
-    by_load: np.ndarray  #: Shape (4, knots − 1, 3). Cubics of ln h0, ln F_R/(φ η0 u) and ln S/φ over ln Q/(φ η0 u).
-    fullness: float  #: φ
+    log_loads: np.ndarray  #: Shape (knots,). ln Q/(η0 u) [ln m], even.
+    by_load: np.ndarray  #: Shape (4, knots − 1, 3). Cubics of ln h0, ln F_R/(η0 u) and ln S over ln Q/(η0 u).
 
 
 @functools.cache
@@ -149,29 +143,17 @@ def ratios(kappa, aspect) -> np.ndarray:
     return np.exp([spline.ev(*place) for spline in _ratio_splines()])
 
 
-def prepare_gap(shape: GapShape, fullness: float = 1.0, inlet_film: float = math.inf, oil_gap: float = math.inf) -> Gap:
+def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float = math.inf) -> Gap:
     """The rigid film of a contact, from the gap at which κ = 1e5 to that at which s = 4; power laws beyond.
-
-    Raises InputError if fullness or inlet film is outside its range.
 
     Parameters
     ----------
     shape : GapShape
-    fullness : float
-        φ, above 0 and at most 1: an estimate, 0.03 to 1 for contacts without load.
-    inlet_film : float
-        Gap where the inlet begins to be full over the film, > 1; infinite where flooded.
     oil_gap : float
-        The same gap [m], where it is that which does not change; the film is then always thinner.
+        Gap where the inlet begins to be full [m]; the film is always thinner. Infinite where flooded.
+    widest_inlet : float
+        Largest S, > 1: where a surface ends, as a spar does; infinite where surfaces go on.
     """
-    if not inlet_film > 1.0:
-        what = f"the film at the inlet over that of the contact is {inlet_film!r}"
-        remedy = "It is the gap where the inlet begins to be full over the gap of the contact"
-        raise InputError(what, where="inlet_film", allowed="a number above 1; .inf where flooded", remedy=remedy)
-    if not 0.0 < fullness <= 1.0:
-        what = f"the fullness of a light contact is {fullness!r}"
-        remedy = "It is the share of the contact's length over which the gap holds oil; 1 means flooded"
-        raise InputError(what, where="fullness", allowed="a number above 0 and at most 1", remedy=remedy)
     radius, length = shape.rolling_radius, shape.length
     curvature = length**2 / (8.0 * shape.lateral_radius)  # κ h0
     # λ² (1 + κ) = s²: s² = 8 R_x h0/l² + R_x/R_y.
@@ -192,15 +174,15 @@ def prepare_gap(shape: GapShape, fullness: float = 1.0, inlet_film: float = math
     )
     correction = ratios(curvature / gap, np.sqrt(8.0 * radius * gap) / length)
     if math.isfinite(oil_gap):
-        starved = np.array([starved_martin(min(inlet_film, float(one))) for one in oil_gap / (FLOW * gap)]).T
+        starved = np.array([starved_martin(min(widest_inlet, float(one))) for one in oil_gap / (FLOW * gap)]).T
     else:
-        starved = np.array(starved_martin(inlet_film))[:, None]
+        starved = np.array(starved_martin(widest_inlet))[:, None]
     values = np.log(slices * correction * starved).T
     # Load falls with the gap.
     log_loads = np.linspace(values[-1, _LOAD], values[0, _LOAD], _KNOTS)
     along = np.column_stack([log_gap, values[:, _ROLLING], values[:, _SHEAR]])[::-1]
     over_load = CubicSpline(values[::-1, _LOAD], along)(log_loads)
-    return Gap(log_gap, CubicSpline(log_gap, values).c, log_loads, CubicSpline(log_loads, over_load).c, float(fullness))
+    return Gap(log_gap, CubicSpline(log_gap, values).c, log_loads, CubicSpline(log_loads, over_load).c)
 
 
 def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, place):
@@ -214,12 +196,12 @@ def _cubic(knots: np.ndarray, cubics: np.ndarray, which: int, place):
 
 
 def film_at_load(gap: Gap, log_group):
-    """Ln h0, ln F_R/(φ η0 u) and ln S/φ of a contact that carries a load, from ln Q/(φ η0 u) [ln m]."""
+    """Ln h0, ln F_R/(η0 u) and ln S of a contact that carries a load, from ln Q/(η0 u) [ln m]."""
     place = np.asarray(log_group, dtype=float)
     return tuple(_cubic(gap.log_loads, gap.by_load, k, place) for k in range(3))
 
 
 def film_at_gap(gap: Gap, log_gap):
-    """Ln Q/(φ η0 u), ln F_R/(φ η0 u) and ln S/φ of a contact whose gap is given, from ln h0 [ln m]."""
+    """Ln Q/(η0 u), ln F_R/(η0 u) and ln S of a contact whose gap is given, from ln h0 [ln m]."""
     place = np.asarray(log_gap, dtype=float)
     return tuple(_cubic(gap.log_gaps, gap.by_gap, k, place) for k in range(3))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.constants import MECHANISMS
+from macroslip.constants import FLOODED, MECHANISMS
 from macroslip.contact import asperities, film, rolling, traction
 from macroslip.contact.closed_form import BarusCrook, barus_crook_traction, prepare_barus_crook
 from macroslip.contact.flash import effusivity
@@ -18,9 +18,8 @@ from macroslip.contact.interface import ContactShape, Interface, contact_shape, 
 from macroslip.contact.mechanisms import check_lubricant
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
 from macroslip.contact.rolling import RollingNumbers, prepare_rolling
-from macroslip.contact.starvation import FLOODED, film_factor, inlet_at_gap
+from macroslip.contact.starvation import film_factor, inlet_at_gap
 from macroslip.contact.traction import Fluid, chord_table, film_traction, prepare_fluid
-from macroslip.errors import InputError
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -32,8 +31,8 @@ LOWEST_ENTRAINMENT_SPEED = 1e-6
 #: Largest gap between a roller and the spar that pushes it [m]: half of a diametral clearance of 0.5 mm, an engineering
 #: estimate; 0.2 to 1 mm is usual.
 POCKET_GAP = 0.25e-3
-#: Largest inlet film of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an engineering estimate.
-_POCKET_INLET = 7.0
+#: Largest S of a cage's contact: a spar ends where its gap is 5 to 10 times the least, an engineering estimate.
+_SPAR_END = 7.0
 
 
 @dataclass(frozen=True)
@@ -44,10 +43,7 @@ class ContactLaws:
     interface: Interface
     shape: ContactShape
     film_name: str  #: Name of the film law
-    starvation: float  #: Film thickness over the film of a flooded contact, above 0 and at most 1 [-]
-    oil_gap: (
-        float  #: Gap where the inlet begins to be full [m], from which the film follows; infinite: from `starvation`
-    )
+    oil_gap: float  #: Gap where the inlet begins to be full [m], which thins the film; infinite where flooded
     thermal_loading: float  #: Thermal loading of the inlet at 1 m/s [s²/m²]; 0 leaves inlet heating out
     fluid: Fluid | None  #: The sheared film; None for the paper's closed form and for a traction law of one's own
     closed_form: BarusCrook | None  #: The paper's traction
@@ -66,7 +62,7 @@ class ContactLaws:
         The speed is floored at `LOWEST_ENTRAINMENT_SPEED`.
         """
         speed = np.maximum(entrainment_speed, LOWEST_ENTRAINMENT_SPEED)
-        height = self.starvation * FILM_LAWS.named(self.film_name)(self.interface, load, speed)
+        height = FILM_LAWS.named(self.film_name)(self.interface, load, speed)
         if self.thermal_loading:
             height = height * film.inlet_heating_factor(self.thermal_loading * speed * speed)
         return height * film_factor(inlet_at_gap(self.oil_gap, height)) if math.isfinite(self.oil_gap) else height
@@ -120,6 +116,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
         Chosen mechanisms.
     bearing : Bearing
     lubricant : Lubricant
+        With `oil_gap`, from which on inlets are full.
     axial_sign : int
         +1 for the downwind row, −1 for the upwind row.
 
@@ -135,14 +132,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     FILM_LAWS.named(laws.film)
     if laws.traction != MECHANISMS:
         TRACTION_LAWS.named(laws.traction)
-    supplied = lubricant.oil_gap is not None
-    given = math.inf if lubricant.oil_gap is None else float(lubricant.oil_gap)
-    oil_gap = given if given < FLOODED else math.inf
-    starvation = float(lubricant.starvation) if laws.starvation and not supplied else 1.0
-    if not 0.0 < starvation <= 1.0:
-        what = f"the starvation factor is {starvation!r}"
-        remedy = "It is film thickness over that of a flooded contact; 1 means flooded"
-        raise InputError(what, where="starvation", allowed="a number above 0 and at most 1", remedy=remedy)
+    oil_gap = lubricant.oil_gap if lubricant.oil_gap < FLOODED else math.inf
     sheared = laws.traction == MECHANISMS and not laws.is_closed_form
     fluid = prepare_fluid(laws, lubricant) if sheared else None
     known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None
@@ -157,7 +147,6 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     contacts = []
     for interface, curved in zip(interfaces(bearing, lubricant), curvatures, strict=True):
         cage = interface.name == "cage"
-        inlet = lubricant.inlet_film if laws.rolling != "none" and not supplied else math.inf
         gap = GapShape(1.0 / curved.rolling, 1.0 / curved.lateral, bearing.roller_length)
         contacts.append(
             ContactLaws(
@@ -165,8 +154,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 interface=interface,
                 shape=contact_shape(bearing, interface, axial_sign, microslip=laws.microslip),
                 film_name=laws.film,
-                starvation=starvation,
-                oil_gap=oil_gap,
+                oil_gap=oil_gap if laws.starvation else math.inf,
                 thermal_loading=film.thermal_loading(interface) if laws.inlet_heating else 0.0,
                 fluid=fluid,
                 closed_form=prepare_barus_crook(interface) if laws.is_closed_form else None,
@@ -181,9 +169,8 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                     interface,
                     gap,
                     geometry.roller_radius(bearing),
-                    fullness=lubricant.fullness if laws.rolling != "none" and not supplied else 1.0,
                     oil_gap=oil_gap,
-                    inlet_film=min(inlet, _POCKET_INLET) if cage else inlet,
+                    widest_inlet=_SPAR_END if cage else math.inf,
                     heating=laws.inlet_heating,
                 ),
                 curved=laws.asperities != "none" or sheared,

@@ -41,7 +41,7 @@ class Laws:
     film : str
         Name of a film law.
     starvation : bool
-        Whether the film is thinner by the lubricant's `starvation` factor.
+        Whether the film is thinner where inlets lack oil, as the case's `oil_supply` says.
     inlet_heating : bool
         Whether shear in the inlet warms the oil and thins the film.
     viscosity : "barus" or "roelands"
@@ -57,7 +57,7 @@ class Laws:
         Name of a law for the share of the load that asperities carry, with `boundary_friction`; "none" without them.
     rolling : "none", "inlet" or "whole-film"
         Rolling resistance of the contacts and the cage, with the films of rollers that have play: none, that of the
-        inlets as published, or that of whole films; with the lubricant's `fullness` and `inlet_film`.
+        inlets as published, or that of whole films; less where inlets lack oil, as the case's `oil_supply` says.
     skew : "none" or "quasi-static"
         Whether rollers are held straight, or turn about their contacts' normal until nothing drives them on or the cage holds
         them; with microslip.
@@ -79,7 +79,7 @@ class Laws:
     """
 
     film: Annotated[str, Choice("film thickness", _names("registry", "FILM_LAWS"), _OWN_LAW)] = "masjedi-khonsari"
-    starvation: Annotated[bool, Flag("film thinned by the lubricant's starvation factor")] = False
+    starvation: Annotated[bool, Flag("film thinned where inlets lack oil (oil_supply)")] = False
     inlet_heating: Annotated[bool, Flag("film thinned by shear heating in the inlet")] = False
     viscosity: Annotated[str, Choice("how viscosity rises with pressure", lambda: VISCOSITY_LAWS)] = "barus"
     rheology: Annotated[
@@ -177,6 +177,11 @@ class Laws:
         return nearest + (f", but {', '.join(differences[nearest])}" if differences[nearest] else "")
 
     @property
+    def asks_for_oil(self) -> bool:
+        """Whether a mechanism depends on how full inlets are: the film's starvation, or rolling resistance."""
+        return self.starvation or self.rolling != "none"
+
+    @property
     def is_closed_form(self) -> bool:
         """Whether traction is the paper's, for which there is a closed form."""
         return all(getattr(self, name) == _DEFAULTS[name] for name in (*_REPLACED, "traction"))
@@ -220,12 +225,9 @@ def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
         Naming the values and the mechanisms.
     """
     needed = {
-        "starvation": "starvation" if laws.starvation and lubricant.oil_gap is None else "",
         "limiting_shear": "limiting shear" if laws.rheology == "limiting-shear" else "",
         "eyring_stress": "Eyring's rheology" if laws.rheology == "eyring" else "",
         "boundary_friction": "asperity friction" if laws.asperities != "none" else "",
-        "fullness": "rolling resistance" if laws.rolling != "none" and lubricant.oil_gap is None else "",
-        "inlet_film": "rolling resistance" if laws.rolling != "none" and lubricant.oil_gap is None else "",
     }
     keys = [key for key, mechanism in needed.items() if mechanism and getattr(lubricant, key) is None]
     if keys:

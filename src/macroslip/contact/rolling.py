@@ -14,11 +14,11 @@ the rigid limit g = N_R^(−n)/(N_R^(−n) + N_E^(−n)),
 
     F_R = F_F (F_G/F_R,line)^g f^(1−g) + (1 − g) F_B,
 
-F_G the resistance of the rigid gap of finite length, with its fullness φ, and f = f_T f_S the factors of heating and
-starvation of an elastic inlet. F_B is the resistance of the film beside Hertz' ellipse, a ≤ |z| ≤ l/2, where the gap is
+F_G the resistance of the rigid gap of finite length, and f = f_T f_S the factors of heating and starvation of an elastic
+inlet. F_B is the resistance of the film beside Hertz' ellipse, a ≤ |z| ≤ l/2, where the gap is
 h0 + (z² − a²)/(2R_y) and every slice Martin's:
 
-    F_B = 2 · 4.601 φ η0 u √(2 R_x R_y) ln{[l/2 + √(l²/4 + 2R_y h0 − a²)]/[a + √(2R_y h0)]}.
+    F_B = 2 · 4.601 η0 u √(2 R_x R_y) ln{[l/2 + √(l²/4 + 2R_y h0 − a²)]/[a + √(2R_y h0)]}.
 
 A light contact gets F_G, a heavy one f N_E over its ellipse and F_B beside it. `macroslip.contact.gap` has the rigid gap.
 """
@@ -41,7 +41,6 @@ from macroslip.contact.gap import (
     film_at_gap,
     film_at_load,
     prepare_gap,
-    starved_martin,
 )
 from macroslip.contact.interface import Interface
 from macroslip.contact.starvation import inlet_at_gap, rigid_rolling_factor
@@ -266,15 +265,14 @@ class RollingNumbers(NamedTuple):
     """Rolling resistance of one contact."""
 
     name: str  #: `inlet` or `whole-film`: what counts of an elastic film
-    gap: Gap  #: The rigid gap, with its fullness
+    gap: Gap  #: The rigid gap
     viscosity: float  #: η0 [Pa s]
     log_load: float  #: ln M of the middle slice at 1 N and 1 m/s; M goes with Q^(2/3) u^(−½)
     log_material: float  #: ln L at 1 m/s; L goes with u^¼
     log_film: float  #: ln of R (2U)^½ at 1 m/s [ln m]
     log_scale: float  #: ln of 2a E' R (2U)^¾ at 1 N and 1 m/s [ln N]; it goes with Q^(1/3) u^¾
     loading: float  #: Thermal loading parameter η0 β u²/k at 1 m/s [s²/m²]; 0 leaves heating out
-    log_starvation: float  #: ln of the factor of a starved inlet
-    beside: float  #: 2 · 4.601 φ η0 √(2 R_x R_y) [N s/m], less where the inlet is starved
+    beside: float  #: 2 · 4.601 η0 √(2 R_x R_y) [N s/m]
     double_lateral: float  #: 2 R_y [m]
     half_length: float  #: l/2 [m]
     across: float  #: a per Q^(1/3) [m/N^(1/3)]
@@ -282,7 +280,7 @@ class RollingNumbers(NamedTuple):
     #: R/R_1 of the roller and R/R_2 of its counterpart; their sum is 1.
     share_1: float
     share_2: float
-    #: Gap where inlets begin to be full [m], which starves every contact by its own film; infinite: as the factors say.
+    #: Gap where inlets begin to be full [m], which starves every contact by its own film; infinite where flooded.
     oil_gap: float = math.inf
     plug: Plug = Plug()
 
@@ -293,14 +291,13 @@ def prepare_rolling(
     shape: GapShape,
     roller_radius: float,
     *,
-    fullness: float = 1.0,
-    inlet_film: float = math.inf,
-    heating: bool = True,
     oil_gap: float = math.inf,
+    widest_inlet: float = math.inf,
+    heating: bool = True,
 ) -> RollingNumbers | None:
     """Rolling resistance of a contact; None for `none`.
 
-    Raises InputError if there is no such law, or a value is out of range.
+    Raises InputError if there is no such law.
 
     Parameters
     ----------
@@ -311,15 +308,13 @@ def prepare_rolling(
         Geometry of the gap.
     roller_radius : float
         [m].
-    fullness : float
-        Share of the length over which the gap of a light contact holds oil.
-    inlet_film : float
-        S, the gap where the inlet begins to be full over the film, > 1; infinite where flooded. The elastic contact
-        takes Biboulet and Houpert's factor, the rigid one `starved_martin`.
+    oil_gap : float
+        Gap where the inlet begins to be full [m]; over the film it is S. The elastic contact takes Biboulet and Houpert's
+        factor, the rigid one `starved_martin`. Infinite where flooded.
+    widest_inlet : float
+        Largest S of the rigid contact; see `prepare_gap`.
     heating : bool
         Whether the elastic inlet is heated by its shear.
-    oil_gap : float
-        Gap where the inlets of all contacts begin to be full [m], in place of S; infinite where that says it.
     """
     if name not in REFERENCES:
         what = f"there is no rolling law '{name}'"
@@ -332,15 +327,14 @@ def prepare_rolling(
     per_root = oil.viscosity * math.sqrt(2.0 * shape.rolling_radius * shape.lateral_radius)
     return RollingNumbers(
         name=name,
-        gap=prepare_gap(shape, fullness, inlet_film, oil_gap),
+        gap=prepare_gap(shape, oil_gap, widest_inlet),
         viscosity=oil.viscosity,
         log_load=math.log(0.75 / across / (modulus * radius)) - 0.5 * math.log(doubled),
         log_material=math.log(oil.pressure_viscosity * modulus) + 0.25 * math.log(doubled),
         log_film=math.log(radius) + 0.5 * math.log(doubled),
         log_scale=math.log(2.0 * across * modulus * radius) + 0.75 * math.log(doubled),
         loading=thermal_loading(interface) if heating else 0.0,
-        log_starvation=math.log(starvation_factor(inlet_film)),
-        beside=2.0 * ROLLING_AT_GAP * fullness * starved_martin(inlet_film)[1] * per_root,
+        beside=2.0 * ROLLING_AT_GAP * per_root,
         double_lateral=2.0 * shape.lateral_radius,
         half_length=0.5 * shape.length,
         across=across,
@@ -355,8 +349,7 @@ def prepare_rolling(
 def light_film(numbers: RollingNumbers, load, mean_speed):
     """Film of the volume flow [m]: 1.2257 h0 where the contact is rigid, the film of the flat middle where it is elastic.
 
-    Moes' blend whose rigid and isoviscous limit is the gap of finite length with its fullness; at loads [N] and speeds
-    [m/s] above zero.
+    Moes' blend whose rigid and isoviscous limit is the gap of finite length; at loads [N] and speeds [m/s] above zero.
     """
     log_load, log_speed = np.log(load), np.log(mean_speed)
     log_gap, _, _ = film_at_load(numbers.gap, _log_group(numbers, log_load, log_speed))
@@ -364,7 +357,7 @@ def light_film(numbers: RollingNumbers, load, mean_speed):
 
 
 def _log_group(numbers: RollingNumbers, log_load, log_speed):
-    return log_load - log_speed - math.log(numbers.viscosity * numbers.gap.fullness)
+    return log_load - log_speed - math.log(numbers.viscosity)
 
 
 def _log_film(numbers: RollingNumbers, log_gap, log_load, log_speed):
@@ -403,7 +396,7 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
     Returns
     -------
     conductance : ndarray
-        Sliding force of the film outside Hertz' ellipse over slip [N s/m]: η0 φ S with S = ∫∫ dA/h less the ellipse's own
+        Sliding force of the film outside Hertz' ellipse over slip [N s/m]: η0 S with S = ∫∫ dA/h less the ellipse's own
         part, S²/(S + π a b/h). Inside the ellipse it is the traction law's.
     resistance : ndarray
         F_R [N]. The shear on the roller is −F_R sign(u), the push of the pressure −2 R/r times that, the power 2 F_R u.
@@ -429,7 +422,7 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
     # No film is thicker than the oil that there is.
     log_flow = joined(log_film, math.log(numbers.oil_gap), -8.0) if math.isfinite(numbers.oil_gap) else log_film
     _, _, log_shear = film_at_gap(numbers.gap, log_flow - _LOG_FLOW)
-    shear, film = numbers.gap.fullness * np.exp(log_shear), np.exp(log_flow)
+    shear, film = np.exp(log_shear), np.exp(log_flow)
     inside = numbers.area * np.exp((2.0 / 3.0) * log_load) / film
     conductance = numbers.viscosity * shear * shear / (shear + inside)
     return conductance, _resistance(numbers, log_load, log_speed, log_rolling, log_film - _LOG_FLOW), film
@@ -444,19 +437,15 @@ def _resistance(numbers: RollingNumbers, log_load, log_speed, log_rolling, log_h
     # Shares of the rigid and of the elastic limit; neither is one less the other, which would cancel.
     share, rest = expit(order * (elastic - rigid)), expit(order * (rigid - elastic))
     scale = numbers.log_scale + log_load / 3.0 + 0.75 * log_speed
-    unit = math.log(numbers.viscosity * numbers.gap.fullness) + log_speed
+    unit = math.log(numbers.viscosity) + log_speed
     light = log_rolling + unit - scale - rigid
-    heavy = numbers.log_starvation
-    starved = math.isfinite(numbers.oil_gap)
-    inlet = inlet_at_gap(numbers.oil_gap, np.exp(log_h0 + _LOG_FLOW)) if starved else math.inf
-    if starved:
-        heavy = heavy + np.log(starvation_factor(inlet))
+    heavy, beside = 0.0, _beside(numbers, log_load, log_speed, log_h0)
+    if math.isfinite(numbers.oil_gap):
+        inlet = inlet_at_gap(numbers.oil_gap, np.exp(log_h0 + _LOG_FLOW))
+        heavy, beside = np.log(starvation_factor(inlet)), beside * rigid_rolling_factor(inlet)
     if numbers.loading > 0.0:
         heavy = heavy + np.log(inlet_heating_of_rolling(numbers.loading * np.exp(2.0 * log_speed)))
     force = np.exp(scale + line + share * light + rest * heavy)
-    beside = _beside(numbers, log_load, log_speed, log_h0)
-    if starved:
-        beside = beside * rigid_rolling_factor(inlet)
     return force + rest * beside + share * plug_force(numbers, np.exp(log_h0))
 
 
@@ -479,9 +468,8 @@ def contact_at_gap(numbers: RollingNumbers, gap):
         Each per speed [N s/m]: Q over the size of the mean surface speed, sliding force over slip, and F_R over the mean
         speed.
     """
-    unit = numbers.viscosity * numbers.gap.fullness
     log_load, log_rolling, log_shear = film_at_gap(numbers.gap, np.log(gap))
-    return unit * np.exp(log_load), unit * np.exp(log_shear), unit * np.exp(log_rolling)
+    return tuple(numbers.viscosity * np.exp(one) for one in (log_load, log_shear, log_rolling))
 
 
 def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):

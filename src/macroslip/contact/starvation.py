@@ -19,8 +19,6 @@ from scipy.special import betainc, betaincinv
 
 from macroslip.contact.gap import starved_martin
 
-#: Gap of full oil [m] that counts as flooded.
-FLOODED = 1.0
 #: Least and largest S − 1 of tables.
 _LEAST, _LARGEST, _KNOTS = 1e-3, 1e7, 400
 

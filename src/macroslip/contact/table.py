@@ -309,7 +309,7 @@ def contact_parts(contact: ContactLaws) -> tuple:
     one, oil = contact.interface, contact.interface.lubricant
     sources = contact.own_sources
     return (
-        contact.film_name, contact.starvation, contact.oil_gap, contact.thermal_loading, contact.fluid, contact.traction_name,
+        contact.film_name, contact.oil_gap, contact.thermal_loading, contact.fluid, contact.traction_name,
         contact.asperity_name, tuple(patch_of(contact)), one.rolling_radius, one.modulus, one.roughness, one.hardness,
         oil.viscosity, oil.pressure_viscosity, sources, repr(oil) if sources else "",
     )  # fmt: skip

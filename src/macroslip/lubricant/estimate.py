@@ -98,9 +98,6 @@ def estimate_lubricant(
             0.06, "1", "thrust bearings with five gear oils: 0.034 to 0.09, docs/measurements.md"
         )
         | {"range": [0.034, 0.1]},
-        "starvation": _entry(0.7, "1", "as in the base case; 1 is a flooded inlet") | {"range": [0.5, 1.0]},
-        "fullness": _entry(0.3, "1", "as in the base case; 1 is flooded") | {"range": [0.03, 1.0]},
-        "inlet_film": _entry(30.0, "1", "as in the base case; 1000 is flooded") | {"range": [5.0, 1000.0]},
     }
     low, mean, high = family.limiting_shear
     entries["limiting_shear"] = _entry(mean, "1", "usual for the family, see docs/lubricants.md") | {

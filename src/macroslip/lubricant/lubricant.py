@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
@@ -63,8 +64,8 @@ class Lubricant(Record):
 
     noun: ClassVar[str] = "lubricant"
     sections: ClassVar[Mapping[str, str]] = {"grease": "a grease's own behaviour, beside that of its base oil"}
-    #: Gap where the inlets of contacts begin to be full [m]; None: as starvation, inlet_film and fullness say.
-    oil_gap = None
+    #: Gap where the inlets of contacts begin to be full [m], as `supplied` gives it.
+    oil_gap = math.inf
     sources: ClassVar[Mapping[str, tuple[str, ...]]] = _SOURCES
 
     name: Annotated[str, Text("short name of the lubricant, used in results", line=True)]
@@ -113,14 +114,14 @@ class Lubricant(Record):
     boundary_friction: Annotated[
         _Optional, Quantity("friction coefficient where asperities carry the load", NUMBER, 0, 1)
     ] = None
-    starvation: Annotated[_Optional, Positive("film thickness / film thickness of a flooded contact", NUMBER, 1)] = None
+    starvation: Annotated[
+        _Optional, Positive("of files before version 0.2: oil_supply where the case has none", NUMBER, 1)
+    ] = None
     fullness: Annotated[
-        _Optional,
-        Quantity("share of a roller's length over which the gap of a light contact holds oil", NUMBER, 0.01, 1),
+        _Optional, Quantity("of files before version 0.2: oil_supply takes its place", NUMBER, 0.01, 1)
     ] = None
     inlet_film: Annotated[
-        _Optional,
-        Quantity("gap where an inlet begins to be full / film, for rolling resistance", NUMBER, 1, 1e6, above=True),
+        _Optional, Quantity("of files before version 0.2: oil_supply takes its place", NUMBER, 1, 1e6, above=True)
     ] = None
     grease_yield_stress: Annotated[
         _Optional, Quantity("yield stress, which acts on idle rollers and in pockets", PRESSURE, 0, 1e5)
@@ -250,9 +251,7 @@ class Lubricant(Record):
         return self._stated(**changes)
 
     def supplied(self, oil_gap: float) -> Lubricant:
-        """The lubricant with inlets of contacts that are full from a gap [m] on, whatever its file says of that.
-
-        From 1 m on they are flooded.
+        """The lubricant with inlets of contacts that are full from a gap [m] on; from 1 m on they are flooded.
         """
         made = SuppliedLubricant.__new__(SuppliedLubricant)
         values = {key: getattr(self, key) for key in fields_of(Lubricant) if key not in self._derived}

@@ -176,7 +176,7 @@ def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict
     """Attributes of a result: its window [s], the full input, the version and the works cited, `method` last."""
     case = ready.case
     # What a reader of the result needs to make the same contacts.
-    supplied = {} if case.oil_supply is None else {"oil_gap": case.oil.oil_gap}
+    supplied = {"oil_gap": case.oil.oil_gap} if case.laws.asks_for_oil else {}
     under = f"{case.bearing.name} under {without_folders(case.loads.source)}"
     oil = f"{case.oil.name} at {case.oil.inlet_temperature - ZERO_CELSIUS:.3g} °C"
     return {

@@ -73,7 +73,7 @@ class Prepared:
             "film_range_notes": "\n".join(film_range_notes(case.laws.film, interfaces(case.bearing, case.oil))),
             "mean_elastic_load": self._mean_elastic_load(),
             "truncated_share": truncated_share(self.largest, truncation_load(case.bearing, case.oil)),
-            "oil_supply_note": supply_note(case.oil_supply, case.oil, case.laws),
+            "oil_supply_note": supply_note(case),
             "contact_evaluation": "tables",
             "table_error_typical": tables.typical_error,
             "table_error_worst": tables.worst_error,

@@ -40,8 +40,8 @@ class Cage:
         Whether oil between roller and spar resists their approach, or they meet dry.
     damping : float
         D of the dry contact [s/m], K δ^1.5 (1 + D δ'); larger takes more energy from an impact.
-    film_fullness : float
-        Part of the flooded squeeze film's force, above 0 to 1; how full the gaps of a real cage are is not known.
+    film_fullness : float, optional
+        Of files before version 0.2; without effect, since the case's `oil_supply` says how full pockets are.
     arrangement : "one" or "per-row"
         One cage for both rows, or two that turn on their own.
     mass : float
@@ -82,12 +82,8 @@ class Cage:
     impact: Annotated[str, Choice("how a roller meets a spar", lambda: IMPACTS)] = "squeeze-film"
     damping: Annotated[float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)] = 50.0
     film_fullness: Annotated[
-        float,
-        Quantity(
-            "part of the flooded squeeze film's force", NUMBER, 0.0, 1.0, above=True,
-            remedy="Without oil between roller and spar set impact: dry.",
-        ),
-    ] = 1.0  # fmt: skip
+        float | None, Quantity("of files before version 0.2: oil_supply takes its place", NUMBER, 0.0, 1.0, above=True)
+    ] = None
     arrangement: Annotated[str, Choice("one cage for both rows, or one a row", lambda: ARRANGEMENTS)] = "one"
     mass: Annotated[
         float,

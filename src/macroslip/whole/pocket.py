@@ -26,6 +26,7 @@ import numpy as np
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.compiled import jit_inline
+from macroslip.constants import FLOODED
 from macroslip.lubricant import Lubricant
 from macroslip.whole.cage import Cage
 
@@ -42,8 +43,9 @@ class Pocket(NamedTuple):
     half_gap: float  #: c/2 [m]
     stiffness: float  #: K of the roller on a spar [N/m^1.5]
     damping: float  #: D [s/m]; zero with a squeeze film
-    film: float  #: 3√2 π η l R^1.5 times the film's fullness [N s √m]; zero without film
+    film: float  #: 3√2 π η l R^1.5 [N s √m]; zero without film
     least_film: float  #: h_m [m]
+    oil_gap: float = math.inf  #: h_e, gap from which on pockets hold no oil [m]; infinite where flooded
 
 
 #: A pocket as compiled functions take it.
@@ -69,9 +71,37 @@ def prepare_pocket(cage: Cage, bearing: Bearing, lubricant: Lubricant, stiffness
         half_gap=0.5 * cage.gap,
         stiffness=stiffness,
         damping=cage.damping if dry else 0.0,
-        film=0.0 if dry else cage.film_fullness * film,
+        film=0.0 if dry else film,
         least_film=_ROUGHNESS_FILMS * bearing.composite_roughness,
+        oil_gap=lubricant.oil_gap,
     )
+
+
+@jit_inline
+def squeeze_resistance(pocket, film):
+    """Resistance of the squeeze film to approach [N s/m] at its smallest gap h [m], and its derivative [N s/m²].
+
+    Oil fills the gap as far as it is below h_e. With t = √(h_e/h − 1) the flooded film's resistance has the factor
+    (2/π) [atan t + t/(1 + t²) − 2t/(1 + t²)²]: Reynolds' pressure 6 η V R (1/h(x)² − 1/h_e²), V the speed of approach,
+    over |x| < √(2Rh) t.
+
+    Examples
+    --------
+    >>> wet, short = (Pocket(1e-4, 1e10, 0.0, 5e-3, 1e-6, filled) for filled in (math.inf, 1e-4))
+    >>> [round(squeeze_resistance(one, 2e-5)[0] / squeeze_resistance(wet, 2e-5)[0], 4) for one in (wet, short)]
+    [1.0, 0.8579]
+    """
+    resistance = pocket.film / (film * math.sqrt(film))
+    by_film = -1.5 * resistance / film
+    if film >= pocket.oil_gap:
+        return 0.0, 0.0
+    if pocket.oil_gap < FLOODED:
+        over = pocket.oil_gap / film
+        way = math.sqrt(over - 1.0)
+        filled = 2.0 / math.pi * (math.atan(way) + way / over - 2.0 * way / (over * over))
+        by_film = by_film * filled - 8.0 / math.pi * resistance * way / (over * over * film)
+        resistance *= filled
+    return resistance, by_film
 
 
 @jit_inline
@@ -92,10 +122,10 @@ def spar_push(pocket, gap, closing):
     if closing > 0.0 and pocket.film > 0.0:
         root = math.sqrt(gap * gap + pocket.least_film * pocket.least_film)
         film = pocket.least_film + 0.5 * (gap + root)
-        resistance = pocket.film / (film * math.sqrt(film))
+        resistance, by_film = squeeze_resistance(pocket, film)
         push += resistance * closing
         by_closing += resistance
-        by_gap -= 0.75 * resistance * closing * (1.0 + gap / root) / film
+        by_gap += 0.5 * by_film * closing * (1.0 + gap / root)
     return push, by_gap, by_closing
 
 
