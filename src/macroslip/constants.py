@@ -9,3 +9,6 @@ ZERO_CELSIUS, HOURS_A_YEAR = 273.15, 8766.0
 #: Name under which a case chooses the traction built from viscosity, rheology, heating, microslip and asperities; no
 #: traction law of one's own may have it.
 MECHANISMS = "mechanisms"
+
+#: Gap where inlets begin to be full [m] from which on they count as flooded.
+FLOODED_GAP = 1.0

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from macroslip.constants import FLOODED as FLOODED_GAP
+from macroslip.constants import FLOODED_GAP
 from macroslip.errors import InputError
 from macroslip.input.fields import Form, Given
 from macroslip.input.units import is_finite_number

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.constants import FLOODED, MECHANISMS
+from macroslip.constants import FLOODED_GAP, MECHANISMS
 from macroslip.contact import asperities, film, rolling, traction
 from macroslip.contact.closed_form import BarusCrook, barus_crook_traction, prepare_barus_crook
 from macroslip.contact.flash import effusivity
@@ -132,7 +132,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     FILM_LAWS.named(laws.film)
     if laws.traction != MECHANISMS:
         TRACTION_LAWS.named(laws.traction)
-    oil_gap = lubricant.oil_gap if lubricant.oil_gap < FLOODED else math.inf
+    oil_gap = lubricant.oil_gap if lubricant.oil_gap < FLOODED_GAP else math.inf
     sheared = laws.traction == MECHANISMS and not laws.is_closed_form
     fluid = prepare_fluid(laws, lubricant) if sheared else None
     known = bearing.thermal_conductivity is not None and bearing.specific_heat is not None

@@ -73,8 +73,12 @@ def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearin
 
 
 def doubtful_result(result: xr.Dataset) -> list[str]:
-    """Sentences on numbers of a result and its rating that cannot be meant so, or that its laws do not reach."""
-    found, known = [], {name: float(result[name].max()) for name in _JUDGED if name in result}
+    """Sentences on numbers of a result and its rating that cannot be meant so, or that its laws do not reach.
+
+    With those on keys of earlier versions.
+    """
+    found = result.attrs.get("oil_supply_note", "").splitlines()[1:]
+    known = {name: float(result[name].max()) for name in _JUDGED if name in result}
     if "outside_film_range" in result:
         known["outside"] = float(result.outside_film_range.sel(interface=["inner", "outer"]).mean("roller").max())
     if (safety := known.get("static_safety", 0.0)) > _SAFEST:

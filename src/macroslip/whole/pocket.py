@@ -26,7 +26,7 @@ import numpy as np
 
 from macroslip.bearing import Bearing, geometry
 from macroslip.compiled import jit_inline
-from macroslip.constants import FLOODED
+from macroslip.constants import FLOODED_GAP
 from macroslip.lubricant import Lubricant
 from macroslip.whole.cage import Cage
 
@@ -95,7 +95,7 @@ def squeeze_resistance(pocket, film):
     by_film = -1.5 * resistance / film
     if film >= pocket.oil_gap:
         return 0.0, 0.0
-    if pocket.oil_gap < FLOODED:
+    if pocket.oil_gap < FLOODED_GAP:
         over = pocket.oil_gap / film
         way = math.sqrt(over - 1.0)
         filled = 2.0 / math.pi * (math.atan(way) + way / over - 2.0 * way / (over * over))
