@@ -46,7 +46,9 @@ def test_loads_of_a_balance_from_a_file_give_the_results_of_the_balance(tmp_path
     assert (found.status == 0).all()
     window = found.attrs["window_end"] - found.attrs["window_start"]
     share = window / (known.attrs["window_end"] - known.attrs["window_start"])
-    assert found.energy.sum() == pytest.approx(float(known.energy.sum()) * share, rel=0.01)
+    # The upwind row has no load, and how far its rollers are from the rings is not in the file.
+    loaded = (one.energy.sel(row="downwind").sum() for one in (found, known))
+    assert float(next(loaded)) == pytest.approx(float(next(loaded)) * share, rel=2e-3)
 
 
 def test_rows_and_signs_reach_the_resultant(bearing):

@@ -8,6 +8,7 @@ import pytest
 
 from macroslip import Bearing, Laws, Lubricant
 from macroslip.contact import film, registry
+from macroslip.contact.gap import film_at_gap, prepare_gap, starved_martin
 from macroslip.contact.laws import LOWEST_ENTRAINMENT_SPEED, prepare, references
 from macroslip.contact.registry import (
     FILM_LAWS,
@@ -18,6 +19,7 @@ from macroslip.contact.registry import (
     register_film,
     register_traction,
 )
+from macroslip.contact.starvation import film_factor
 from macroslip.errors import InputError
 
 BEARING, OIL = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
@@ -199,11 +201,16 @@ def test_package_laws_are_not_tried(monkeypatch):
 
 @pytest.mark.parametrize("laws", [Laws.paper(), Laws.physical()], ids=["paper", "physical"])
 def test_film_has_its_corrections_and_a_floor_of_speed(laws):
-    found = prepare(laws.but(starvation=True, inlet_heating=True), BEARING, OIL, 1).outer
-    plain = prepare(laws.but(starvation=False, inlet_heating=False), BEARING, OIL, 1).outer
+    gap = 2e-6
+    short = OIL.supplied(gap)
+    found = prepare(laws.but(starvation=True, inlet_heating=True), BEARING, short, 1).outer
+    plain = prepare(laws.but(starvation=False, inlet_heating=False), BEARING, short, 1).outer
     load, speed = np.geomspace(1.0, 1e5, 7), np.geomspace(1e-3, 2.0, 7)[:, None]
-    factor = OIL.starvation / (1.0 + 0.1 * (0.54 * 0.056 / 0.125 * speed**2) ** 0.64)
-    assert found.film_thickness(load, speed) == pytest.approx(factor * plain.film_thickness(load, speed), rel=1e-13)
+    heated = plain.film_thickness(load, speed) / (1.0 + 0.1 * (0.54 * 0.056 / 0.125 * speed**2) ** 0.64)
+    film = found.film_thickness(load, speed)
+    assert (film < gap).all()
+    # The inlet begins to be full at the gap.
+    assert film == pytest.approx(film_factor(gap / film) * heated, rel=1e-6)
     at_rest = found.film_thickness(1e4, np.array([0.0, 1e-9, LOWEST_ENTRAINMENT_SPEED]))
     assert at_rest[0] == at_rest[1] == at_rest[2] > 0.0
 
@@ -218,7 +225,7 @@ def test_contacts_of_the_papers_model():
     assert not any("10.1098/rsta.1961.0014" in one for one in references(Laws.paper().but(heating=False)))
 
 
-def test_contacts_with_all_mechanisms():
+def test_contacts_with_all_mechanisms(contacts):
     laws = Laws.physical()
     up, down = (prepare(laws, BEARING, OIL, sign) for sign in (-1, 1))
     assert up.inner.shape.spin_ratio == -down.inner.shape.spin_ratio != 0.0
@@ -227,9 +234,12 @@ def test_contacts_with_all_mechanisms():
     assert down.cage.asperity_share(1e4, 1e-3, 1e-7) == 0.0 < down.inner.asperity_share(1e4, 1e-3, 1e-7)
     without = prepare(laws.but(rolling="none"), BEARING, OIL, 1)
     assert without.cage.asperity_share(1e4, 1e-3, 1e-7) > 0.0 and without.cage.rolling is None
-    assert down.cage.rolling.gap.fullness == OIL.fullness
-    # The spar of a pocket ends where its gap is at most seven times the least.
-    assert down.cage.rolling.log_starvation < down.inner.rolling.log_starvation < 0.0
+    # The spar of a pocket ends where its gap is at most seven times the least; raceways are flooded.
+    for one, inlet in ((down.cage, 7.0), (down.inner, math.inf)):
+        full = film_at_gap(prepare_gap(contacts[one.name][1]), math.log(2e-5))
+        assert np.exp(np.subtract(film_at_gap(one.rolling.gap, math.log(2e-5)), full)) == pytest.approx(
+            starved_martin(inlet), rel=1e-12
+        )
     conductance = down.inner.uniform_traction(1e4, 1e-6, np.array([LEAST_SLIP, -1e-8])) / [LEAST_SLIP, -1e-8]
     assert conductance[0] == pytest.approx(conductance[1], rel=1e-3)
     assert len(references(laws)) == 7

@@ -26,6 +26,7 @@ from macroslip.contact.rolling import (
     prepare_rolling,
     starvation_factor,
 )
+from macroslip.contact.starvation import film_factor
 from macroslip.errors import InputError
 
 pytestmark = pytest.mark.slow
@@ -259,10 +260,15 @@ def test_beyond_its_knots_the_gap_follows_powers(contacts):
             assert np.diff(values, 2) == pytest.approx(0.0, abs=1e-9)
 
 
-@pytest.mark.parametrize("fullness", [0.0, -0.1, 1.5, math.nan])
-def test_fullness_out_of_range_is_refused(contacts, fullness):
-    with pytest.raises(InputError, match="fullness"):
-        prepare_gap(contacts["inner"][1], fullness)
+@WHERE
+def test_a_gap_lacks_oil_where_its_film_is_thick_and_a_surface_that_ends_lets_no_more_in(contacts, where):
+    shape, filled = contacts[where][1], 2e-4
+    full, short, spar = (prepare_gap(shape, *one) for one in ((), (filled,), (math.inf, 7.0)))
+    for inlet in (2.0, 10.0, 100.0):
+        place = math.log(filled / (inlet * martin.FLOW))
+        flooded = np.array(film_at_gap(full, place))
+        assert np.exp(film_at_gap(short, place) - flooded) == pytest.approx(starved(inlet), rel=2e-3)
+        assert np.exp(film_at_gap(spar, place) - flooded) == pytest.approx(starved(7.0), rel=2e-3)
 
 
 # --- Contacts
@@ -346,20 +352,17 @@ def test_factors_of_the_inlet(contacts):
     def law(**options):
         return prepare_rolling("inlet", *contacts["inner"], **options)
 
-    full, starved_inlet = law(heating=False), law(heating=False, inlet_film=10.0)
+    full = law(heating=False)
+    # Full from ten times the film on, which is thinner by what it lacks.
+    short = law(heating=False, oil_gap=10.0 * film_factor(10.0) * light_film(full, 5e4, SPEED))
     beside = beside_ellipse(full, 5e4, SPEED)
     flooded = resistance(full, 5e4) - beside
-    less = resistance(starved_inlet, 5e4) - beside_ellipse(starved_inlet, 5e4, SPEED)
+    less = resistance(short, 5e4) - starved(10.0)[1] * beside
     assert less / flooded == pytest.approx(starvation_factor(10.0), rel=0.02)
     heated = resistance(law(), 5e4) - beside
     oil = contacts["inner"][0].lubricant
     loading = oil.viscosity * oil.temperature_viscosity / oil.thermal_conductivity * SPEED**2
     assert heated / flooded == pytest.approx(inlet_heating_of_rolling(loading), rel=0.01)
-    # A light contact at a given load is a full one over a part of its length, which carries the whole load.
-    assert resistance(law(fullness=0.1), 0.5) == pytest.approx(0.1 * resistance(full, 5.0), rel=2e-3)
-    # The heavy contact does not change, but for the film beside its ellipse.
-    heavy = resistance(law(heating=False, fullness=0.1), 5e4)
-    assert heavy - 0.1 * beside == pytest.approx(flooded, rel=0.02)
 
 
 def test_pushes_go_with_curvature(laws, contacts):
@@ -388,22 +391,9 @@ def test_free_roller_turns_at_an_eighth_to_a_fifth(laws, where, gap):
 
 
 def test_a_short_inlet_lets_the_free_roller_turn_faster(contacts):
-    found = [
-        free_ratio(prepare_rolling("inlet", *contacts["inner"], inlet_film=one), 2e-5) for one in (math.inf, 30, 10, 2)
-    ]
+    gaps = [inlet * martin.FLOW * 2e-5 for inlet in (math.inf, 30, 10, 2)]
+    found = [free_ratio(prepare_rolling("inlet", *contacts["inner"], oil_gap=one), 2e-5) for one in gaps]
     assert found == pytest.approx((0.140, 0.26, 0.375, 0.81), abs=0.02)
-
-
-def test_everything_goes_with_fullness_at_a_given_gap(contacts):
-    full, tenth = (
-        np.array(contact_at_gap(prepare_rolling("inlet", *contacts["inner"], fullness=f), 5e-5)) for f in (1.0, 0.1)
-    )
-    assert tenth == pytest.approx(0.1 * full, rel=1e-12)
-    # Of a line, h0 at a given load goes with fullness.
-    interface, _, radius = contacts["inner"]
-    line = GapShape(interface.rolling_radius, 1e9, 1.0)
-    films = [light_film(prepare_rolling("inlet", interface, line, radius, fullness=f), 3.0, 0.3) for f in (1.0, 0.1)]
-    assert films[1] / films[0] == pytest.approx(0.1, rel=0.05)
 
 
 def test_a_roller_in_its_pocket_floats_without_load_and_is_the_rigid_contact_under_load(laws):
@@ -418,9 +408,7 @@ def test_a_roller_in_its_pocket_floats_without_load_and_is_the_rigid_contact_und
     assert (conductance[-1], per_speed[-1]) == pytest.approx(contact_at_gap(numbers, free)[1:], rel=1e-3)
 
 
-def test_none_is_nothing_and_unknown_names_and_impossible_inlets_are_refused(contacts):
+def test_none_is_nothing_and_unknown_names_are_refused(contacts):
     assert prepare_rolling("none", *contacts["inner"]) is None
     with pytest.raises(InputError, match="no rolling law 'some'"):
         prepare_rolling("some", *contacts["inner"])
-    with pytest.raises(InputError, match="at the inlet"):
-        prepare_rolling("inlet", *contacts["inner"], inlet_film=0.5)

@@ -1,6 +1,7 @@
 """Films of inlets that are not full, against the integral of Reynolds' equation in the inlet."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -54,14 +55,14 @@ def contacts(supply, **other):
     return prepare(one.laws, one.bearing, one.oil, 1)
 
 
-def test_flooded_is_a_lubricant_that_floods():
-    flood = Lubricant.read("vg460-pao").replace(starvation=1.0, fullness=1.0, inlet_film=1e6)
-    known, found = prepare(Laws.physical(), Bearing.read("skf-240-600-bc"), flood, 1), contacts("flooded")
-    assert found.inner.film_thickness(LOAD, SPEED) == known.inner.film_thickness(LOAD, SPEED)
-    for load in (1.0, LOAD):
-        one, other = (np.array(light_contact(law.inner.rolling, load, SPEED)) for law in (found, known))
-        # S = 1e6 is not yet infinite.
-        assert one == pytest.approx(other, rel=1.1 * (1.0 - starved_martin(1e6)[1]))
+def test_flooded_is_a_lubricant_without_a_limit_and_nearly_one_with_a_wide_gap():
+    oil, bearing = Lubricant.read("vg460-pao"), Bearing.read("skf-240-600-bc")
+    known, wide = (prepare(Laws.physical(), bearing, one, 1).inner for one in (oil, oil.supplied(0.999)))
+    found = contacts("flooded")
+    for one, tolerance in ((known, 0.0), (wide, 0.02)):
+        assert found.inner.film_thickness(LOAD, SPEED) == pytest.approx(one.film_thickness(LOAD, SPEED), rel=tolerance)
+        expected = np.array(light_contact(one.rolling, LOAD, SPEED))
+        assert np.array(light_contact(found.inner.rolling, LOAD, SPEED)) == pytest.approx(expected, rel=tolerance)
     assert math.isinf(found.inner.oil_gap) and math.isinf(contacts(1.0).inner.oil_gap)
 
 
@@ -87,6 +88,17 @@ def test_less_oil_makes_thinner_films_less_resistance_and_idle_films_below_the_g
         assert series == sorted(series, reverse=True)
     for one, law in zip(idle[1:], found[1:], strict=True):
         assert one[2] < law.inner.oil_gap
+
+
+def test_rolling_without_starved_films_has_full_films_and_less_resistance():
+    laws = Laws.physical().but(starvation=False)
+    full, short = (
+        prepare(laws, one.bearing, one.oil, 1).inner
+        for one in (replace(case(supply), laws=laws) for supply in ("flooded", 0.5))
+    )
+    assert short.film_thickness(LOAD, SPEED) == full.film_thickness(LOAD, SPEED)
+    rolling = [float(light_contact(one.rolling, LOAD, SPEED)[1]) for one in (short, full)]
+    assert rolling[0] < 0.6 * rolling[1]
 
 
 def test_skf_gives_the_rolling_resistance_its_replenishment_factor():

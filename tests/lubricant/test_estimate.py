@@ -18,7 +18,7 @@ def test_every_family_gives_a_lubricant_that_reads_back(base, tmp_path):
         "kinematic_viscosity_40",
         "kinematic_viscosity_100",
     }
-    for key in ("reference_pressure_viscosity", "density_15", "limiting_shear", "eyring_stress", "starvation"):
+    for key in ("reference_pressure_viscosity", "density_15", "limiting_shear", "eyring_stress"):
         origin = oil.provenance[key]
         assert origin.tag == "E" and origin.range[0] < origin.value < origin.range[1]
 

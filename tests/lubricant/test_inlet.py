@@ -164,7 +164,7 @@ def test_every_shipped_lubricant_runs_over_temperature():
     for name in names:
         oil = Lubricant.read(name)
         assert oil.name == name and oil.title and oil.base_oil
-        oil.require("limiting_shear", "eyring_stress", "boundary_friction", "starvation", purpose="the physical model")
+        oil.require("limiting_shear", "eyring_stress", "boundary_friction", purpose="the physical model")
         assert all(origin.tag in "PVDRE" and origin.note for origin in oil.provenance.values())
         assert oil.provenance["limiting_shear"].range and oil.provenance["eyring_stress"].range
         states = [oil.at(temperature) for temperature in (263.15, 293.15, 323.15, 353.15)]

@@ -22,16 +22,13 @@ def test_base_lubricant_has_the_specified_values_in_si(base):
     assert values.pop("title")
     assert [key for key, value in values.items() if value is None] == [
         "kinematic_viscosity_40", "kinematic_viscosity_100", "roelands_index", "reference_pressure_viscosity",
-        "reference_temperature", "density_15", "grease_yield_stress",
+        "reference_temperature", "density_15", "starvation", "fullness", "inlet_film", "grease_yield_stress",
     ]  # fmt: skip
     assert {key: value for key, value in values.items() if value is not None} == {
         "base_oil": "pao", "thickener": "",
         "name": "vg460-pao", "inlet_temperature": 308.15, "viscosity": 0.54, "pressure_viscosity": 21e-9,
         "temperature_viscosity": 0.056, "thermal_conductivity": 0.125, "density": 900.0, "fill_factor": 0.7,
         "drag_coefficient": 1.0, "limiting_shear": 0.042, "eyring_stress": 6.7e6, "boundary_friction": 0.1,
-        "starvation": 0.7,
-        "fullness": 0.3,
-        "inlet_film": 30.0,
     }  # fmt: skip
 
 
@@ -85,7 +82,7 @@ def test_errors_speak_of_a_lubricant():
         Lubricant()
 
 
-PHYSICAL = ("limiting_shear", "eyring_stress", "boundary_friction", "starvation")
+PHYSICAL = ("limiting_shear", "eyring_stress", "boundary_friction")
 
 
 def test_a_file_without_the_data_of_the_physical_model_is_read_and_they_are_asked_for_by_name(base):
@@ -98,14 +95,14 @@ def test_a_file_without_the_data_of_the_physical_model_is_read_and_they_are_aske
         old.require(*PHYSICAL, purpose="the physical model")
     message = str(caught.value)
     assert message.startswith(
-        "lubricant vg460-pao: it has no limiting_shear, no eyring_stress, no boundary_friction, no starvation, which "
+        "lubricant vg460-pao: it has no limiting_shear, no eyring_stress, no boundary_friction, which "
         "the physical model needs. Allowed: limiting_shear: above 0, up to 0.5; eyring_stress: 10000 to 1e9 Pa; "
     )
-    assert message.endswith('starvation: {value: ..., unit: "1"}.') and "\n" not in message
+    assert message.endswith('boundary_friction: {value: ..., unit: "1"}.') and "\n" not in message
     with pytest.raises(
-        InputError, match="it has no starvation, which grease needs. Allowed: starvation: above 0, up to 1"
+        InputError, match="it has no limiting_shear, which grease needs. Allowed: limiting_shear: above 0"
     ):
-        base.replace(starvation=None).require("eyring_stress", "starvation", purpose="grease")
+        base.replace(limiting_shear=None).require("eyring_stress", "limiting_shear", purpose="grease")
 
 
 def test_roelands_lies_below_barus_and_bends(base):

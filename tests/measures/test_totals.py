@@ -192,9 +192,9 @@ def test_energies_of_stations_and_places_add_up_to_the_energy(walked, details):
     np.testing.assert_allclose(details.surface_energy.sum(axis=(1, 2, 3, 4)), energy, rtol=1e-9)
     np.testing.assert_allclose(details.surface_energy.sum(axis=(1, 3, 4)), details.station_energy, rtol=1e-9)
     assert (details.station_energy >= 0.0).all() and (details.surface_density >= 0.0).all()
-    # The outer raceway is loaded at the bottom.
+    # The outer raceway is loaded at the bottom; flooded rollers slide without load too.
     by_sector = details.surface_energy[1].sum(axis=(1, 2, 3))
-    assert by_sector[45:63].sum() > 0.9 * by_sector.sum()
+    assert by_sector[45:63].sum() > 0.8 * by_sector.sum()
 
 
 def test_looks_do_not_depend_on_where_buffers_end(walked, details):

@@ -85,7 +85,7 @@ def test_tags_are_those_of_the_catalogue(base):
 
 
 def test_ranges_of_the_oil_are_those_of_its_file(base):
-    for key in ("limiting_shear", "eyring_stress", "pressure_viscosity", "boundary_friction", "starvation", "fullness"):
+    for key in ("limiting_shear", "eyring_stress", "pressure_viscosity", "boundary_friction"):
         one = next(one for one in VALUES if one.key == f"lubricant.{key}")
         assert (one.low, one.high) == pytest.approx(base.lubricant.provenance[key].range), key
 

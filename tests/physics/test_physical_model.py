@@ -18,6 +18,7 @@ from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, W
 from macroslip.bearing import Bearing
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.patch import patch_power, patch_traction
+from macroslip.contact.starvation import film_factor
 from macroslip.contact.table import chords_for, patch_of, tractions
 from macroslip.imposed.status import Status
 from macroslip.lubricant import Lubricant
@@ -260,19 +261,28 @@ def total(found, interface=None):
 
 @pytest.mark.parametrize("base", [PAPER, FULL], ids=["paper", "physical"])
 def test_starved_and_heated_inlets_thin_the_film_and_raise_friction(energies, steady, base):
-    trace = Traces(step=1.0)
+    def trace_of(laws, **supply):
+        return run(steady, laws, rollers=[0], traces=Traces(step=1.0), **supply).sel(row="downwind")
 
-    def film(laws):
-        return run(steady, laws, rollers=[0], traces=trace).film_thickness.sel(row="downwind", interface="inner")
+    def film(laws, **supply):
+        return trace_of(laws, **supply).film_thickness.sel(interface="inner")
 
     starved, fed = base.but(starvation=True), base.but(starvation=False)
     heated, cool = base.but(inlet_heating=True), base.but(inlet_heating=False)
     loaded = film(base).notnull()
     assert loaded.any()
-    # Where the roller slips much, entrainment differs a little too.
-    assert (film(starved) / film(fed)).where(loaded, 0.7).values == pytest.approx(0.7, rel=0.03)
+    # The inlet begins to be full at one gap for all loads.
+    gap = Case(loads=steady, laws=starved, oil_supply=0.7).oil.oil_gap
+    full, thin = film(fed), film(starved, oil_supply=0.7)
+    assert 0.69 < float((thin / full).max()) < 0.72
+    # Where the load is small the roller slips more, and entrainment is less.
+    thinner = film_factor(gap / thin) * full
+    assert ((thin < 1.0001 * thinner) | ~loaded).all()
+    pressed = trace_of(base).roller_load > 5e3
+    assert pressed.any() and ((thin > 0.999 * thinner) | ~pressed).all()
     assert ((film(heated) < film(cool)) | ~loaded).all() and ((film(heated) > 0.95 * film(cool)) | ~loaded).all()
-    assert total(energies(starved), "inner") > total(energies(fed), "inner")
+    short = run(steady, starved, rollers=[0, 14], oil_supply=0.7).sel(row="downwind")
+    assert total(short, "inner") > total(energies(fed), "inner")
 
 
 def test_asperities_alone_add_friction(energies):
@@ -315,7 +325,7 @@ def test_the_largest_power_per_area_at_the_cage_is_that_of_its_contact():
     case = Case(loads=loads, laws=Laws.physical(), rollers=[0], window=Window(start=8.0))
     extremes = simulate(case).power_density.sel(interface="cage").isel(roller=0)
     result = simulate(replace(case, traces=Traces(step=0.01)))
-    cage = roller_model(BEARING, OIL, 1, tilt=math.radians(5.0), laws=Laws.physical()).laws.cage
+    cage = roller_model(BEARING, case.oil, 1, tilt=math.radians(5.0), laws=Laws.physical()).laws.cage
     hertz = cage.interface.hertz
     area = 2.0 * hertz.semi_axis_across * hertz.semi_axis_along
     for row in result.row.values:

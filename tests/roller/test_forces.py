@@ -334,7 +334,7 @@ def test_films_and_approach_fill_the_play(physical, play, body):
 
 def test_loads_are_continuous_where_play_ends_and_films_fade(physical):
     roller = physical["downwind"]
-    dx = np.linspace(-3e-6, 3e-5, 800) + 1e-4
+    dx = np.linspace(-3e-6, 4e-5, 1000) + 1e-4
     found = np.array([station_of(roller, 0.0, now(RATED, (one, 0.0, 0.0))).tolist() for one in dx])
     interference, elastic, inner = found[:, 1], found[:, 2], found[:, 3]
     assert (np.diff(inner) > 0.0).all() and interference[0] < 0.0 < interference[-1]

@@ -61,7 +61,7 @@ def test_microslip_is_felt_downwind_and_the_cage_under_the_papers_model():
     cage = [one.sel(interface="cage").sum() for one in mean]
     assert raceways[0] > 100.0 * cage[0]
     # With rolling resistance the inclined pressure pushes the rollers against the cage, whose orbit is imposed.
-    assert 100.0 * cage[1] > raceways[1] > 2.0 * cage[1]
+    assert 100.0 * cage[1] > raceways[1] > cage[1]
     assert cage[2] > raceways[2]
 
 

@@ -18,7 +18,6 @@ pytestmark = pytest.mark.slow
         ({"impact": "wet"}, "squeeze-film, dry"),
         ({"arrangement": "two"}, "one, per-row"),
         ({"damping": float("nan")}, "cage.damping: it is nan"),
-        ({"film_fullness": 0.0}, "impact: dry"),
         ({"seed": -1}, "cage.seed: it is -1"),
         ({"weight": 1}, "true or false"),
         ({"offsets": "left"}, "centred, random"),

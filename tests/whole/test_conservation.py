@@ -127,7 +127,7 @@ def test_renumbering_changes_nothing(run):
 def test_one_roller_model_is_the_limit_with_rolling_resistance_too():
     """Shear, push of the pressure, oil of the pockets and films of rollers with play, all as on an imposed orbit."""
     loads = BearingLoads.constant([0.0, -3e3, 0.0], 2.143, 1.5)
-    case = Case(loads=loads, laws=ROLLING, integrator=Radau(tolerance=2e-5))
+    case = Case(loads=loads, laws=ROLLING, oil_supply="flooded", integrator=Radau(tolerance=2e-5))
     imposed = simulate(case)
     cage = Cage(gap=0.0, impact="dry", weight=False)
     # The oil of an imposed orbit's pockets has play, which spars in this limit have not; its cage cannot be slowed.

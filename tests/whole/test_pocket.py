@@ -7,10 +7,11 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from macroslip.whole.pocket import Pocket, elastic_energy, pocket_force, squeeze_coefficient
+from macroslip.whole.pocket import Pocket, elastic_energy, pocket_force, squeeze_coefficient, squeeze_resistance
 
 DRY = Pocket(half_gap=2.5e-4, stiffness=4.2e11, damping=50.0, film=0.0, least_film=9e-7)
 FILM = DRY._replace(damping=0.0, film=squeeze_coefficient(0.54, 0.106, 0.035))
+SHORT = FILM._replace(oil_gap=1e-4)
 
 
 def test_squeeze_film_is_the_integral_of_reynolds_pressure():
@@ -25,7 +26,29 @@ def test_squeeze_film_is_the_integral_of_reynolds_pressure():
     assert squeeze_coefficient(viscosity, length, radius) * speed / gap**1.5 == pytest.approx(length * load, rel=1e-3)
 
 
-@pytest.mark.parametrize("pocket", [DRY, FILM])
+@pytest.mark.parametrize("over", [1.05, 2.0, 5.0, 100.0])
+def test_squeeze_film_of_a_gap_that_is_full_in_part_is_that_integral_over_the_oil(over):
+    radius, film = 0.035, SHORT.oil_gap / over
+    reach = math.sqrt(2.0 * radius * (SHORT.oil_gap - film))
+
+    def pressure(x):
+        return 6.0 * 0.54 * radius * ((film + x * x / (2.0 * radius)) ** -2 - SHORT.oil_gap**-2)
+
+    resistance, by_film = squeeze_resistance(SHORT, film)
+    assert resistance == pytest.approx(0.106 * quad(pressure, -reach, reach, limit=200)[0], rel=1e-9)
+    step = 1e-5 * film
+    above, below = (squeeze_resistance(SHORT, film + one)[0] for one in (step, -step))
+    assert by_film == pytest.approx((above - below) / (2.0 * step), rel=1e-6)
+
+
+def test_squeeze_film_ends_where_the_oil_ends_and_is_whole_where_oil_reaches_far():
+    factor = [squeeze_resistance(SHORT, film)[0] / squeeze_resistance(FILM, film)[0] for film in (1e-9, 0.9999e-4)]
+    assert factor[0] == pytest.approx(1.0, abs=1e-7) and 0.0 < factor[1] < 2e-6
+    assert squeeze_resistance(SHORT, SHORT.oil_gap) == squeeze_resistance(SHORT, 2e-4) == (0.0, 0.0)
+    assert squeeze_resistance(FILM._replace(oil_gap=1.0), 2e-4) == squeeze_resistance(FILM, 2e-4)
+
+
+@pytest.mark.parametrize("pocket", [DRY, FILM, SHORT])
 @pytest.mark.parametrize("offset", [-2.54e-4, -2.4e-4, 0.0, 1e-4, 2.499e-4, 2.51e-4])
 @pytest.mark.parametrize("speed", [-3e-3, 2e-3])
 def test_derivatives(pocket, offset, speed):
@@ -37,7 +60,7 @@ def test_derivatives(pocket, offset, speed):
     assert by_speed == pytest.approx(slope, rel=1e-6, abs=1e-6)
 
 
-@pytest.mark.parametrize("pocket", [DRY, FILM])
+@pytest.mark.parametrize("pocket", [DRY, FILM, SHORT])
 def test_a_spar_never_pulls_and_sides_mirror(pocket):
     for offset in np.linspace(-2.6e-4, 2.6e-4, 53):
         for speed in (-0.5, -1e-3, 1e-3, 0.5):
@@ -45,7 +68,7 @@ def test_a_spar_never_pulls_and_sides_mirror(pocket):
             assert push == -pocket_force(pocket, -offset, -speed)[0]
             if abs(offset) > pocket.half_gap:
                 assert push * offset <= 0.0
-            elif pocket is FILM:
+            elif pocket.film:
                 assert push * speed <= 0.0
             else:
                 assert push == 0.0

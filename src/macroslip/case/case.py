@@ -203,8 +203,10 @@ class Case:
 
     @property
     def inlet_supply(self) -> str | float:
-        """How full inlets are: `oil_supply`; where that is None, "skf" with laws that have a starved film or rolling
-        resistance, and "flooded" with others."""
+        """How full inlets are: `oil_supply`, or what stands for None.
+
+        That is "skf" with laws that have a starved film or rolling resistance, and "flooded" with others.
+        """
         return inlet_supply(self.oil_supply, self.lubricant, self.laws)
 
     @property

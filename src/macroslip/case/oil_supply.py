@@ -143,5 +143,7 @@ def supply_note(case: Case) -> str:
     old = {key: getattr(oil, key) for key in ("starvation", "inlet_film", "fullness")}
     old |= {"cage.film_fullness": case.cage.film_fullness}
     if given := [key for key, value in old.items() if value is not None]:
-        notes.append(f"{', '.join(given)}: keys of before version 0.2, of which starvation alone is read; give oil_supply")
+        notes.append(
+            f"{', '.join(given)}: keys of before version 0.2, of which starvation alone is read; give oil_supply"
+        )
     return "\n".join(notes)

@@ -115,13 +115,13 @@ class Lubricant(Record):
         _Optional, Quantity("friction coefficient where asperities carry the load", NUMBER, 0, 1)
     ] = None
     starvation: Annotated[
-        _Optional, Positive("of files before version 0.2: oil_supply where the case has none", NUMBER, 1)
+        _Optional, Positive("key of files before version 0.2, oil_supply where the case has none", NUMBER, 1)
     ] = None
     fullness: Annotated[
-        _Optional, Quantity("of files before version 0.2: oil_supply takes its place", NUMBER, 0.01, 1)
+        _Optional, Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 0.01, 1)
     ] = None
     inlet_film: Annotated[
-        _Optional, Quantity("of files before version 0.2: oil_supply takes its place", NUMBER, 1, 1e6, above=True)
+        _Optional, Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 1, 1e6, above=True)
     ] = None
     grease_yield_stress: Annotated[
         _Optional, Quantity("yield stress, which acts on idle rollers and in pockets", PRESSURE, 0, 1e5)
@@ -251,8 +251,7 @@ class Lubricant(Record):
         return self._stated(**changes)
 
     def supplied(self, oil_gap: float) -> Lubricant:
-        """The lubricant with inlets of contacts that are full from a gap [m] on; from 1 m on they are flooded.
-        """
+        """The lubricant with inlets of contacts that are full from a gap [m] on; from 1 m on they are flooded."""
         made = SuppliedLubricant.__new__(SuppliedLubricant)
         values = {key: getattr(self, key) for key in fields_of(Lubricant) if key not in self._derived}
         made._fill(values | {"oil_gap": oil_gap}, dict(self._provenance), Source())

@@ -137,7 +137,7 @@ def _sentences(result: xr.Dataset, *, short: bool) -> Markup:
         seconds = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
     known = numbers.rollers_failed([result]), numbers.estimated_values(result)
     rows, peak = numbers.row_numbers(result), numbers.largest_peak(result)
-    idle, orbits = bool(result.attrs.get("oil_supply_note")), result.sizes.get("orbit", 1)
+    idle, orbits = result.attrs.get("oil_supply_note", "").startswith("oil_supply "), result.sizes.get("orbit", 1)
     sentences = words(_TEMPLATE).answer(rows, seconds, orbits, peak, *known[0], *known[1], short, idle)
     # The range of the films has its sentence already.
     return sentences + words(_TEMPLATE).doubts(doubtful_result(result.drop_vars("outside_film_range", errors="ignore")))

@@ -77,7 +77,8 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
 
     With those on keys of earlier versions.
     """
-    found = result.attrs.get("oil_supply_note", "").splitlines()[1:]
+    notes = result.attrs.get("oil_supply_note", "").splitlines()
+    found = [line for line in notes if not line.startswith("oil_supply ")]
     known = {name: float(result[name].max()) for name in _JUDGED if name in result}
     if "outside_film_range" in result:
         known["outside"] = float(result.outside_film_range.sel(interface=["inner", "outer"]).mean("roller").max())

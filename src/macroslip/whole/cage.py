@@ -82,7 +82,8 @@ class Cage:
     impact: Annotated[str, Choice("how a roller meets a spar", lambda: IMPACTS)] = "squeeze-film"
     damping: Annotated[float, Quantity("D of the dry contact K δ^1.5 (1 + D δ')", INVERSE_SPEED, 0.0, 1e6)] = 50.0
     film_fullness: Annotated[
-        float | None, Quantity("of files before version 0.2: oil_supply takes its place", NUMBER, 0.0, 1.0, above=True)
+        float | None,
+        Quantity("key of files before version 0.2, whose place oil_supply takes", NUMBER, 0.0, 1.0, above=True),
     ] = None
     arrangement: Annotated[str, Choice("one cage for both rows, or one a row", lambda: ARRANGEMENTS)] = "one"
     mass: Annotated[

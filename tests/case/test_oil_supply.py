@@ -1,0 +1,83 @@
+"""How full inlets are where a case does not say it, what files of before version 0.2 say, and what cannot be."""
+
+import math
+
+import pytest
+import xarray as xr
+
+from macroslip import Bearing, BearingLoads, Cage, Case, Laws, Lubricant
+from macroslip.case.oil_supply import supply_note
+from macroslip.contact.laws import prepare
+from macroslip.contact.registry import FILM_LAWS
+from macroslip.errors import InputError
+from macroslip.result.plausibility import doubtful_result
+
+PAPER, PHYSICAL = Laws.paper(), Laws.physical()
+OLD = Lubricant.read("vg460-pao").replace(starvation=0.7, fullness=0.3, inlet_film=30.0)
+ADVICE = "keys of before version 0.2, of which starvation alone is read; give oil_supply"
+
+
+def case(laws=PHYSICAL, **other):
+    return Case(loads=BearingLoads.constant([0.0, -3.4e5, 1.6e5], 2.14, 10.0), laws=laws, **other)
+
+
+def test_skfs_factor_counts_where_a_law_asks_for_oil_and_no_supply_is_given():
+    one, named = case(), case(oil_supply="skf")
+    assert one.inlet_supply == one.as_dict()["oil_supply"] == "skf"
+    assert one.oil.oil_gap == named.oil.oil_gap < 1e-3
+    assert (
+        supply_note(one)
+        == supply_note(named)
+        == f"oil_supply skf: inlets are full from a gap of {1e6 * one.oil.oil_gap:.3g} um on"
+    )
+    assert supply_note(case(oil_supply="flooded")) == "oil_supply flooded: flooded inlets"
+    for changed in (PAPER.but(starvation=True), PAPER.but(rolling="whole-film")):
+        assert case(changed).inlet_supply == "skf" and case(changed).oil.oil_gap < 1e-3
+
+
+def test_other_laws_are_flooded():
+    one = case(PAPER)
+    assert one.inlet_supply == "flooded" and "oil_supply" not in one.as_dict() and supply_note(one) == ""
+    assert math.isinf(one.oil.oil_gap)
+    inner = prepare(PAPER, one.bearing, one.oil, 1).inner
+    assert inner.film_thickness(2e4, 0.4) == FILM_LAWS.named(PAPER.film)(inner.interface, 2e4, 0.4)
+    assert case(PAPER, oil_supply="flooded").oil.oil_gap == case(PAPER, oil_supply=1.0).oil.oil_gap == math.inf
+
+
+def test_starvation_of_an_old_file_is_the_supply_where_none_is_given():
+    old, new = case(lubricant=OLD), case(oil_supply=0.7)
+    assert old.inlet_supply == 0.7 and old.oil.oil_gap == new.oil.oil_gap
+    known = supply_note(new).removeprefix("oil_supply 0.7")
+    assert supply_note(old).splitlines() == [
+        f"oil_supply 0.7, read from the lubricant's starvation 0.7{known}", f"starvation, inlet_film, fullness: {ADVICE}"
+    ]  # fmt: skip
+    # The others have no effect.
+    assert case(lubricant=OLD.replace(fullness=None, inlet_film=None)).oil.oil_gap == new.oil.oil_gap
+    assert case(lubricant=OLD.replace(starvation=None)).inlet_supply == "skf"
+    assert case(lubricant=OLD.replace(starvation=0.1)).oil.oil_gap == case(oil_supply=0.3).oil.oil_gap
+    assert case(lubricant=OLD, oil_supply="skf").oil.oil_gap == case().oil.oil_gap
+
+
+@pytest.mark.parametrize("laws", [PAPER, PHYSICAL], ids=["paper", "physical"])
+def test_old_keys_are_spoken_of_beside_a_result(laws):
+    cage = Cage(film_fullness=0.1)
+    for one, keys in (
+        (case(laws, lubricant=OLD), "starvation, inlet_film, fullness"),
+        (case(laws, dynamics="whole-bearing", cage=cage), "cage.film_fullness"),
+    ):
+        result = xr.Dataset(attrs={"oil_supply_note": supply_note(one)})
+        assert doubtful_result(result) == [f"{keys}: {ADVICE}"]
+    assert doubtful_result(xr.Dataset(attrs={"oil_supply_note": supply_note(case(laws))})) == []
+
+
+def test_supplies_that_cannot_be_are_refused():
+    for supply in (0.5, "skf"):
+        with pytest.raises(
+            InputError, match="oil_supply: .*laws: paper have neither a starved film nor rolling resist"
+        ):
+            case(PAPER, oil_supply=supply)
+    bearing = Bearing.read("skf-240-600-bc").replace(name="mine", bore_diameter=None)
+    with pytest.raises(InputError, match="oil_supply: .*mine has no bore_diameter"):
+        case(bearing=bearing)
+    assert case(PAPER, bearing=bearing).inlet_supply == "flooded"
+    assert case(bearing=bearing, lubricant=OLD).inlet_supply == 0.7
