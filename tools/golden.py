@@ -27,8 +27,8 @@ MODELS = {"paper": Laws.paper, "physical": Laws.physical}
 HISTORIES = {"12A": (300.0, 340.0), "14B": (100.0, 140.0), "18C": (300.0, 340.0), "24A": (60.0, 100.0)}
 ROLLERS = [0, 9]
 #: Tolerances of numbers and of checks, by kind of case.
-TIGHT = {"imposed": 1e-7, "short": 1e-7, "film": 1e-7, "dry": 1e-6}
-LOOSE = {"imposed": 1e-5, "short": 1e-5, "film": 2e-6, "dry": 2e-6}
+TIGHT = {"imposed": 1e-7, "short": 1e-7, "film": 1e-7, "floating": 1e-6, "dry": 1e-6}
+LOOSE = {"imposed": 1e-5, "short": 1e-5, "film": 2e-6, "floating": 2e-6, "dry": 2e-6}
 #: Nominal bounds, relative to a variable's scale, which `errors` has.
 ENERGIES = ("energy", "rolling_energy", "asperity_energy", "mechanism_energy", "orbit_energy", "energy of rows")
 PEAKS = ("peak_power", "flash_temperature", "power_density", "slide_roll_ratio", "min_film_ratio",
@@ -39,12 +39,16 @@ NOMINAL = {
     "dry": {**dict.fromkeys(ENERGIES, 2e-2), **dict.fromkeys(PEAKS, 2e-2), "min_spin_ratio": 1e-2},
 }
 NOMINAL["short"] = NOMINAL["imposed"]
+#: By the physical laws rollers of the row without load float between their spars, as chaotic as dry impacts: 1e-14 m of gap
+#: change what one of them dissipates in 3 s by 9 %, and their sum by 0.5 %.
+NOMINAL["floating"] = NOMINAL["dry"]
 #: Maps, stations and shares that have no promise of their own: of their largest value, or as converged as today. Dry impacts
 #: are chaotic: at neighbouring tolerances the cage's slip differs by 0.4 %.
-OTHERS = {"imposed": 1e-3, "short": 1e-3, "film": 1e-3, "dry": 2e-2}
+OTHERS = {"imposed": 1e-3, "short": 1e-3, "film": 1e-3, "floating": 2e-2, "dry": 2e-2}
 #: Counts of the integrator, and books that are round-off.
 LEFT_OUT = ("steps", "rejections", "force_evaluations", "unbalanced_force", "quadrature_error", "end_time", "end_slip",
             "momentum_residual", "energy_residual", "spin", "slip", "outside_film_range", "roller_load", "cage_force")  # fmt: skip
+CHAOTIC = ("floating", "dry")
 QUANTILES = (0.1, 0.5, 0.9, 1.0)
 
 
@@ -83,7 +87,8 @@ def cases() -> dict[str, tuple[str, dict]]:
                 "dynamics": "whole-bearing", "window": Window(start=start + 1.0),
                 "cage": Cage(impact="dry" if kind == "dry" else "squeeze-film"),
             }  # fmt: skip
-            found[f"{kind}-{model}-{name}"] = kind, given
+            floats = kind == "film" and model == "physical"
+            found[f"{kind}-{model}-{name}"] = "floating" if floats else kind, given
     return found
 
 
@@ -112,7 +117,7 @@ def compute(kind: str, given: dict, tolerance: float) -> dict[str, np.ndarray]:
         if "time" in values.dims or not values.size or name.startswith("book_"):
             continue
         array = values.values.astype(float)
-        if kind == "dry" and "roller" in values.dims and name != "status":
+        if kind in CHAOTIC and "roller" in values.dims and name != "status":
             array = np.quantile(array, QUANTILES, axis=values.dims.index("roller"))
         found[name] = array
     return found
@@ -130,7 +135,7 @@ def errors(kind: str, found: np.ndarray, right: np.ndarray, name: str) -> float:
     largest = float(np.max(np.abs(right[known]), initial=0.0))
     if name == "min_spin_ratio":
         scale = np.maximum(np.abs(right), 0.1)
-    elif name in ENERGIES and name != "mechanism_energy" and kind != "dry":
+    elif name in ENERGIES and name != "mechanism_energy" and kind not in CHAOTIC:
         scale = np.maximum(np.abs(right), 0.01 * largest)
     else:
         scale = np.full(right.shape, largest)

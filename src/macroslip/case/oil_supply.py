@@ -86,22 +86,27 @@ def oil_gap(supply: str | float, bearing: Bearing, oil: Lubricant, loads: Bearin
 
     The supply is `flooded`; `skf`: as much as makes the rolling resistance SKF's replenishment factor times the flooded
     one; or film over flooded film. The mean load is that of the loaded rollers of the row with the larger share, under the
-    mean force on the inner ring. 1 m counts as flooded, without load or motion as well.
+    mean force on the inner ring. Means are over the angle that the shaft turns, so that time at rest does not count. 1 m
+    counts as flooded, without load or motion as well.
     """
-    force, speed = tuple(map(float, loads.force.mean(axis=0))), float(np.mean(np.abs(loads.shaft_speed)))
-    return _gap(supply, bearing, oil, laws, force, speed)
+    turned = np.abs(loads.shaft_speed) * np.gradient(loads.time)
+    if not turned.any():
+        return FLOODED_GAP
+    force = np.average(loads.force, axis=0, weights=turned)
+    speed = np.average(np.abs(loads.shaft_speed), weights=turned)
+    return _gap(supply, bearing, oil, laws, tuple(map(float, force)), float(speed))
 
 
 @functools.lru_cache(maxsize=64)
 def _gap(
     supply: str | float, bearing: Bearing, oil: Lubricant, laws: Laws, force: tuple[float, ...], speed: float
 ) -> float:
-    """`oil_gap` from the mean force [N] and the mean size of the shaft's speed [rad/s]."""
+    """`oil_gap` from the mean force [N] and the mean size of the shaft's speed [rad/s], > 0."""
     from macroslip.contact.laws import prepare
     from macroslip.contact.rolling import replenishment
     from macroslip.contact.starvation import film_factor, inlet_for_film, inlet_for_rolling
 
-    if supply in (FLOODED, 1.0) or speed == 0.0:
+    if supply in (FLOODED, 1.0):
         return FLOODED_GAP
     if supply == SKF:
         diameters = bearing.bore_diameter, bearing.outside_diameter
