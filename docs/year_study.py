@@ -24,7 +24,7 @@ from macroslip.study.year import coverage, year
 #: Of energy and entries both rows count, of wear the row and place with most.
 QUANTITIES = {"energy": BLUE, "wear": ORANGE, "entries": GREEN}
 NAMES = {"energy": "energy", "wear": "wear", "entries": "entries under slip"}
-VARIANTS = ["as it is", "oil_supply flooded", "oil_supply skf", "oil_supply 0.5", "oil at 25 °C", "oil at 50 °C"]
+VARIANTS = ["as it is", "oil_supply flooded", "oil_supply 0.7", "oil_supply 0.5", "oil at 25 °C", "oil at 50 °C"]
 MODELS = {"straight rollers": {"marker": "o", "mfc": "white"}, "skewed rollers": {"marker": "o"}}
 
 

@@ -19,7 +19,7 @@ SEED, POINTS = 20261122, 128  # seed and number of points of the sample
 
 @dataclass(frozen=True, slots=True)
 class UncertainValue:
-    """A value of which only a range is known, evenly likely in it; or a choice between laws, each as likely.
+    """A value of which only a range is known, evenly likely in it; or a choice, each as likely.
 
     `key` is the study's name for it; `unit` the unit of `low` and `high`; `tag` the provenance of the base value as in the
     catalogue, C for a choice; `kind` "even", "log" (the logarithm is evenly likely), "count" (a whole number) or "choice".
@@ -37,11 +37,11 @@ class UncertainValue:
     high: float
     tag: str = "E"
     kind: str = "even"
-    choices: Sequence[str] = ()
+    choices: Sequence[str | float] = ()
     reason: str = ""
 
     def at(self, place: float) -> Any:
-        """The value at a place from 0 to 1 in its range, in its unit; of a choice its name."""
+        """The value at a place from 0 to 1 in its range, in its unit; of a choice its name or number."""
         if self.kind == "choice":
             return self.choices[int(place * len(self.choices))]
         if self.kind == "count":
@@ -53,14 +53,19 @@ class UncertainValue:
     @property
     def range_text(self) -> str:
         """The range in words."""
-        return " or ".join(self.choices) or f"{self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
+        return " or ".join(map(str, self.choices)) or f"{self.low:g} to {self.high:g} {self.unit}".removesuffix(" 1")
 
 
 def _read() -> tuple[UncertainValue, ...]:
     with (Path(__file__).parent / "values.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     numbers = [
-        {"low": float(row["low"]), "high": float(row["high"]), "choices": row["choices"].split()} for row in rows
+        {
+            "low": float(row["low"]),
+            "high": float(row["high"]),
+            "choices": [float(one) if one[0].isdigit() else one for one in row["choices"].split()],
+        }
+        for row in rows
     ]
     return tuple(UncertainValue(**row | number) for row, number in zip(rows, numbers, strict=True))
 

@@ -2,11 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 import xarray as xr
 
 from macroslip import Bearing, BearingLoads, Cage, Case, Laws, Lubricant
-from macroslip.case.oil_supply import supply_note
+from macroslip.case.oil_supply import oil_gap, supply_note
+from macroslip.constants import FLOODED_GAP
 from macroslip.contact.laws import prepare
 from macroslip.contact.registry import FILM_LAWS
 from macroslip.errors import InputError
@@ -68,6 +70,28 @@ def test_old_keys_are_spoken_of_beside_a_result(laws):
         result = xr.Dataset(attrs={"oil_supply_note": supply_note(one)})
         assert doubtful_result(result) == [f"{keys}: {ADVICE}"]
     assert doubtful_result(xr.Dataset(attrs={"oil_supply_note": supply_note(case(laws))})) == []
+
+
+def test_rest_does_not_change_the_oil():
+    """Means are over the angle turned: with the speed falling from W to 0, of W 2/3, and of a force that falls with it 2/3."""
+    times = np.linspace(0.0, 10.0, 1001)
+    falling = np.outer(1.0 - times / 10.0, [0.0, -6e5, 3e5])
+    stop = BearingLoads(times, 2.1 * (1.0 - times / 10.0), falling, "stop")
+    rest = np.arange(10.01, 130.0, 0.01)
+    rested = BearingLoads(
+        np.append(times, rest),
+        np.append(stop.shaft_speed, 0.0 * rest),
+        np.vstack([falling, 0.0 * rest[:, None] + np.zeros(3)]),
+        "rest",
+    )
+    bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
+    steady = BearingLoads.constant([0.0, -4e5, 2e5], 1.4, 10.0)
+    for supply in ("skf", 0.7):
+        found = [oil_gap(supply, bearing, oil, loads, PHYSICAL) for loads in (stop, rested, steady)]
+        assert found[1] == pytest.approx(found[0], rel=1e-12)
+        assert found[2] == pytest.approx(found[0], rel=1e-4)
+    still = BearingLoads.constant([0.0, -4e5, 2e5], 0.0, 10.0)
+    assert oil_gap("skf", bearing, oil, still, PHYSICAL) == FLOODED_GAP
 
 
 def test_supplies_that_cannot_be_are_refused():

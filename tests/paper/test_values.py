@@ -53,6 +53,8 @@ def in_si(value, unit):
 
 
 def own(case, key):
+    if key == "oil_supply":
+        return case.inlet_supply
     part, name = parts_of(key)
     value = getattr(getattr(case, part), name)
     return 0.0 if value is None else value  # a file without waves has a round outer ring
@@ -79,8 +81,10 @@ def test_the_base_values_are_in_the_ranges(base):
 
 def test_tags_are_those_of_the_catalogue(base):
     for one in VALUES:
+        if one.tag == "C" or "." not in one.key:
+            continue
         part, name = parts_of(one.key)
-        if part not in ("drivetrain", "laws") and name in getattr(base, part).provenance:
+        if part != "drivetrain" and name in getattr(base, part).provenance:
             assert getattr(base, part).provenance[name].tag == one.tag, one.name
 
 
@@ -98,7 +102,7 @@ def test_the_points_are_a_scrambled_sobol_sequence_with_the_seed(points):
     for k, one in enumerate(VALUES):
         found = [point[one.key] for point in points[1:]]
         if one.choices:
-            assert found == [one.choices[0 if place < 0.5 else 1] for place in unit[:, k]]
+            assert found == [one.choices[int(place * len(one.choices))] for place in unit[:, k]]
         elif one.kind == "count":
             counts = range(int(one.low), int(one.high) + 1)
             assert found == [counts[int(place * len(counts))] for place in unit[:, k]]

@@ -89,7 +89,7 @@ def oil_gap(supply: str | float, bearing: Bearing, oil: Lubricant, loads: Bearin
     mean force on the inner ring. Means are over the angle that the shaft turns, so that time at rest does not count. 1 m
     counts as flooded, without load or motion as well.
     """
-    turned = np.abs(loads.shaft_speed) * np.gradient(loads.time)
+    turned = np.abs(loads.shaft_speed) * np.convolve(np.diff(loads.time), [0.5, 0.5])
     if not turned.any():
         return FLOODED_GAP
     force = np.average(loads.force, axis=0, weights=turned)
