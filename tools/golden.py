@@ -5,7 +5,7 @@ python -m tools.golden --verdicts results/summary.json    compares what `make re
 python -m tools.golden --write [--only imposed-paper]     computes them anew, in a commit that names the fault it mends
 
 Numbers are those of tight tolerances (`TIGHT`), at which no tables were used. A check computes with those of `LOOSE`. Its
-bounds are the promised ones (`NOMINAL`). Where the program kept less when the numbers were written, a bound is three
+bounds are the promised ones (`NOMINAL`). Where the program kept less, or hardly that, when the numbers were written, a bound is three
 times what it was off by then, so that a state that is as converged passes.
 """
 
@@ -40,8 +40,8 @@ NOMINAL = {
 }
 NOMINAL["short"] = NOMINAL["imposed"]
 #: By the physical laws rollers of the row without load float between their spars, as chaotic as dry impacts: 1e-14 m of gap
-#: change what one of them dissipates in 3 s by 9 %, and their sum by 0.5 %.
-NOMINAL["floating"] = NOMINAL["dry"]
+#: change what one of them dissipates in 3 s by 9 %, their sum by 0.5 %, and their largest power by a quarter.
+NOMINAL["floating"] = {**NOMINAL["dry"], **dict.fromkeys(ENERGIES, 5e-2), "energy of rows": 2e-2}
 #: Maps, stations and shares that have no promise of their own: of their largest value, or as converged as today. Dry impacts
 #: are chaotic: at neighbouring tolerances the cage's slip differs by 0.4 %.
 OTHERS = {"imposed": 1e-3, "short": 1e-3, "film": 1e-3, "floating": 2e-2, "dry": 2e-2}
@@ -100,7 +100,8 @@ def compute(kind: str, given: dict, tolerance: float) -> dict[str, np.ndarray]:
     if speed.min() < 0.0 < speed.max():
         # Both spins and the entrainment speed pass zero: the least of these ratios means nothing there.
         result = result.drop_vars(["min_spin_ratio", "slide_roll_ratio", "min_film_ratio"], errors="ignore")
-    kept = {name: values for name, values in result.data_vars.items() if name not in LEFT_OUT}
+    left_out = LEFT_OUT + (("window_peak_power", "peak_power_by_position") if kind == "floating" else ())
+    kept = {name: values for name, values in result.data_vars.items() if name not in left_out}
     if "surface_energy" in kept:
         energy = kept.pop("surface_energy")
         kinds = ("slip_sign", "film_regime")
@@ -158,7 +159,7 @@ def write(only: str) -> None:
         bounds = {}
         for name, values in right.items():
             spread, promised = errors(kind, loose[name], values, name), nominal(kind, name)
-            bounds[name] = promised if spread <= promised else float(f"{3.0 * spread:.2g}")
+            bounds[name] = promised if 1.5 * spread <= promised else float(f"{3.0 * spread:.2g}")
             if spread > promised:
                 print(f"{case:26} {name:24} promised {promised:.1e}, today's spread {spread:.1e}", flush=True)
         plain = {name: np.vectorize(lambda x: float(f"{x:.7g}"))(values).tolist() for name, values in right.items()}
