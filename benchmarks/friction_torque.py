@@ -3,7 +3,7 @@
     python benchmarks/friction_torque.py curves -o docs/figures/friction_torque_curves.png     two minutes
     python benchmarks/friction_torque.py wind                                                  three minutes
     python benchmarks/friction_torque.py inlets                                                one minute
-    python benchmarks/friction_torque.py fullness                                              four minutes
+    python benchmarks/friction_torque.py supplies                                              ten minutes
 
 Few rollers stand for all, over short windows: `curves` takes two rollers of each row over an orbit of steady load, `wind`
 two rollers of each row over 60 s of each of the 21 load cases.
@@ -131,12 +131,12 @@ class OverWind(NamedTuple):
     power: float
 
 
-def over_wind(lubricant: Lubricant) -> Iterator[OverWind]:
-    """The 21 load cases with a lubricant."""
+def over_wind(oil_supply: str | float) -> Iterator[OverWind]:
+    """The 21 load cases with an oil supply."""
     for speed in range(12, 25, 2):
         for turbulence in "ABC":
             hub = HubLoads.bundled(f"{speed}{turbulence}").window(0.0, WINDOW)
-            case = Case(loads=hub, rollers=ROLLERS, laws=Laws.physical(), lubricant=lubricant)
+            case = Case(loads=hub, rollers=ROLLERS, laws=Laws.physical(), oil_supply=oil_supply)
             loads = main_bearing_load(hub, case.drivetrain)
             one = torque(case, loads)
             yield OverWind(f"{speed}{turbulence}", speed, one, one.total * float(np.mean(loads.shaft_speed)))
@@ -163,7 +163,7 @@ def wind() -> None:
     print("| case | sliding | rolling | cage | drag | total | SKF M_sl | M_rr | all | Palmgren | power [W] |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     every = []
-    for found in over_wind(Lubricant.read("vg460-pao")):
+    for found in over_wind("skf"):
         every.append(found)
         one = found.torque
         parts = (one.sliding, one.rolling, one.cage, one.drag, one.total)
@@ -172,29 +172,26 @@ def wind() -> None:
     print_ratios(every)
 
 
-def fullness() -> None:
+def supplies() -> None:
     """Print the ratios over the 21 cases for inlets from starved to flooded."""
-    oil = Lubricant.read("vg460-pao")
-    for film in (5.0, 10.0, 30.0, 1000.0):
-        print(f"inlet full from {film:g} films on")
-        print_ratios(list(over_wind(oil.replace(inlet_film=film))))
+    for supply in (0.5, 0.7, "skf", "flooded"):
+        print(f"oil supply {supply}")
+        print_ratios(list(over_wind(supply)))
 
 
 def compare_inlets() -> None:
-    """Print what fullness of inlets and rheology make of the torque under the mean load."""
+    """Print what oil supply and rheology make of the torque under the mean load."""
     oil = Lubricant.read("vg460-pao")
     orbit = 2.0 * np.pi / (0.455 * SPEED)
     loads = BearingLoads.constant([0.0, -RADIAL, THRUST], SPEED, 2.2 * orbit)
-    for name, lubricant, changes in (
-        *((f"inlet film {film:g}", oil.replace(inlet_film=film), {}) for film in (5.0, 10.0, 20.0, 30.0, 60.0, 1e6)),
-        *((f"fullness {full:g}", oil.replace(fullness=full), {}) for full in (0.03, 0.1, 1.0)),
-        ("inlet", oil, {"rolling": "inlet"}),
-        ("Eyring, 3.3 MPa", oil.replace(eyring_stress=3.3e6), {}),
-        ("limiting shear", oil, {"rheology": "limiting-shear"}),
+    for name, lubricant, supply, changes in (
+        *((f"oil supply {supply}", oil, supply, {}) for supply in (0.3, 0.5, 0.7, 0.9, "skf", "flooded")),
+        ("`skf`, rolling by `inlet`", oil, "skf", {"rolling": "inlet"}),
+        ("`skf`, Eyring, 3.3 MPa", oil.replace(eyring_stress=3.3e6), "skf", {}),
+        ("`skf`, limiting shear", oil, "skf", {"rheology": "limiting-shear"}),
     ):
-        one = torque(
-            Case(loads=loads, rollers=ROLLERS, laws=Laws.physical().but(**changes), lubricant=lubricant), loads
-        )
+        laws = Laws.physical().but(**changes)
+        one = torque(Case(loads=loads, rollers=ROLLERS, laws=laws, lubricant=lubricant, oil_supply=supply), loads)
         print(
             f"| {name} | {one.sliding:.0f} | {one.rolling:.0f} | {one.cage:.0f} | {one.total:.0f} | "
             f"{one.rolling / one.skf_rolling:.2f} | {one.total / one.skf:.2f} |",
@@ -204,10 +201,10 @@ def compare_inlets() -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("curves", "wind", "inlets", "fullness"))
+    parser.add_argument("what", choices=("curves", "wind", "inlets", "supplies"))
     parser.add_argument("-o", "--output", help="picture of the curves")
     given = parser.parse_args()
     if given.what == "curves":
         curves(given.output)
     else:
-        {"wind": wind, "inlets": compare_inlets, "fullness": fullness}[given.what]()
+        {"wind": wind, "inlets": compare_inlets, "supplies": supplies}[given.what]()

@@ -162,7 +162,7 @@ def draw(path: Path) -> None:
         trend.plot(rated.index, rated[model] / rated[model][12], color=colour, label=labels[model])
         speeds = (4.0, 8.7, 11.4, 14.8, RATED_RPM)
         slow.plot(speeds, [speed_ratio(model, one) for one in speeds], color=colour, label=labels[model])
-    level.plot(table.index, over_wind(oil_supply="skf").own, "--", color="C0", label="this program, oil supply by SKF")
+    level.plot(table.index, over_wind(oil_supply="flooded").own, "--", color="C0", label="this program, flooded")
     for wind, names in wind_cases().items():
         level.plot([wind] * len(names), [heat(name).own for name in names], ".", color="C0", ms=4)
     found = measured()

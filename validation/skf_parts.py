@@ -17,8 +17,7 @@ from macroslip import BearingLoads, Case, Laws, Lubricant
 from macroslip.contact.rolling import replenishment
 from validation.comparison import Comparison, Range
 
-#: Full inlets: of loaded contacts, and of the gaps of unloaded ones.
-OIL = Lubricant.read("vg460-pao").replace(inlet_film=1e6, fullness=1.0)
+OIL = Lubricant.read("vg460-pao")
 COLD, WARM = 283.15, 338.15
 
 
@@ -50,7 +49,7 @@ def parts(rolling: str = "whole-film", **changed: float) -> Parts:
     orbit = 2.0 * np.pi / (0.455 * given["speed"])
     loads = BearingLoads.constant([0.0, -given["radial"], given["thrust"]], given["speed"], 2.2 * orbit)
     laws = Laws.physical().but(rolling=rolling)
-    case = Case(loads=loads, rollers=ROLLERS, laws=laws, lubricant=OIL, temperature=given["temperature"])
+    case = Case(loads=loads, rollers=ROLLERS, laws=laws, oil_supply="flooded", temperature=given["temperature"])
     found, oil = torque(case, loads), OIL.at(given["temperature"])
     filled = replenishment(
         oil.viscosity / oil.density, given["speed"], BEARING.bore_diameter, BEARING.outside_diameter
