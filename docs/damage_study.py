@@ -1,7 +1,7 @@
-"""Numbers of damage.md: criteria of the 21 bundled cases under `physical`, three rollers a row, over temperature and starvation.
+"""Numbers of damage.md: criteria of the 21 bundled cases under `physical`, three rollers a row, over temperature and oil supply.
 
 python docs/damage_study.py 40          # oil at 40 degC
-python docs/damage_study.py 40 0.5      # and a starvation factor of its own
+python docs/damage_study.py 40 0.5      # and an oil supply: flooded, skf or film / flooded film
 python docs/damage_study.py figure      # figures/damage.svg, of 14B at 35 degC
 """
 
@@ -12,22 +12,19 @@ from pathlib import Path
 
 import numpy as np
 
-from macroslip import Case, HubLoads, Laws, Lubricant, bundled_cases, simulate
+from macroslip import Case, HubLoads, Laws, bundled_cases, simulate
 from macroslip.result.damage import CRITERIA, YEAR, damage
 
 ROLLERS = [0, 9, 18]
 
 
-def main(temperature: float, starvation: float | None = None) -> None:
-    oil = Lubricant.read("vg460-pao")
-    if starvation is not None:
-        oil = oil.replace(starvation=starvation)
+def main(temperature: float, oil_supply: str | float = "skf") -> None:
     names = [one.name for one in CRITERIA]
     values, entries, wear = [], [], []
     for name in bundled_cases():
         case = Case(
             loads=HubLoads.bundled(name),
-            lubricant=oil,
+            oil_supply=oil_supply,
             laws=Laws.physical(),
             rollers=ROLLERS,
             temperature=temperature + 273.15,
@@ -40,7 +37,7 @@ def main(temperature: float, starvation: float | None = None) -> None:
             name, *(f"{one}={value:.3g}" for one, value in zip(names, values[-1], strict=True)), entries[-1], flush=True
         )
     values = np.array(values)
-    print(f"{temperature:g} degC, starvation {oil.starvation:g}")
+    print(f"{temperature:g} degC, oil_supply {oil_supply}")
     for k, one in enumerate(names):
         if np.isnan(values[:, k]).all():
             continue
@@ -66,4 +63,5 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["figure"]:
         figure()
     else:
-        main(*map(float, sys.argv[1:]))
+        supplies = [one if one in ("flooded", "skf") else float(one) for one in sys.argv[2:]]
+        main(float(sys.argv[1]), *supplies)
