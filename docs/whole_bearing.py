@@ -4,7 +4,8 @@ Parts, each with `-paper` or `-physical`: `cases` (imposed orbit and whole beari
 weight, arrangement, guidance, scatter under 14B), `places` (forces by place on the orbit under a radial load), `operation`
 (start, stop, reversal, idling, emergency stop), `speed` (600 s), `accuracy` (energies against a tight tolerance) and `rollers` (cost
 by their number). Under the paper's laws alone: `dry` (dry impacts and their cost),
-`tolerance` and `scatter` (energies by tolerance and by initial offsets) and `long` (what grows over many orbits).
+`tolerance` and `scatter` (energies by tolerance and by initial offsets) and `long` (what grows over many orbits). Under the
+physical laws alone: `chaos` (what 1e-14 m of pocket gap changes).
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from functools import partial
 
 import numpy as np
 
-from macroslip import BearingLoads, Cage, Case, HubLoads, Laws, Radau, simulate
+from macroslip import BearingLoads, Cage, Case, HubLoads, Laws, Radau, Window, simulate
 
 PAPER, PHYSICAL = Laws.paper(), Laws.physical()
 #: The part of each load case that is simulated [s]; the window opens after one orbit.
@@ -93,8 +94,6 @@ def choices(laws: Laws) -> None:
         "default": Cage(),
         "gap 0.2 mm": Cage(gap=2e-4),
         "gap 1 mm": Cage(gap=1e-3),
-        "film fullness 0.3": Cage(film_fullness=0.3),
-        "film fullness 0.03": Cage(film_fullness=0.03),
         "mass 35 kg": Cage(mass=35.0),
         "mass 60 kg": Cage(mass=60.0),
         "without weight": Cage(weight=False),
@@ -108,11 +107,14 @@ def choices(laws: Laws) -> None:
         "cage", "downwind raceways [J]", "downwind cage [J]", "upwind raceways [J]", "upwind cage [J]", "slip [%]",
         "largest spar force downwind, upwind [N]", "over the top [N]",
     )  # fmt: skip
-    for name, cage in described.items():
-        result = simulate(replace(case, cage=cage))
+    changed = {name: replace(case, cage=cage) for name, cage in described.items()}
+    if laws.asks_for_oil:
+        changed |= {f"oil_supply: {one}": replace(case, oil_supply=one) for one in ("flooded", 0.7)}
+    for name, one in changed.items():
+        result = simulate(one)
         force = result.largest_pocket_force.max(("roller", "side")).values
         top = result.largest_force_by_position.where(abs(result.position - np.pi / 2) < np.radians(30)).max()
-        slip = ", ".join(f"{100 * one:.3g}" for one in result.cage_slip.values)
+        slip = ", ".join(f"{100 * part:.3g}" for part in result.cage_slip.values)
         print(
             cells(
                 name,
@@ -195,6 +197,29 @@ def scatter() -> None:
             found.append(energies(simulate(case))[:, 1])
         mean, deviation = np.mean(found, axis=0), np.std(found, axis=0, ddof=1)
         print(cells(value, *(f"{x:.4g}" for k in (0, 1) for x in (mean[k], deviation[k]))), flush=True)
+
+
+def chaos() -> None:
+    """What 1e-14 m of pocket gap, far below any tolerance, changes in 3 s of 14B."""
+    loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + 4.0)
+    heading(
+        "oil_supply", "tolerance", "cage energy, unloaded rollers, most", "unloaded row", "loaded row", "raceways, most",
+        "time of one core [s]",
+    )  # fmt: skip
+    for supply, value in (("skf", 2e-4), ("skf", 1e-6), ("flooded", 1e-6)):
+        case = Case(
+            loads=loads, laws=PHYSICAL, dynamics="whole-bearing", oil_supply=supply,
+            window=Window(start=BEGIN + 1.0), integrator=Radau(tolerance=value),
+        )  # fmt: skip
+        (first, spent), (second, _) = (timed(replace(case, cage=Cage(gap=gap))) for gap in (5e-4, 5e-4 + 1e-14))
+        rows = abs(energies(second) / energies(first) - 1.0)
+        rollers = abs(second.energy / first.energy - 1.0).sel(interface="cage", row="upwind").values
+        print(
+            cells(
+                supply, value, *(f"{x:.1e}" for x in (rollers.max(), rows[1, 1], rows[0, 1], rows[:, 0].max())), spent
+            ),
+            flush=True,
+        )
 
 
 def operation(laws: Laws) -> None:
@@ -306,6 +331,7 @@ PARTS = {
     "tolerance": tolerance,
     "scatter": scatter,
     "long": long,
+    "chaos": chaos,
 }
 
 if __name__ == "__main__":
