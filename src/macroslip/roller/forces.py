@@ -143,7 +143,7 @@ def carried(body, tables, play, outward, ring_speed, guess=0.0):
     """
     speed = 0.5 * abs(ring_speed)
     log_u = math.log(max(speed, LOWEST_SPEED))
-    low, high, place = _LIGHTEST, _HEAVIEST, math.log(guess) if guess > 0.0 else 0.0
+    low, high, place = _LIGHTEST - 1.0, _HEAVIEST, math.log(guess) if guess > 0.0 else 0.0
     for _ in range(_ITERATIONS):
         excess, slope = _films_excess(body, tables, place, outward, play, log_u)
         if excess > 0.0:
@@ -153,7 +153,7 @@ def carried(body, tables, play, outward, ring_speed, guess=0.0):
         following = place - excess / slope if slope < 0.0 else low
         if not low < following < high:
             # Films that the play is too wide for carry nothing, which the lightest load shows at once.
-            following = low if low == _LIGHTEST and excess <= 0.0 else 0.5 * (low + high)
+            following = _LIGHTEST if low < _LIGHTEST and excess <= 0.0 else 0.5 * (low + high)
         change = abs(following - place)
         place = following
         # Newton's next change would be of the order of this one squared.
