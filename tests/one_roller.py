@@ -49,7 +49,7 @@ def station_of(roller: Roller, angle: float, now: Instant) -> np.void:
 def a_station(load: float, extra_outer: float = 0.0, tangential: float = -25.0, ring_speed: float = RING_SPEED):
     """A station made up [N], [m/s]."""
     found = np.zeros(1, STATION)
-    found[0] = (ring_speed, 1e-5, load, load, load + extra_outer, tangential)
+    found[0] = (ring_speed, 1e-5, load, load, load + extra_outer, tangential, 0.0)
     return found[0]
 
 

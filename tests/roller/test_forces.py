@@ -356,6 +356,20 @@ def test_films_carry_more_the_less_play_there_is_and_nothing_at_standstill(physi
     assert carried(body, tables, 1e-4, 30.0, 0.0) == 0.0
 
 
+def test_what_films_carry_does_not_depend_on_where_the_search_begins(physical):
+    body, tables = physical["downwind"].body[0], physical["downwind"].tables
+    for play in (0.0, 1e-6, 1e-4, 3e-4):
+        alone = carried(body, tables, play, 30.0, RING_SPEED)
+        again = [carried(body, tables, play, 30.0, RING_SPEED, guess) for guess in (1e-9, 1e-3, alone, 50.0, 1e6)]
+        assert again == pytest.approx([alone] * 5, rel=1e-9, abs=2e-9), play
+
+
+def test_starved_films_carry_nothing_where_the_play_is_wider_than_the_oil_reaches():
+    roller = rollers(models(Laws.physical(), OIL.supplied(2e-4)))["downwind"]
+    within, beyond = (carried(roller.body[0], roller.tables, play, 30.0, RING_SPEED) for play in (1e-4, 4e-4))
+    assert within > 0.1 and beyond < 1e-8
+
+
 def test_an_idle_roller_lies_between_two_films(physical, dry):
     top, bottom = (station_of(physical["downwind"], angle, now(2.14)) for angle in (math.pi / 2, -math.pi / 2))
     for at in (top, bottom):

@@ -35,8 +35,12 @@ _LIGHTEST, _HEAVIEST, _ITERATIONS = math.log(1e-9), math.log(1e7), 60
 #: elastic_load : load Q that the rings press on the roller [N]
 #: inner_load, outer_load : normal loads with body forces, and those of films that share a roller's play [N]
 #: tangential : F_g,x' + F_d,x', along +x' [N]
+#: film_load : load of the films that share a roller's play [N], where the next search for it begins
 STATION = np.dtype(
-    [(name, "f8") for name in ("ring_speed", "interference", "elastic_load", "inner_load", "outer_load", "tangential")]
+    [
+        (name, "f8")
+        for name in ("ring_speed", "interference", "elastic_load", "inner_load", "outer_load", "tangential", "film_load")
+    ]
 )
 #: Tangential forces on a roller at a given slip.
 #:
@@ -114,7 +118,7 @@ def _films_excess(body, tables, log_q, outward, play, log_u):
 
 
 @jit
-def carried(body, tables, play, outward, ring_speed):
+def carried(body, tables, play, outward, ring_speed, guess=0.0):
     """Load q [N] that the lighter of a roller's two raceway films carries.
 
     A roller with the play p lies between two films. With Q = q + |B| the load of the other, B the body force,
@@ -134,10 +138,12 @@ def carried(body, tables, play, outward, ring_speed):
         Body force B along the contact normal [N], positive outward.
     ring_speed : float
         u2 [m/s].
+    guess : float, optional
+        Where to begin [N], such as the load a moment before; 0 begins at 1 N.
     """
     speed = 0.5 * abs(ring_speed)
     log_u = math.log(max(speed, LOWEST_SPEED))
-    low, high, place = _LIGHTEST, _HEAVIEST, 0.0
+    low, high, place = _LIGHTEST - 1.0, _HEAVIEST, math.log(guess) if guess > 0.0 else 0.0
     for _ in range(_ITERATIONS):
         excess, slope = _films_excess(body, tables, place, outward, play, log_u)
         if excess > 0.0:
@@ -146,7 +152,8 @@ def carried(body, tables, play, outward, ring_speed):
             high = place
         following = place - excess / slope if slope < 0.0 else low
         if not low < following < high:
-            following = 0.5 * (low + high)
+            # Films that the play is too wide for carry nothing, which the lightest load shows at once.
+            following = _LIGHTEST if low < _LIGHTEST and excess <= 0.0 else 0.5 * (low + high)
         change = abs(following - place)
         place = following
         # Newton's next change would be of the order of this one squared.
@@ -164,7 +171,7 @@ def is_faded(body, tables, load, outward, ring_speed):
 
 
 @jit_inline
-def film_load(body, tables, load, approach, outward, ring_speed):
+def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
     """Load [N] of the films on either raceway beside the elastic load [N] and the body force [N].
 
     As the play vanishes q rises to a load q0 that films carry without play; a roller that the rings press with Q_e has
@@ -173,10 +180,10 @@ def film_load(body, tables, load, approach, outward, ring_speed):
     if not body.oily:
         return 0.0
     if load <= 0.0:
-        return carried(body, tables, -approach, outward, ring_speed)
+        return carried(body, tables, -approach, outward, ring_speed, guess)
     if load >= body.faded_load:
         return 0.0
-    most = carried(body, tables, 0.0, outward, ring_speed)
+    most = carried(body, tables, 0.0, outward, ring_speed, guess)
     return most * math.exp(-load / most) if most > _FADED * load else 0.0
 
 
@@ -208,7 +215,8 @@ def station(body, tables, start_angle, now, found):
     outward = (body.centrifugal * orbital_speed * orbital_speed - body.weight_in_plane * sine) * body.cos_contact_angle
     outward += body.weight_along_axis * body.sin_contact_angle
     ring_speed = -orbital_speed * body.outer_radius
-    pressed = load + film_load(body, tables, load, approach, outward, ring_speed)
+    found.film_load = film_load(body, tables, load, approach, outward, ring_speed, found.film_load)
+    pressed = load + found.film_load
     found.ring_speed, found.interference, found.elastic_load = ring_speed, approach, load
     found.inner_load, found.outer_load = pressed - min(outward, 0.0), pressed + max(outward, 0.0)
     found.tangential = body.weight_in_plane * cosine + body.drag * orbital_speed * abs(orbital_speed)
