@@ -186,6 +186,11 @@ def compare_inlets() -> None:
     loads = BearingLoads.constant([0.0, -RADIAL, THRUST], SPEED, 2.2 * orbit)
     for name, lubricant, supply, changes in (
         *((f"oil supply {supply}", oil, supply, {}) for supply in (0.3, 0.5, 0.7, 0.9, "skf", "flooded")),
+        *(
+            (f"oil supply {supply}, {celsius} °C", oil.at(f"{celsius} degC"), supply, {})
+            for supply in (0.5, 0.7, "skf", "flooded")
+            for celsius in (10, 65)
+        ),
         ("`skf`, rolling by `inlet`", oil, "skf", {"rolling": "inlet"}),
         ("`skf`, Eyring, 3.3 MPa", oil.replace(eyring_stress=3.3e6), "skf", {}),
         ("`skf`, limiting shear", oil, "skf", {"rheology": "limiting-shear"}),
