@@ -25,8 +25,8 @@ def idle() -> None:
     loads = HubLoads.bundled("14B").window(0.0, 40.0)
     base = Case(loads=loads, laws=Laws.physical(), rollers=[0, 14])
     stiff = base.lubricant.replace(grease_yield_stress=300.0)
-    cases = {"file": base, "no oil": replace(base, laws=base.laws.but(rolling="none"))}
-    for supply in ("flooded", "skf", 0.7, 0.3):
+    cases = {"no oil": replace(base, laws=base.laws.but(rolling="none"))}
+    for supply in ("skf", "flooded", 0.7, 0.5):
         cases[f"{supply}"] = replace(base, oil_supply=supply)
         cases[f"{supply}, grease"] = replace(base, oil_supply=supply, lubricant=stiff)
     for name, case in cases.items():

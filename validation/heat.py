@@ -120,7 +120,7 @@ def compare() -> list[Comparison]:
     for over, under, decides in (
         (12.0, 15.0, "nothing: all three models have it"),
         (12.0, 13.25, "nothing: all three models have it"),
-        (12.0, 8.0, "growth with load by microslip: the handbooks have less of it"),
+        (12.0, 8.0, "growth with load: microslip has a part of it, the handbooks have less"),
     ):
         found = measured_ratio((RATED_RPM, over), (RATED_RPM, under))
         own = {model: computed_ratio(over, under, model) for model in MODELS}
