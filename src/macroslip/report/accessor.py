@@ -190,7 +190,7 @@ class Plot:
         from macroslip.result.orbit import energy_over_orbit
 
         drawn = draw.plot_energy_over_orbit(axes or self._new_axes("polar"), energy_over_orbit(self._result), row)
-        drawn.legend(frameon=False, fontsize=SMALL, loc="upper left", bbox_to_anchor=(1.05, 1.0))
+        drawn.legend(frameon=False, fontsize=SMALL, loc="upper center", bbox_to_anchor=(0.5, -0.06))
         return drawn
 
     def bearing(self, *, axes: Axes | None = None) -> Axes:
