@@ -192,10 +192,7 @@ def rheology() -> None:
         print(f"Eyring, {stress / 1e6:g} MPa, over limiting shear at {celsius:.0f} °C: {energies[0] / energies[1]:.2f}")
 
 
-CLAIMS = {
-    one.__name__: one
-    for one in (exponents, compliance, asperities, drag, rows, thrust, temperature, rheology)
-}
+CLAIMS = {one.__name__: one for one in (exponents, compliance, asperities, drag, rows, thrust, temperature, rheology)}
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)

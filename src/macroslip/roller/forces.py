@@ -37,11 +37,9 @@ _LIGHTEST, _HEAVIEST, _ITERATIONS = math.log(1e-9), math.log(1e7), 60
 #: tangential : F_g,x' + F_d,x', along +x' [N]
 #: film_load : load of the films that share a roller's play [N], where the next search for it begins
 STATION = np.dtype(
-    [
-        (name, "f8")
-        for name in ("ring_speed", "interference", "elastic_load", "inner_load", "outer_load", "tangential", "film_load")
-    ]
-)
+    [("ring_speed", "f8"), ("interference", "f8"), ("elastic_load", "f8"), ("inner_load", "f8"), ("outer_load", "f8"),
+     ("tangential", "f8"), ("film_load", "f8")]
+)  # fmt: skip
 #: Tangential forces on a roller at a given slip.
 #:
 #: inner, outer, cage : F_i, F_o, F_c in the spin equation, that is moments over r, positive where they drive the spin ω up [N]
