@@ -256,8 +256,7 @@ def cage_from(body, tables, sheet, push, sliding, part):
     load = abs(push)
     if not body.oily and load <= tuning.LIGHT:
         return 0.0, 0.0, 0.0
-    reach = part * sheet.load + (tuning.FLOATING if body.oily else 0.0)
-    if not (abs(load - sheet.load) <= reach and abs(sliding - sheet.slip) <= part * abs(sheet.slip)):
+    if not (abs(load - sheet.load) <= part * sheet.load + tuning.LIGHT and abs(sliding - sheet.slip) <= part * abs(sheet.slip)):
         found = cage_contact(body, tables, load, -sliding, log_speed(sliding))
         sheet.force = found.friction + found.resistance
         sheet.by_slip = found.friction_by_slip + found.resistance_by_slip

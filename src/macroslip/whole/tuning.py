@@ -61,9 +61,8 @@ FAR_OFF = 30.0
 LOAD_CHANGE, LOAD_REACH = 0.2, 0.25
 #: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most.
 CAGE_REACH = 0.1
-#: Force of the cage that never matters [N], and change of the load of a pocket full of oil that never matters [N]: its film is
-#: bounded by the pocket. Judgement.
-LIGHT, FLOATING = 1e-7, 0.05
+#: Force of the cage that never matters [N]. Judgement.
+LIGHT = 1e-7
 #: Relative change of a place up to which the films of a roller with play carry the same. They carry newtons, of which
 #: traction is some hundredths: 1e-4 N, the tolerance of Newton's iteration at the default.
 FILM_REACH = 1e-3
