@@ -20,11 +20,11 @@ from macroslip.whole import tuning
 from macroslip.whole.model import Assembly
 from macroslip.whole.pocket import guide_force, pocket_force
 from macroslip.whole.tractions import (
+    MOMENT,
     address,
     cage_from,
     evaluate_marked,
     is_out_of_reach,
-    new_moments,
     new_sheets,
     raceway_from,
 )
@@ -78,7 +78,7 @@ def new_space(assembly: Assembly, memory: np.ndarray) -> Space:
     """State and work space for a bearing; `memory` is the integrator's."""
     count, cages = assembly.places.size, int(assembly.bearing[0]["cages"])
     return Space(
-        np.zeros(count, ROLLER), np.zeros(cages, CAGE), new_moments(count), *new_sheets(count), np.zeros(count, REST),
+        np.zeros(count, ROLLER), np.zeros(cages, CAGE), np.zeros((2, count), MOMENT), *new_sheets(count), np.zeros(count, REST),
         np.zeros(count, BLOCK), np.zeros(cages, BORDER), memory,
     )  # fmt: skip
 

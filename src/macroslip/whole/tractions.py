@@ -46,7 +46,7 @@ SHEETS = np.dtype([("inner", SHEET), ("outer", SHEET), ("cage", CAGE_SHEET), ("w
 #: tangential : G = F_g,x' + F_d,x' [N], against the orbit
 #: inner_speed, outer_speed : speed u2 of the rings past its centre [m/s]
 #: ring : speed Ω_in r~_in of the inner ring's surface [m/s]
-#: film_load : what films carry beside the rings' load [N], found at these interference [m], body force [N] and ring speed [m/s]
+#: film_load : what films carry beside the rings' load [N]
 #: spin_inner … pull_outer : S_i, S_o, P_i, P_o [N]
 #: friction, push : of its pocket, F_c and N [N]
 #: sliding, pocket_speed : slip against the cage and x' [m/s]
@@ -55,8 +55,7 @@ MOMENT = np.dtype(
         (name, "f8")
         for name in (
             "cosine", "sine", "inner_load", "outer_load", "elastic_load", "tangential", "inner_speed", "outer_speed", "ring",
-            "film_load", "film_interference", "film_outward", "film_speed",
-            "spin_inner", "spin_outer", "pull_inner", "pull_outer", "friction", "push", "sliding", "pocket_speed",
+            "film_load", "spin_inner", "spin_outer", "pull_inner", "pull_outer", "friction", "push", "sliding", "pocket_speed",
         )
     ]
 )  # fmt: skip
@@ -73,34 +72,10 @@ def new_sheets(count: int) -> tuple[np.ndarray, np.ndarray]:
     return sheets, sheets.view(float).reshape(2, count, -1)
 
 
-def new_moments(count: int) -> np.ndarray:
-    """Rollers at both stages of a step, shape (2, n)."""
-    moments = np.zeros((2, count), MOMENT)
-    for name in ("film_interference", "film_outward", "film_speed"):
-        moments[name] = np.nan
-    return moments
-
-
 @jit_inline
 def address(assembly):
     """Address of the tables, of the type that it has on an imposed orbit: look-ups are then compiled once for both."""
     return np.int64(assembly.tables.ctypes.data)
-
-
-@jit_inline
-def _is_near(value, known):
-    """Whether a place is as good as another; never where that is NaN. Rounding is far smaller than what changes."""
-    return abs(value - known) <= tuning.FILM_REACH * abs(known)
-
-
-@jit_inline
-def _film_load(body, tables, load, approach, outward, ring_speed, at):
-    """Load of the films beside the load of the rings [N], found anew where the roller's place has changed by `FILM_REACH`."""
-    near = _is_near(approach, at.film_interference) and _is_near(outward, at.film_outward)
-    if load > 0.0 or not (near and _is_near(ring_speed, at.film_speed)):
-        at.film_load = film_load(body, tables, load, approach, outward, ring_speed)
-        at.film_interference, at.film_outward, at.film_speed = approach, outward, ring_speed
-    return at.film_load
 
 
 @jit_inline
@@ -135,7 +110,8 @@ def locate(assembly, now, which, rollers, cages, moments, turn):
             outward = (body.centrifugal * orbit * orbit - body.weight_in_plane * y) * body.cos_contact_angle
             outward += body.weight_along_axis * body.sin_contact_angle
             outer_speed = -orbit * bearing.outer_radius
-            pressed = load + _film_load(body, tables, load, approach, outward, outer_speed, at)
+            at.film_load = film_load(body, tables, load, approach, outward, outer_speed, at.film_load)
+            pressed = load + at.film_load
             at.ring, at.elastic_load = ring, load
             at.inner_load = pressed - min(outward, 0.0)
             at.outer_load = pressed + max(outward, 0.0)
@@ -256,7 +232,10 @@ def cage_from(body, tables, sheet, push, sliding, part):
     load = abs(push)
     if not body.oily and load <= tuning.LIGHT:
         return 0.0, 0.0, 0.0
-    if not (abs(load - sheet.load) <= part * sheet.load + tuning.LIGHT and abs(sliding - sheet.slip) <= part * abs(sheet.slip)):
+    if not (
+        abs(load - sheet.load) <= part * sheet.load + tuning.LIGHT
+        and abs(sliding - sheet.slip) <= part * abs(sheet.slip)
+    ):
         found = cage_contact(body, tables, load, -sliding, log_speed(sliding))
         sheet.force = found.friction + found.resistance
         sheet.by_slip = found.friction_by_slip + found.resistance_by_slip

@@ -63,6 +63,3 @@ LOAD_CHANGE, LOAD_REACH = 0.2, 0.25
 CAGE_REACH = 0.1
 #: Force of the cage that never matters [N]. Judgement.
 LIGHT = 1e-7
-#: Relative change of a place up to which the films of a roller with play carry the same. They carry newtons, of which
-#: traction is some hundredths: 1e-4 N, the tolerance of Newton's iteration at the default.
-FILM_REACH = 1e-3
