@@ -15,10 +15,10 @@ from macroslip.contact.table import table_box
 from macroslip.whole.model import whole_bearing, with_tables
 from macroslip.whole.stage import FIRST, REST, ROLLER
 from macroslip.whole.tractions import (
+    MOMENT,
     SHEET,
     cage_from,
     evaluate_marked,
-    new_moments,
     new_sheets,
     raceway_from,
     shear_from,
@@ -37,7 +37,7 @@ def assembly(request, bearing, lubricant):
 def sheets_at(assembly, load, speed, slip):
     """The sheet of a roller whose both raceways are at this load [N], ring speed and slip [m/s]."""
     count = assembly.places.size
-    moments, (sheets, _), rests = new_moments(count), new_sheets(count), np.zeros(count, REST)
+    moments, (sheets, _), rests = np.zeros((2, count), MOMENT), new_sheets(count), np.zeros(count, REST)
     for name in ("inner", "outer"):
         moments[f"{name}_load"], moments[f"{name}_speed"] = load, speed
     rests["marked"] = True
