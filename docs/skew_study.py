@@ -4,6 +4,7 @@ python docs/skew_study.py               # 12A, 14B, 18C and 24A, two rollers a r
 python docs/skew_study.py 14B 24A
 python docs/skew_study.py check 14B     # powers of a result against contacts at the slip that a skewed roller has
 python docs/skew_study.py speed 14B
+python docs/skew_study.py damage 12B 14B    # wear and criteria of damage, three rollers a row, the whole case
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from macroslip import Case, HubLoads, Laws, Traces, Window, simulate
 from macroslip.bearing.geometry import roller_radius
 from macroslip.contact.laws import prepare
 from macroslip.contact.skewed import resultants
+from macroslip.result.damage import damage as criteria
 from macroslip.roller.skew import equilibrium, placed, raceways
 from macroslip.whole.cage import Cage
 
@@ -99,8 +101,41 @@ def check(name: str) -> None:
     )
 
 
+def damage(names: list[str]) -> None:
+    """Criteria of damage of straight and skewed rollers, and of the downwind raceways energy, asperities' energy and ∫ p |v|."""
+    for name in names:
+        base = Case(loads=HubLoads.bundled(name), rollers=[0, 9, 18])
+        straight = None
+        for described, cage in {"straight": Cage(), **CAGES}.items():
+            laws = Laws.physical() if described == "straight" else SKEWED
+            found = simulate(replace(base, laws=laws, cage=cage))
+            told, down = criteria(found), found.sel(row="downwind")
+            sums = [down[one].sel(interface=["inner", "outer"]).sum() for one in ("energy", "asperity_energy")]
+            worst = [
+                told[one].sel(row="downwind").max("station") for one in ("pressure_slip_rate", "asperity_work_rate")
+            ]
+            least = [
+                told.asperity_work_rate.sel(row="downwind", place=one)[10:14].min() / worst[1].sel(place=one)
+                for one in ("inner", "outer")
+            ]
+            values = [*sums, down.surface_work.sum(), *(one.max() for one in worst), told.wear_time[0, :, 1, 1].min()]
+            values = np.array([float(one) for one in values])
+            straight = values if straight is None else straight
+            print(
+                name,
+                described,
+                "energy, asperities, work, most p|v|, most wear, time to 10 um x",
+                (values / straight).round(3),
+            )
+            print("  least wear of the four middle stations over the most, inner and outer:", np.round(least, 3))
+            for one in told.criterion.values:
+                print(f"  {one:26s} {float(told.value.sel(criterion=one)):.4g}")
+
+
 if __name__ == "__main__":
-    if sys.argv[1:2] in (["check"], ["speed"]):
+    if sys.argv[1:2] == ["damage"]:
+        damage(sys.argv[2:])
+    elif sys.argv[1:2] in (["check"], ["speed"]):
         {"check": check, "speed": speed}[sys.argv[1]](sys.argv[2])
     else:
         main(sys.argv[1:] or ["12A", "14B", "18C", "24A"])

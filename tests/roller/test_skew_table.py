@@ -34,7 +34,7 @@ def test_the_table_gives_what_the_equilibrium_gives(table):
     load = np.exp(random.uniform(math.log(2.5e3), math.log(16e3), 40))
     speed, push = -random.uniform(0.37, 0.42, 40), random.uniform(0.0, 60.0, 40)
     found = np.array([turned(table, guide, *one) for one in zip(load, speed, push, strict=True)])
-    skew, held, inner, outer, axial, tilt, inner_moment, _, remains = found.T
+    skew, held, inner, outer, axial, tilt, inner_moment, _, remains, shift, slip, *rough = found.T
     exact, straight = (equilibrium(pair, LAWS, load, speed, one) for one in (skew, 0.0))
     reach = LAWS.inner.interface.hertz.semi_axis_across * np.cbrt(load)
     assert (remains < 1e-5 * np.abs(inner_moment)).all()
@@ -45,6 +45,11 @@ def test_the_table_gives_what_the_equilibrium_gives(table):
     assert (np.abs(np.stack([inner, outer], 1) - exact.power + straight.power) < 0.01 * exact.power).all()
     assert (np.abs(axial - exact.axial) < 5e-4 * load).all()
     assert tilt == pytest.approx(exact.tilt, abs=0.02 * np.abs(exact.tilt).max())
+    assert shift == pytest.approx(exact.shift, abs=0.02 * np.abs(exact.shift).max())
+    # Microslip is 10 to 20 mm/s, and what skew adds to the slip up to 0.02 mm/s.
+    assert slip == pytest.approx(exact.slip - straight.slip, abs=5e-6)
+    left = np.stack(rough, 1) - exact.asperity_power + straight.asperity_power
+    assert (np.abs(left) < 0.02 * exact.asperity_power).all()
 
 
 def test_a_rotor_that_stands_has_a_table():
@@ -71,9 +76,9 @@ def test_rows_and_directions_of_turning_are_mirrored(table):
     down, up = (turned(table, guide_of(SPAR, side), 1e4, -0.4, 10.0) for side in (1, -1))
     back = turned(table, guide_of(SPAR, 1), 1e4, 0.4, 10.0)
     assert up == (-down.skew, -down.held, down.inner_power, down.outer_power, -down.axial, -down.tilt, -down.inner_moment,
-                  -down.outer_moment, down.left)  # fmt: skip
+                  -down.outer_moment, down.left, -down.shift, down.slip, down.inner_rough, down.outer_rough)  # fmt: skip
     assert back == (-down.skew, -down.held, down.inner_power, down.outer_power, down.axial, down.tilt, -down.inner_moment,
-                    -down.outer_moment, down.left)  # fmt: skip
+                    -down.outer_moment, down.left, down.shift, -down.slip, down.inner_rough, down.outer_rough)  # fmt: skip
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -86,7 +91,8 @@ def test_the_mirrors_are_those_of_the_contacts(sign, speed):
     here = equilibrium(raceways(laws, BEARING, sign), laws, 2e4, speed, turn * 3e-3)
     assert here.moment == pytest.approx(turn * base.moment, rel=1e-5)
     assert here.axial == pytest.approx(sign * base.axial, rel=1e-5)
-    assert here.tilt == pytest.approx(sign * base.tilt, rel=1e-5)
+    assert (here.tilt, here.shift) == pytest.approx((sign * base.tilt, sign * base.shift), rel=1e-5)
+    assert here.slip == pytest.approx(-math.copysign(1.0, speed) * base.slip, rel=1e-5)
     assert here.power == pytest.approx(base.power, rel=1e-6)
 
 

@@ -89,6 +89,10 @@ class SkewedContact(NamedTuple):
         rolling = 1.0 / self.roller_radius - self.across
         return -(self.along - self.across) / (rolling - self.lateral)
 
+    def middle(self, tilt, shift):
+        """ζ_c [m] at θ [rad] and δ [m]."""
+        return (-self.side * tilt + self.along * (shift + self.side * self.roller_radius * tilt)) / self.lateral
+
 
 class Resultants(NamedTuple):
     """What a contact does to the roller.
@@ -105,8 +109,8 @@ class Resultants(NamedTuple):
         Moment of the tractions about +y' [N m].
     pressure_moment : ndarray
         Moment of the pressure on the turned ellipse about +y' [N m].
-    power : ndarray
-        Frictional power, ∫ τ·v dA [W].
+    power, asperity_power : ndarray
+        Frictional power, ∫ τ·v dA, and the asperities' part of it [W].
     ring_torque : ndarray
         Torque of the tractions on the ring about Z0 [N m].
     """
@@ -117,7 +121,23 @@ class Resultants(NamedTuple):
     moment: np.ndarray
     pressure_moment: np.ndarray
     power: np.ndarray
+    asperity_power: np.ndarray
     ring_torque: np.ndarray
+
+
+class SlipLines(NamedTuple):
+    """Slip on the long axis of the ellipse by the station, v0 + v1 ζ + v2 ζ² in rolling and w0 + w1 ζ + w2 ζ² along the roller.
+
+    In m/s, 1/s and 1/(m s). At ξ off that axis w is `per_xi` times ξ more.
+    """
+
+    v0: np.ndarray
+    v1: np.ndarray
+    v2: np.ndarray
+    w0: np.ndarray
+    w1: np.ndarray
+    w2: np.ndarray
+    per_xi: np.ndarray
 
 
 def film_shear(fluid: Fluid) -> Shear:
@@ -159,6 +179,24 @@ def skewed_contact(laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: 
     )  # fmt: skip
 
 
+def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> SlipLines:
+    """Slip of a contact; parameters as of `resultants`."""
+    k, r = contact.side, contact.roller_radius
+    spin, ring = (ring_speed - slip) / r, k * ring_speed / contact.raceway_radius
+    rim, offset = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along), contact.lateral * shift
+    aside = (offset + k * tilt) / contact.along  # δ + k r θ
+    fall, turned, per_xi = spin - ring * contact.cosine, k * spin * skew, -(contact.sine * ring + spin * tilt)
+    return SlipLines(
+        slip - 0.25 * fall * offset * shift - k * contact.sine * ring * aside,
+        0.5 * fall * offset - k * ring * (contact.cosine * tilt + contact.sine),
+        0.5 * fall * rim,
+        -turned * (r + 0.25 * offset * shift),
+        0.5 * turned * offset + per_xi * skew * (1.0 + contact.turn),
+        0.5 * turned * rim,
+        per_xi,
+    )
+
+
 def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt) -> Resultants:
     """Forces, moments and power of a contact by quadrature over its ellipse.
 
@@ -195,27 +233,23 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     k, r, hertz = contact.side, contact.roller_radius, contact.laws.interface.hertz
     root = np.cbrt(load)
     across, width, pressure = (one * root for one in (hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure))
-    spin, ring = (ring_speed - slip) / r, k * ring_speed / contact.raceway_radius
     rim = 1.0 / common_contour_radius(contact.roller_contour, 1.0 / contact.along)
     offset = contact.lateral * shift
     aside = (offset + k * tilt) / contact.along  # δ + k r θ
-    # v as a polynomial of the station.
-    fall = spin - ring * contact.cosine
-    constant = slip - 0.25 * fall * offset * shift - k * contact.sine * ring * aside
-    linear = 0.5 * fall * offset - k * ring * (contact.cosine * tilt + contact.sine)
-    square = 0.5 * fall * rim
-    station, weight = _chords(contact, across, shift, constant, linear, square)
+    lines = slip_lines(contact, ring_speed, slip, skew, shift, tilt)
+    station, weight = _chords(contact, across, shift, *lines[:3])
     height = np.sqrt(np.maximum(1.0 - ((station - shift) / across) ** 2, 0.0))
     drop = 0.5 * rim * station**2 + offset * (0.5 * station - 0.25 * shift)
-    turn = skew * (1.0 + contact.turn)
-    xi = width * height * _COSINES + turn * station
-    v = constant + station * (linear + square * station)
-    w = -k * spin * skew * (r - drop) - (contact.sine * ring + spin * tilt) * xi
+    chord = width * height * _COSINES
+    xi = chord + skew * (1.0 + contact.turn) * station
+    v = lines.v0 + station * (lines.v1 + lines.v2 * station)
+    w = lines.w0 + station * (lines.w1 + lines.w2 * station) + lines.per_xi * chord
     v, w = np.broadcast_arrays(v, w)
     speed = np.maximum(np.hypot(v, w), _NO_SLIP)
     local = np.maximum(pressure * height * _SINES, _NO_PRESSURE)
-    stress = _stress(contact, load, np.abs(ring_speed - 0.5 * slip), local, speed)
-    part = stress * weight * width * height * _CHORD_WEIGHTS / speed
+    film, rough = _stresses(contact, load, np.abs(ring_speed - 0.5 * slip), local, speed)
+    stress, area = film + rough, weight * width * height * _CHORD_WEIGHTS
+    part = stress * area / speed
     along, axial = part * v, part * w
 
     def total(values: np.ndarray) -> np.ndarray:
@@ -224,16 +258,17 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
     distance = (
         contact.raceway_radius - k * contact.cosine * (drop + k * tilt * station) - contact.sine * (station + aside)
     )
-    per_pressure = weight * width * height * _CHORD_WEIGHTS * pressure * height * _SINES
+    per_pressure = area * pressure * height * _SINES
     bent = 1.0 / r - 1.0 / contact.roller_contour
-    own = width * height * _COSINES + skew * contact.turn * station
+    own = chord + skew * contact.turn * station
     return Resultants(
         total(along * (r - drop) + axial * (k * skew * (r - drop) + tilt * xi)) / r,
         total(along),
         total(axial),
         total(-k * along * (station + k * r * tilt) - axial * xi),
         total(-bent * per_pressure * own * station),
-        total(stress * weight * width * height * _CHORD_WEIGHTS * speed),
+        total(stress * area * speed),
+        total(rough * area * speed),
         total(-k * along * distance + axial * contact.sine * xi),
     )
 
@@ -253,10 +288,10 @@ def _chords(contact: SkewedContact, across, shift, constant, linear, square) -> 
     return station, (length * _WEIGHTS).reshape(station.shape)
 
 
-def _stress(contact: SkewedContact, load, entrainment, pressure, speed) -> np.ndarray:
-    """Stress of film and asperities [Pa]."""
+def _stresses(contact: SkewedContact, load, entrainment, pressure, speed) -> tuple[np.ndarray, np.ndarray]:
+    """Stress of film and of asperities [Pa]."""
     laws = contact.laws
     film = laws.film_thickness(load, entrainment)
     share = laws.asperity_share(load, entrainment, film)
     rough = laws.boundary_friction * share * pressure * np.minimum(speed / FULL_SLIP, 1.0)
-    return (1.0 - share) * contact.shear(pressure, film, speed) + rough
+    return (1.0 - share) * contact.shear(pressure, film, speed), rough

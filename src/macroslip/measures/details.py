@@ -33,6 +33,7 @@ from macroslip.roller.step import STEP
 
 if TYPE_CHECKING:
     from macroslip.contact.laws import ContactLaws, RollerLaws
+    from macroslip.measures.skew import SkewMeasures
     from macroslip.ring.orbit import Motion
     from macroslip.roller.model import Roller
 
@@ -72,13 +73,14 @@ _MEMORY = np.dtype(
 #: A look: its orbit, number, and the number of the entry it belongs to; time of the look before and its own [s]; angles of the
 #: roller ahead of pure rolling, and of the shaft, at both [rad]; of the raceways energy since the look before [J], the share
 #: of the time at which it was spent in the mean, and asperities' energy [J]; the state; film [m] and asperities' share of the
-#: contacts; and, found by `_look`, power per length [W/m] and half-width [m] where contacts are hottest, with the speeds of roller
-#: and counterpart there [m/s].
+#: contacts; of the raceways the ellipse's middle along the roller [m] and the six numbers of `contact.skewed.SlipLines`, of which a
+#: straight roller has three; and, found by `_look`, power per length [W/m] and half-width [m] where contacts are hottest, with
+#: the speeds of roller and counterpart there [m/s].
 _LOOK = np.dtype(
     [
         ("orbit", "i8"), ("number", "i8"), ("entry", "i8"), ("since", "f8"), ("time", "f8"), ("ahead", "f8", (2,)),
         ("turned", "f8", (2,)), ("energy", "f8", (2,)), ("mean_time", "f8", (2,)), ("rough", "f8", (2,)),
-        ("at", END), ("film", "f8", (3,)), ("share", "f8", (3,)), ("hot", "f8", (3, 4)),
+        ("at", END), ("film", "f8", (3,)), ("share", "f8", (3,)), ("lines", "f8", (2, 7)), ("hot", "f8", (3, 4)),
     ]
 )  # fmt: skip
 #: How power lies along the roller at a raceway at a look: by station power with the sign of slip [W], that of asperities [W],
@@ -315,10 +317,8 @@ def _look_along(maps, interface, contact, state, look, passes, along):
     entrainment, pressed = math.copysign(max(abs(mean), LOWEST_SPEED), mean), look.at.elastic_load > 0.0
     root = load ** (1.0 / 3.0)
     across, half_along, pressure = patch.across * root, patch.along * root, patch.pressure * root
-    bend, spin = 0.0, 0.0
-    if patch.microslip:
-        bend = (ring_speed * patch.curvature_ratio - slip / patch.roller_radius) / (2.0 * patch.contour_radius)
-        spin = ring_speed * patch.spin_ratio
+    line = look.lines[interface]
+    middle, v0, v1, v2, w0, w1, w2 = line[0], line[1], line[2], line[3], line[4], line[5], line[6]
     width, node = 2.0 * patch.half_length / STATIONS, film_node(contact.chords, film)
     boundary = 0.75 * patch.boundary_friction * share * load / across
     hot, hottest, densest, fastest = look.hot[interface], 0.0, 0.0, 0.0
@@ -326,14 +326,14 @@ def _look_along(maps, interface, contact, state, look, passes, along):
     for k in range(STATIONS):
         left = k * width - patch.half_length
         # The part of the station under the ellipse, so that the lightest contact too lies in the two middle ones.
-        first, last = max(left, -across), min(left + width, across)
+        first, last = max(left, middle - across), min(left + width, middle + across)
         if last - first < 1e-6 * width:
             along.power[k] = along.rough[k] = along.work[k] = along.density[k] = 0.0
             continue
         station, covered = 0.5 * (first + last), (last - first) / width
-        height = 1.0 - station * station / (across * across)
-        local, chord = slip + station * (bend * station - spin), math.sqrt(height)
-        speed, half_width = abs(local), half_along * chord
+        height = 1.0 - (station - middle) * (station - middle) / (across * across)
+        local, chord = v0 + station * (v2 * station + v1), math.sqrt(height)
+        speed, half_width = math.hypot(local, w0 + station * (w2 * station + w1)), half_along * chord
         per_length = 0.75 * height / across * power
         asperities = boundary * height * min(speed / patch.full_slip, 1.0) * speed
         if contact.chorded:
@@ -346,7 +346,7 @@ def _look_along(maps, interface, contact, state, look, passes, along):
         along.rough_total += along.rough[k]
         along.work_total += along.work[k]
         if pressed:
-            slip_class, ratio = 0, local / entrainment
+            slip_class, ratio = 0, math.copysign(speed, local) / entrainment
             while slip_class < len(SLIP_EDGES) and ratio >= SLIP_EDGES[slip_class]:
                 slip_class += 1
             maps.film_slip[interface, film_class, slip_class, 0] += (look.time - look.since) * covered / STATIONS
@@ -384,7 +384,8 @@ def _look(looks, contacts, roller, start_angle, maps, extreme, entry_extreme):
                 film_ratio = look.film[i] / contacts[i].roughness
                 _raise(extreme, look.orbit, i, densest, fastest / mean, film_ratio)
                 if look.entry > 0:
-                    _raise(entry_extreme, look.orbit, i, densest, abs(states[i][2]) / mean, film_ratio)
+                    slip = math.hypot(look.lines[i, 1], look.lines[i, 4])
+                    _raise(entry_extreme, look.orbit, i, densest, slip / mean, film_ratio)
                 for sector in range(math.floor(min(start, end)), math.floor(max(start, end)) + 1):
                     place = maps.surface_density[i, int(sector % SECTORS)]
                     for k in range(STATIONS):
@@ -454,6 +455,8 @@ class Looker:
         Position φ at the first sample [rad].
     spacing : float
         Changes between looks, over those of a roller on an imposed orbit.
+    skew : SkewMeasures, optional
+        Of a roller that skews.
     """
 
     def __init__(
@@ -465,9 +468,10 @@ class Looker:
         motion: Motion,
         start_angle: float,
         spacing: float = 1.0,
+        skew: SkewMeasures | None = None,
     ):
         self.details, self._spacing, self._start_angle = new_details(edges), spacing, start_angle
-        self._roller, self._laws, self._contacts, self._motion = roller, laws, contacts, motion
+        self._roller, self._laws, self._contacts, self._motion, self._skew = roller, laws, contacts, motion, skew
         self._last, self._looks = np.zeros(1, STEP), Batch(_LOOK)
         #: Rows for `_heat_entries` of the entry under way.
         self._entering = np.zeros((0, 11))
@@ -498,6 +502,16 @@ class Looker:
             film = law.film_thickness(load[loaded], entrainment[loaded])
             looks["film"][loaded, i] = film
             looks["share"][loaded, i] = law.asperity_share(load[loaded], entrainment[loaded], film)
+        lines = looks["lines"]
+        lines[...] = 0.0
+        for i, name in enumerate(RACEWAYS):
+            patch, speed, slip = self._contacts[i].patch, looks["at"][f"{name}_speed"], looks["at"][f"{name}_slip"]
+            lines[:, i, 1], lines[:, i, 2] = slip, -speed * patch.spin_ratio
+            if patch.microslip:
+                fall = speed * patch.curvature_ratio - slip / patch.roller_radius
+                lines[:, i, 3] = fall / (2.0 * patch.contour_radius)
+        if self._skew:
+            self._skew.turn(looks)
         looks["turned"] = angle_at(self._motion, np.stack([looks["since"], looks["time"]], axis=1))
         found, steel = self.details, self._contacts[0].effusivity
         roller = self._roller.body[0], self._roller.tables

@@ -1,4 +1,4 @@
-"""Skew of one roller, from its steps: what it adds to their power, and mean values by place on the orbit."""
+"""Skew of one roller, from its steps: what it adds to their power, how its contacts slide, and mean values by place on the orbit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.compiled import jit
+from macroslip.contact.skewed import slip_lines
 from macroslip.measures.details import SECTORS
+from macroslip.measures.totals import RACEWAYS
+from macroslip.roller.skew import Pair
 from macroslip.roller.skew_table import Guide, SkewTable, turned
 
 #: What `SkewMeasures.by_place` sums up.
@@ -20,6 +23,7 @@ class Skewing(NamedTuple):
 
     table: SkewTable
     guide: Guide
+    pair: Pair
 
 
 @jit
@@ -37,6 +41,8 @@ def _add(table, guide, steps, j, places, window, before, sums, by_place):
                 inner, outer = found.inner_power, found.outer_power
                 step.power[k, 0] += inner
                 step.power[k, 1] += outer
+                step.rough[k, 0] += found.inner_rough
+                step.rough[k, 1] += found.outer_rough
                 if counted:
                     sums[0] += weight * inner
                     sums[1] += weight * outer
@@ -53,12 +59,13 @@ def _add(table, guide, steps, j, places, window, before, sums, by_place):
 
 @jit
 def _follow(table, guide, loads, speeds, pushes, found):
-    """Write the states that traces show: ψ, θ, axial force, moments of both raceways and force of a spar at the stop."""
+    """Write states: ψ, θ, axial force, moments of both raceways, force of a spar at the stop, δ and what is added to the slip."""
     for n in range(loads.size):
         if loads[n] > 0.0:
             at = turned(table, guide, loads[n], speeds[n], pushes[n])
             found[n, 0], found[n, 1], found[n, 2] = at.skew, at.tilt, at.axial
             found[n, 3], found[n, 4], found[n, 5] = at.inner_moment, at.outer_moment, abs(at.held) / guide.arm
+            found[n, 6], found[n, 7] = at.shift, at.slip
         elif not math.isnan(loads[n]):
             found[n, 2:] = 0.0
 
@@ -85,7 +92,18 @@ class SkewMeasures:
 
     def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
         """Add skew's power to the steps of roller `j`, whose stages are at these places on the orbit, in the buffer itself."""
-        _add(*self._skewing, steps, j, places, self._window, self._before, self._sums, self.by_place)
+        table, guide, _ = self._skewing
+        _add(table, guide, steps, j, places, self._window, self._before, self._sums, self.by_place)
+
+    def turn(self, looks: np.ndarray) -> None:
+        """Let the contacts of looks slide as those of the skewed roller, where the rings press it."""
+        at = looks["at"]
+        found, pressed = self._states(at), at["elastic_load"] > 0.0
+        skew, tilt, shift, more = found[pressed][:, [0, 1, 6, 7]].T
+        for i, (name, one) in enumerate(zip(RACEWAYS, self._skewing.pair, strict=True)):
+            speed, slip, middle = at[f"{name}_speed"][pressed], at[f"{name}_slip"][pressed], one.middle(tilt, shift)
+            lines = slip_lines(one, speed, slip + more, skew, middle, tilt)
+            looks["lines"][pressed, i] = np.stack([middle, *lines[:6]], axis=-1)
 
     @property
     def energy(self) -> np.ndarray:
@@ -99,8 +117,12 @@ class SkewMeasures:
 
     def traces(self, raw: np.ndarray) -> dict[str, np.ndarray]:
         """Traces by name, from states of `END`; skew and tilt are NaN where the rings do not press the roller."""
-        columns = (np.ascontiguousarray(raw[name]) for name in ("elastic_load", "outer_speed", "cage_load"))
-        found = np.full((raw["elastic_load"].size, 6), np.nan)
-        _follow(*self._skewing, *columns, found)
+        found = self._states(raw)
         names = ("skew_angle", "tilt", "axial_force")
         return dict(zip(names, found.T, strict=False)) | {"skew_moment": found[:, 3:5], "stop_force": found[:, 5]}
+
+    def _states(self, raw: np.ndarray) -> np.ndarray:
+        columns = (np.ascontiguousarray(raw[name]) for name in ("elastic_load", "outer_speed", "cage_load"))
+        found = np.full((raw.size, 8), np.nan)
+        _follow(self._skewing.table, self._skewing.guide, *columns, found)
+        return found

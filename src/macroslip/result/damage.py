@@ -343,7 +343,7 @@ def _grown(row: xr.Dataset, given: RunInput, work: np.ndarray, roller_work: np.n
     width, count = bearing.roller_length / (_SLICES * STATIONS), _SLICES * STATIONS
     place = (np.arange(count) + 0.5) * width - 0.5 * bearing.roller_length
     curvatures = (geometry.inner_curvatures(bearing).lateral, geometry.outer_curvatures(bearing).lateral)
-    contacts = []
+    contacts, skew = [], _working_skew(row)
     for i, (law, curvature) in enumerate(zip((laws.inner, laws.outer), curvatures, strict=True)):
         load = float(row.working_load.isel(raceway=i))
         if not load > 0.0 or not work[i].sum() > 0.0:
@@ -352,7 +352,8 @@ def _grown(row: xr.Dataset, given: RunInput, work: np.ndarray, roller_work: np.n
         contour, half = 0.5 * curvature * place**2, law.interface.hertz.semi_axis_across * load ** (1.0 / 3.0)
         stiffness = wear.hertz_slices(load, half, curvature)
         pressed = wear.slice_loads(contour, load, stiffness, width)
-        slip = _slip_profile(law.shape, place, pressed, row.surface_work.isel(raceway=i).sum("angle").values)
+        along = row.surface_work.isel(raceway=i).sum("angle").values
+        slip = _slip_profile(law.shape, place, pressed, along, skew)
         total = (pressed * slip).sum() / _SLICES
         contacts.append(
             wear.Pressed(load, contour, stiffness, slip, work[i].sum() / total, roller_work[i].sum() / total)
@@ -360,13 +361,21 @@ def _grown(row: xr.Dataset, given: RunInput, work: np.ndarray, roller_work: np.n
     return wear.grow((contacts[0], contacts[1]), width)
 
 
-def _slip_profile(shape: Any, place: np.ndarray, pressed: np.ndarray, work: np.ndarray) -> np.ndarray:
-    """|v| along the roller over the ring's speed [-]: microslip, and the slip of the middle that fits ∫ p |v| dt best."""
+def _working_skew(row: xr.Dataset) -> float:
+    """Root of the mean square of skew [rad], weighted by pressure times slip at the outer raceway, whose angle is the orbit's."""
+    if "skew_by_position" not in row:
+        return 0.0
+    weight = row.surface_work.sel(raceway="outer").sum("station").values
+    return math.sqrt((np.nan_to_num(row.skew_by_position.values) ** 2 * weight).sum() / max(weight.sum(), 1e-300))
+
+
+def _slip_profile(shape: Any, place: np.ndarray, pressed: np.ndarray, work: np.ndarray, skew: float) -> np.ndarray:
+    """|v| along the roller over the ring's speed [-]: skew, microslip, and the slip of the middle that fits ∫ p |v| dt best."""
     if not shape.microslip:
         return np.ones_like(place)
     own = shape.curvature_ratio / (2.0 * shape.contour_radius) * place**2 - shape.spin_ratio * place
     tried = np.linspace(-1.0, 1.0, _TRIED)[:, None] * np.abs(own[pressed > 0.0]).max()
-    slips = np.abs(own + tried)
+    slips = np.hypot(own + tried, skew)
     profiles = (slips * pressed).reshape(_TRIED, STATIONS, _SLICES).sum(axis=-1)
     error = ((profiles / profiles.sum(axis=1, keepdims=True) - work / work.sum()) ** 2).sum(axis=1)
     return slips[int(np.argmin(error))]

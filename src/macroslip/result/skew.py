@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.measures.skew import BY_PLACE, Skewing
 from macroslip.ring.orbit import Motion
-from macroslip.roller.skew import pocket
+from macroslip.roller.skew import pocket, raceways
 from macroslip.roller.skew_table import guide_of, skew_table
 from macroslip.roller.thrust import thrust
 
@@ -66,7 +66,10 @@ def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
     stop = pocket(case.bearing, cage.guidance, cage.gap, cage.skew_play)
     if cage.alignment == "none":
         stop = stop._replace(effective_radius=0.0)
-    return {row: Skewing(table, guide_of(stop, AXIAL_SIGNS[row])) for row in ROWS}
+    return {
+        row: Skewing(table, guide_of(stop, side), raceways(laws, case.bearing, side))
+        for row, side in AXIAL_SIGNS.items()
+    }
 
 
 def thrust_on_ring(case: Case, model: RollerModel, ring: RingGeometry, motion: Motion, box: Box) -> np.ndarray:

@@ -56,8 +56,8 @@ class Equilibrium(NamedTuple):
         Net moment about +y' [N m], tractions and pressure of both raceways; positive turns the roller to positive skew.
     moments : ndarray, shape (..., 2)
         The same by raceway.
-    power : ndarray, shape (..., 2)
-        Frictional power of the raceways [W].
+    power, asperity_power : ndarray, shape (..., 2)
+        Frictional power of the raceways, and the asperities' part of it [W].
     axial : ndarray
         Axial force on the inner ring along z' [N], of friction and of the turned normal force.
     push : ndarray
@@ -73,6 +73,7 @@ class Equilibrium(NamedTuple):
     moment: np.ndarray
     moments: np.ndarray
     power: np.ndarray
+    asperity_power: np.ndarray
     axial: np.ndarray
     push: np.ndarray
     unbalanced: np.ndarray
@@ -162,7 +163,8 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
         slip, axial = (np.nan_to_num(one).reshape(-1, load.size) for one in (start.slip, start.tractions))
         slip = slip[0].copy()
     tilt, shift, left = np.empty(load.size), np.empty(load.size), np.empty(load.size)
-    moments, power, inward = np.empty((load.size, 2)), np.empty((load.size, 2)), np.empty(load.size)
+    moments, power, rough = (np.empty((load.size, 2)) for _ in range(3))
+    inward = np.empty(load.size)
     bend, r, going = pair.inner.along, pair.inner.roller_radius, np.arange(load.size)
     for iteration in range(_ITERATIONS):
         here, u = slip[going], ring_speed[going]
@@ -185,6 +187,7 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
         left[going] = np.abs(spin) / load[going]
         moments[going] = np.stack([(one.moment + one.pressure_moment)[:count] for one in (inner, outer)], axis=-1)
         power[going] = np.stack([one.power[:count] for one in (inner, outer)], axis=-1)
+        rough[going] = np.stack([one.asperity_power[:count] for one in (inner, outer)], axis=-1)
         place = middles[0] + shift[going] - r * tilt[going]
         inward[going] = load[going] * bend * place - found[0]
         moving = (left[going] >= _LEFT) | (change >= _STILL * load[going])
@@ -196,7 +199,7 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
         going = going[moving]
         if not going.size:
             break
-    for one in (slip, tilt, shift, moments, power, inward, push, left):
+    for one in (slip, tilt, shift, moments, power, rough, inward, push, left):
         one[going] = np.nan
     axial[:, going] = np.nan
 
@@ -205,7 +208,7 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
 
     return Equilibrium(
         shaped(slip), axial.reshape(2, *shape), shaped(tilt), shaped(shift), shaped(moments.sum(axis=-1)),
-        shaped(moments), shaped(power), shaped(inward), shaped(push), shaped(left),
+        shaped(moments), shaped(power), shaped(rough), shaped(inward), shaped(push), shaped(left),
     )  # fmt: skip
 
 

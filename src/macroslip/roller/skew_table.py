@@ -1,7 +1,7 @@
 """Skew of a roller as a table over load, speed and skew, and the rest that a straight roller turns to, as compiled functions find it.
 
 The table is made for a roller of the downwind row with the shaft forward (u2 < 0). Skew and moment change their signs with the
-row, and with the direction of turning; tilt and axial force with the row alone.
+row, and with the direction of turning; tilt, shift and axial force with the row alone, slip with the direction alone.
 
 A roller that the rings press turns from ψ = 0 the way its net moment drives it, to the first skew at which the moment of a spar
 that presses on it holds it, or to its stop. It takes tenths of a second, and is taken to be there at once.
@@ -35,10 +35,10 @@ _ITERATIONS = 6
 
 
 class SkewTable(NamedTuple):
-    """Two cubes of four splines: moment and what a result adds up, and what only traces need."""
+    """Cubes of four splines: moment, power and force; place and moments; and what slip and asperities' power change by."""
 
     tables: np.ndarray
-    more: int  #: Where the second cube begins
+    more: int  #: Size of a cube
     load: Axis
     speed: Axis
     skew: Axis
@@ -67,6 +67,11 @@ class Turned(NamedTuple):
     inner_moment: float
     outer_moment: float
     left: float  #: Size of the moment about +y' that neither spar nor stop carries [N m]
+    shift: float  #: δ [m]
+    slip: float  #: What skew adds to Δu [m/s]
+    #: What skew adds to the power of the raceways' asperities [W].
+    inner_rough: float
+    outer_rough: float
 
 
 def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
@@ -101,14 +106,14 @@ def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
             stored(table_key(key, int(n)), lambda at=(n * _SPEED) ** 4: [_sheet(laws, bearing, load, skew, at)])[0]
             for n in range(first, last + 1)
         ]
-        cubes = [spline_coefficients(np.stack(sheets, axis=1)[..., part : part + 4], 3).ravel() for part in (0, 4)]
+        cubes = [spline_coefficients(np.stack(sheets, axis=1)[..., part : part + 4], 3).ravel() for part in (0, 4, 8)]
         return SkewTable(np.concatenate(cubes), cubes[0].size, load, speed, skew)
 
     return remembered(table_key(key, speed), make)
 
 
 def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: float) -> np.ndarray:
-    """Quantities at all loads and skews at one speed [m/s], shape (loads, skews, 8)."""
+    """Quantities at all loads and skews at one speed [m/s], shape (loads, skews, 12)."""
     loads, angles = np.exp(load.nodes), _SCALE * np.sinh(skew.nodes[skew.cells // 2 :])
     pair, both = raceways(laws, bearing, 1), np.array([-1.0, 1.0])[:, None]
     states: list[Equilibrium] = []
@@ -121,18 +126,19 @@ def _sheet(laws: RollerLaws, bearing: Bearing, load: Axis, skew: Axis, speed: fl
                 "This is a defect of the solver; please report it with the bearing and the oil."
             )
         states.append(at)
-    straight = states[0].power
-    found = np.stack([_scaled(one, straight, loads, speed) for one in states], axis=2)
+    found = np.stack([_scaled(one, states[0], loads, speed) for one in states], axis=2)
     return np.concatenate([found[0, :, :0:-1], found[1]], axis=1)
 
 
-def _scaled(at: Equilibrium, straight: np.ndarray, load: np.ndarray, speed: float) -> np.ndarray:
-    """Quantities of the table, shape (2, loads, 8)."""
-    per_moment, added = load ** (-4.0 / 3.0), (at.power - straight) / (load * speed)[:, None]
+def _scaled(at: Equilibrium, straight: Equilibrium, load: np.ndarray, speed: float) -> np.ndarray:
+    """Quantities of the table, shape (2, loads, 12)."""
+    per_moment, per_power = load ** (-4.0 / 3.0), 1.0 / (load * speed)[:, None]
+    added, rough = (at.power - straight.power) * per_power, (at.asperity_power - straight.asperity_power) * per_power
     return np.stack(
         [
             at.moment * per_moment, added[..., 0], added[..., 1], at.axial / load,
             at.tilt, at.moments[..., 0] * per_moment, at.push / load, at.shift,
+            (at.slip - straight.slip) / speed, rough[..., 0], rough[..., 1], np.zeros_like(at.slip),
         ],
         axis=-1,
     )  # fmt: skip
@@ -140,7 +146,7 @@ def _scaled(at: Equilibrium, straight: np.ndarray, load: np.ndarray, speed: floa
 
 @jit_inline
 def _at(table, part, load, speed, place):
-    """Four quantities of cube 0 or 1 at the cell and place of load and speed, and at a coordinate of skew."""
+    """Four quantities of a cube at the cell and place of load and speed, and at a coordinate of skew."""
     j, u, _ = cell_of(table.skew, place)
     inner = CHANNELS * (table.skew.cells + 3)
     outer = inner * (table.speed.cells + 3)
@@ -196,19 +202,20 @@ def turned(table, guide, load, ring_speed, push):
             place = low + (high - low) * excess / (excess - beyond)
     value = _at(table, 0, row, column, way * place)
     other = _at(table, 1, row, column, way * place)
+    change = _at(table, 2, row, column, way * place)
     angle = way * _SCALE * math.sinh(place)
     rest = heavy * (value[0] - way * align * math.sinh(place))
     held, left = (rest, 0.0) if beyond > 0.0 else (0.0, abs(rest))
     # Straight, nothing is added, not even by rounding.
-    tilt, power, axial = 0.0, 0.0, 0.0
-    inner, outer = 0.0, 0.0
+    tilt, shift, slip, power, axial = 0.0, 0.0, 0.0, 0.0, 0.0
     if place > 0.0:
-        power, axial, tilt = load * size, guide.side * load * value[3], guide.side * other[0]
-        inner, outer = power * value[1], power * value[2]
+        power, axial = load * size, guide.side * load * value[3]
+        tilt, shift, slip = guide.side * other[0], guide.side * other[3], -ring_speed * change[0]
     mirror = -guide.side * math.copysign(1.0, ring_speed)
     return Turned(
-        mirror * angle, mirror * held, inner, outer, axial, tilt,
+        mirror * angle, mirror * held, power * value[1], power * value[2], axial, tilt,
         mirror * heavy * other[1], mirror * heavy * (value[0] - other[1]), left,
+        shift, slip, power * change[1], power * change[2],
     )  # fmt: skip
 
 
