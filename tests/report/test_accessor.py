@@ -80,6 +80,24 @@ def test_without_microslip_there_are_no_maps(result):
         result.macroslip.plot.maps()
 
 
+def test_time_and_passes_by_film_and_slip_add_up_to_a_hundred_percent(result):
+    loads = BearingLoads.constant([0.0, -343.5e3, 100e3], 2.143, 8.0)
+    detailed = simulate(Case(loads=loads, rollers=[0], laws=Laws.physical()))
+    for quantity in ("time", "passes"):
+        for axes, raceway in zip(
+            detailed.macroslip.plot.film_and_slip("downwind", quantity), ["inner", "outer"], strict=True
+        ):
+            shares = 0.01 * 10.0 ** np.asarray(axes.collections[0].get_array())
+            amounts = detailed[f"film_slip_{quantity}"].sel(row="downwind", raceway=raceway)
+            assert shares[shares > 0.0101].sum() == pytest.approx(100.0, abs=0.5)
+            film, slip = np.unravel_index(np.argmax(shares), shares.shape)
+            assert amounts[film, slip] == amounts.max()
+    with pytest.raises(InputError, match="'time' or 'passes'"):
+        detailed.macroslip.plot.film_and_slip(quantity="heat")
+    with pytest.raises(InputError, match="physical"):
+        result.macroslip.plot.film_and_slip()
+
+
 def test_pictures_that_need_traces_say_so(result):
     bare = result.drop_dims("time")
     for name in ("spin", "load_zone", "orbit", "bearing"):

@@ -227,6 +227,26 @@ class Plot:
             draw.plot_map(one, values, units, title) for one, (title, values) in zip(axes, shown.items(), strict=True)
         ]
 
+    def film_and_slip(
+        self, row: str = "downwind", quantity: str = "time", *, axes: Sequence[Axes] | None = None
+    ) -> list[Axes]:
+        """Time under load, or "passes", by Λ and slide-roll ratio with its sign: what micropitting depends on.
+
+        Needs details of the contacts. Axes of your own are two: inner and outer raceway.
+        """
+        if quantity not in draw.FILM_AND_SLIP:
+            raise InputError(f"the quantity is {quantity!r}", allowed="'time' or 'passes'")
+        if "film_slip_time" not in self._result:
+            remedy = "Write laws: {model: physical} and contact_details: true in the case."
+            raise InputError("the result has no time by film and slip", allowed="details of contacts", remedy=remedy)
+        amounts = self._result[f"film_slip_{quantity}"].sel(row=row)
+        if axes is None:
+            axes = self._new_axes(columns=2, figsize=(10.0, 3.8)).ravel()
+        return [
+            draw.plot_film_and_slip(one, amounts.sel(raceway=name), draw.FILM_AND_SLIP[quantity], f"{row} row, {name}")
+            for one, name in zip(axes, amounts.raceway.values.tolist(), strict=True)
+        ]
+
 
 def _legend(axes: Axes) -> Axes:
     axes.legend(frameon=False, fontsize=SMALL)

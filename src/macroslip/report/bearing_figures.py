@@ -13,6 +13,7 @@ import numpy as np
 
 from macroslip.bearing import geometry
 from macroslip.errors import InputError
+from macroslip.measures.details import FILM_EDGES, SLIP_EDGES
 from macroslip.report.style import (
     BLACK,
     BLUE,
@@ -44,6 +45,8 @@ _PARTS = {
     "slip > 0": ({"slip_sign": "positive"}, {"color": ORANGE, "linestyle": "-."}),
     "Λ < 1": ({"film_regime": "below 1"}, {"color": GREEN, "linestyle": ":"}),
 }
+#: What `plot_film_and_slip` shares out, by name, and the least share that has a colour [%].
+FILM_AND_SLIP, _LEAST_SHARE = {"time": "time under load", "passes": "passes"}, 0.01
 _LOADS = {
     "radial": {"color": BLUE, "linestyle": "-"},
     "axial": {"color": ORANGE, "linestyle": "--"},
@@ -276,6 +279,28 @@ def plot_map(axes: Axes, values: xr.DataArray, units: str, title: str, *, differ
     _heat_map(axes, shown, extent, units, least=1e-30, difference=difference)
     axes.set_xticks([-180, -90, 0, 90, 180])
     finish(axes, "angle from the bottom [°]", "place along the roller [mm]", title)
+    axes.spines[["top", "right"]].set_visible(True)
+    return axes
+
+
+def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str) -> Axes:
+    """Shares [%] of time under load, or of passes, by Λ and by slide-roll ratio with its sign, of one raceway.
+
+    Takes `film_slip_time` or `film_slip_passes` over (film_class, slip_class). Left of the middle the roller is the faster
+    surface, right of it the ring.
+    """
+    values = amounts.transpose("film_class", "slip_class").values
+    shares = 100.0 * values / max(values.sum(), 1e-300)
+    shown = np.log10(np.maximum(shares, _LEAST_SHARE) / _LEAST_SHARE)
+    image = axes.pcolormesh(shown, cmap="Blues", vmin=0.0, vmax=np.log10(100.0 / _LEAST_SHARE), edgecolors="white")
+    for (film, slip), share in np.ndenumerate(shares):
+        if share >= 10.0 * _LEAST_SHARE:
+            colour = "white" if share > 10.0 else BLACK
+            axes.text(slip + 0.5, film + 0.5, f"{share:.2g}", ha="center", va="center", fontsize=SMALL, color=colour)
+    image.set_rasterized(True)
+    axes.set_xticks(range(1, len(SLIP_EDGES) + 1), [f"{edge:g}" for edge in SLIP_EDGES], rotation=60)
+    axes.set_yticks(range(1, len(FILM_EDGES) + 1), [f"{edge:g}" for edge in FILM_EDGES])
+    finish(axes, "slide-roll ratio, ring − roller [1]", "Λ [1]", f"{title} [% of {units}]")
     axes.spines[["top", "right"]].set_visible(True)
     return axes
 

@@ -270,6 +270,15 @@ def _damage(result: xr.Dataset) -> Markup:
             rows = criteria.row.values.tolist()
             about = "Depth of wear of the {} row along the roller over the years"
             shown += row_pictures(draw.plot_worn_profile, about, criteria, rows, legend="above")
+    if "film_slip_time" in result:
+        panels = {
+            f"Share of the time under load by film ratio and slide-roll ratio, {row} row, {raceway} raceway": (
+                result.film_slip_time.sel(row=row, raceway=raceway), draw.FILM_AND_SLIP["time"], f"{row} row, {raceway}"
+            )
+            for row in result.row.values.tolist()
+            for raceway in result.raceway.values.tolist()
+        }  # fmt: skip
+        shown += compared(draw.plot_film_and_slip, panels)
     return words(_TEMPLATE).criteria(numbers.criteria_table(found), missing, "", "", shown)
 
 
