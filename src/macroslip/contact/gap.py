@@ -143,6 +143,8 @@ def ratios(kappa, aspect) -> np.ndarray:
     return np.exp([spline.ev(*place) for spline in _ratio_splines()])
 
 
+# Both rows have the same contacts, and runs of a study many of them in common.
+@functools.lru_cache(maxsize=64)
 def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float = math.inf) -> Gap:
     """The rigid film of a contact, from the gap at which κ = 1e5 to that at which s = 4; power laws beyond.
 
