@@ -14,7 +14,6 @@ import time
 from dataclasses import replace
 
 import numpy as np
-from macroslip.result.row_loads import row_loads
 
 from macroslip import Case, HubLoads, Laws, Traces, Window, simulate
 from macroslip.bearing.geometry import roller_radius
@@ -38,16 +37,16 @@ def main(names: list[str]) -> None:
     for name in names:
         loads = HubLoads.bundled(name)
         base = Case(loads=loads, rollers=ROLLERS, window=Window(end=float(loads.time[0]) + END), contact_details=False)
-        straight = replace(base, laws=Laws.physical())
         for variant, changes in VARIANTS.items():
             for cage, described in CAGES.items():
                 found = simulate(replace(base, cage=described, **changes))
                 energy = found.energy.sel(interface=["inner", "outer"]).sum(("interface", "roller")).values
                 added = found.skew_energy.sum(("raceway", "roller")).values
                 skew = 1e3 * found.skew_by_position.values
-                rows = row_loads(straight, *(float(found.attrs[f"window_{end}"]) for end in ("start", "end")))
+                on_ring, (start, end) = base.bearing_loads, (found.attrs[f"window_{one}"] for one in ("start", "end"))
+                inside = (on_ring.time >= start) & (on_ring.time <= end)
                 low, high = np.fmin.reduce(skew, axis=1), np.fmax.reduce(skew, axis=1)
-                thrust, axial = found.frictional_thrust.values, float(rows.thrust)
+                thrust, axial = found.frictional_thrust.values, float(on_ring.force[inside, 2].mean())
                 print(
                     f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)}  skew "
                     + " ".join(f"{a:.2f}..{b:.2f}" for a, b in zip(low, high, strict=True))
