@@ -2,6 +2,7 @@
 
 python docs/damage_study.py 40          # oil at 40 degC
 python docs/damage_study.py 40 0.5      # and an oil supply: flooded, skf or film / flooded film
+python docs/damage_study.py 40 skf skew # of rollers that skew, guided by the default cage
 python docs/damage_study.py figure      # figures/damage.svg, of 14B at 35 degC
 """
 
@@ -18,14 +19,14 @@ from macroslip.result.damage import CRITERIA, YEAR, damage
 ROLLERS = [0, 9, 18]
 
 
-def main(temperature: float, oil_supply: str | float = "skf") -> None:
+def main(temperature: float, oil_supply: str | float = "skf", *, skew: bool = False) -> None:
     names = [one.name for one in CRITERIA]
     values, entries, wear = [], [], []
     for name in bundled_cases():
         case = Case(
             loads=HubLoads.bundled(name),
             oil_supply=oil_supply,
-            laws=Laws.physical(),
+            laws=Laws.physical().but(skew="quasi-static" if skew else "none"),
             rollers=ROLLERS,
             temperature=temperature + 273.15,
         )
@@ -63,5 +64,6 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["figure"]:
         figure()
     else:
-        supplies = [one if one in ("flooded", "skf") else float(one) for one in sys.argv[2:]]
-        main(float(sys.argv[1]), *supplies)
+        words = [one for one in sys.argv[2:] if one != "skew"]
+        supplies = [one if one in ("flooded", "skf") else float(one) for one in words]
+        main(float(sys.argv[1]), *supplies, skew="skew" in sys.argv)
