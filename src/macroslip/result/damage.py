@@ -77,7 +77,7 @@ CRITERIA = (
               "FE8 test 81212", 1.3, "crown of washers"),
     Criterion("friction_energy_year", "friction energy: p |v| of such a year", "J/m2",
               _FE8.duration * _REFERENCE_POWER, "FE8 test 81212, 20 h", 1.3, "crown of washers"),
-    Criterion("mixed_time", "micropitting: loaded time with Λ < 1", "1", math.nan, "", 3.0, "roughness, starvation"),
+    Criterion("mixed_time", "micropitting: loaded time with Λ < 1", "1", math.nan, "", 3.0, "roughness, oil supply"),
     Criterion("slower_time", "micropitting: ring slower, Λ < 3", "1", math.nan, "", 1.5, "profile of slip"),
     Criterion("wear_time", "wear: time to 10 µm at the middle k", "year", DESIGN_LIFE, "design life, IEC 61400",
               10.0, "k, share of asperities", lowest=True),
