@@ -5,7 +5,7 @@ weight, arrangement, guidance, scatter under 14B), `places` (forces by place on 
 (start, stop, reversal, idling, emergency stop), `speed` (600 s), `accuracy` (energies against a tight tolerance) and `rollers` (cost
 by their number). Under the paper's laws alone: `dry` (dry impacts and their cost),
 `tolerance` and `scatter` (energies by tolerance and by initial offsets) and `long` (what grows over many orbits). Under the
-physical laws alone: `chaos` (what 1e-14 m of pocket gap changes).
+physical laws alone: `supply` (imposed orbit and whole bearing by oil supply).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from functools import partial
 
 import numpy as np
 
-from macroslip import BearingLoads, Cage, Case, HubLoads, Laws, Radau, Window, simulate
+from macroslip import BearingLoads, Cage, Case, HubLoads, Laws, Radau, simulate
 
 PAPER, PHYSICAL = Laws.paper(), Laws.physical()
 #: The part of each load case that is simulated [s]; the window opens after one orbit.
@@ -127,6 +127,19 @@ def choices(laws: Laws) -> None:
         )
 
 
+def supply() -> None:
+    """The cage of 14B on imposed orbits and in the whole bearing by the supply of oil."""
+    heading("oil_supply", "downwind cage, imposed [J]", "whole/imposed", "upwind cage, imposed [J]", "whole/imposed")
+    loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + SPAN)
+    for name in ("flooded", "skf", 0.7):
+        case = Case(loads=loads, laws=PHYSICAL, oil_supply=name)
+        imposed, whole = (
+            energies(simulate(case))[:, 1],
+            energies(simulate(replace(case, dynamics="whole-bearing")))[:, 1],
+        )
+        print(cells(name, *(x for k in (0, 1) for x in (float(imposed[k]), share(whole[k], imposed[k])))), flush=True)
+
+
 def radial(laws: Laws, duration: float = 30.0, cage: Cage = Cage()) -> Case:
     """A bearing under its rotor's weight alone, 343 kN down at rated speed."""
     loads = BearingLoads.constant([0.0, -343e3, 0.0], RATED, duration)
@@ -199,29 +212,6 @@ def scatter() -> None:
         print(cells(value, *(f"{x:.4g}" for k in (0, 1) for x in (mean[k], deviation[k]))), flush=True)
 
 
-def chaos() -> None:
-    """What 1e-14 m of pocket gap, far below any tolerance, changes in 3 s of 14B."""
-    loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + 4.0)
-    heading(
-        "oil_supply", "tolerance", "cage energy, unloaded rollers, most", "unloaded row", "loaded row", "raceways, most",
-        "time of one core [s]",
-    )  # fmt: skip
-    for supply, value in (("skf", 2e-4), ("skf", 1e-6), ("flooded", 1e-6)):
-        case = Case(
-            loads=loads, laws=PHYSICAL, dynamics="whole-bearing", oil_supply=supply,
-            window=Window(start=BEGIN + 1.0), integrator=Radau(tolerance=value),
-        )  # fmt: skip
-        (first, spent), (second, _) = (timed(replace(case, cage=Cage(gap=gap))) for gap in (5e-4, 5e-4 + 1e-14))
-        rows = abs(energies(second) / energies(first) - 1.0)
-        rollers = abs(second.energy / first.energy - 1.0).sel(interface="cage", row="upwind").values
-        print(
-            cells(
-                supply, value, *(f"{x:.1e}" for x in (rollers.max(), rows[1, 1], rows[0, 1], rows[:, 0].max())), spent
-            ),
-            flush=True,
-        )
-
-
 def operation(laws: Laws) -> None:
     """Starts, stops, reversals, idling and an emergency stop, at 343 kN radial load."""
     series = {
@@ -288,21 +278,23 @@ def accuracy(laws: Laws) -> None:
     """Energies of 14B at the default tolerance over those at a finer one."""
     heading(
         "spars", "downwind raceways", "downwind cage", "upwind raceways", "upwind cage", "rolling resistance",
-        "energy left open / lost",
+        "cage, a roller, most", "energy left open / lost",
     )  # fmt: skip
     runs = ("squeeze film", Cage(), 60.0, 2e-6), ("dry", Cage(impact="dry"), 8.0, 2e-5)
     for name, cage, span, fine in runs:
         loads = HubLoads.bundled("14B").window(BEGIN, BEGIN + span)
         case = Case(loads=loads, laws=laws, dynamics="whole-bearing", cage=cage)
-        found = []
+        found, cages = [], []
         for integrator in (Radau(), Radau(tolerance=fine)):
             result = simulate(replace(case, integrator=integrator))
+            cages.append(result.energy.sel(interface="cage").values)
             found.append(np.append(energies(result).ravel(), float(result.rolling_energy.sum())))
             if len(found) == 1:
                 lost = float(result.book_raceway_loss[-1] + result.book_friction_loss[-1])
                 left = float(abs(result.energy_residual).max()) / lost
         parts = [f"{a / b - 1.0:+.1e}" if b > 0.0 else "–" for a, b in zip(*found, strict=True)]
-        print(cells(name, *parts, f"{left:.1e}"), flush=True)
+        most = abs(cages[0] / cages[1] - 1.0).max()
+        print(cells(name, *parts, f"{most:.1e}", f"{left:.1e}"), flush=True)
 
 
 def rollers(laws: Laws) -> None:
@@ -331,7 +323,7 @@ PARTS = {
     "tolerance": tolerance,
     "scatter": scatter,
     "long": long,
-    "chaos": chaos,
+    "supply": supply,
 }
 
 if __name__ == "__main__":
