@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -89,8 +90,23 @@ def test_wear_goes_with_the_energy_of_asperities_and_with_k(result):
     # A thousandth of the time to 1 µm wears a thousandth of it, at the place that wears most.
     rate = found.asperity_work_rate.max("station")
     first = found.wear_time.isel(depth=0, wear_coefficient=1) * 1e-17 * rate
+    # The profile grows under the mean load, whose place of most wear has a tenth more than that of all loads.
     np.testing.assert_allclose(first.sel(row="downwind").values, 1e-6, rtol=0.2)
+    year = found.asperity_work_rate * 1e-17 * YEAR
+    worn = found.worn_depth.isel(age=0).sum("station") / year.sum("station")
+    np.testing.assert_allclose(worn.sel(row="downwind").values, 1.0, rtol=1e-3)
     assert list(found.place.values) == list(PLACES)
+
+
+@pytest.mark.slow
+def test_free_orbits_change_the_criteria_little(result):
+    """The whole bearing has its rollers on orbits of their own; the loads and the slip under them are nearly the same."""
+    case = Case(loads=HubLoads.bundled("14B").window(0.0, 20.0), laws=Laws.physical(), temperature=323.15)
+    imposed, free = (damage(simulate(replace(case, dynamics=one))) for one in ("imposed-orbit", "whole-bearing"))
+    value = (free.value / imposed.value).sel(criterion=["entry_slide_roll_ratio", "friction_energy_rate"])
+    np.testing.assert_allclose(value.values, 1.0, rtol=0.03)
+    times = (free.wear_time / imposed.wear_time).isel(wear_coefficient=1)
+    np.testing.assert_allclose(times.sel(row="downwind").values, 1.0, rtol=0.05)
 
 
 def test_films_and_slip_are_shares_of_loaded_time(result):
