@@ -296,7 +296,15 @@ def plot_film_and_slip(axes: Axes, amounts: xr.DataArray, units: str, title: str
     for (film, slip), share in np.ndenumerate(shares):
         if share >= 10.0 * _LEAST_SHARE:
             colour = "white" if share > 10.0 else BLACK
-            axes.text(slip + 0.5, film + 0.5, f"{share:.0f}" if share >= 9.5 else f"{share:.1f}", ha="center", va="center", fontsize=SMALL, color=colour)
+            axes.text(
+                slip + 0.5,
+                film + 0.5,
+                f"{share:.0f}" if share >= 9.5 else f"{share:.1f}",
+                ha="center",
+                va="center",
+                fontsize=SMALL,
+                color=colour,
+            )
     image.set_rasterized(True)
     axes.set_xticks(range(1, len(SLIP_EDGES) + 1), [f"{edge:g}" for edge in SLIP_EDGES], rotation=60)
     axes.set_yticks(range(1, len(FILM_EDGES) + 1), [f"{edge:g}" for edge in FILM_EDGES])
