@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Case, Heat, Laws, Lubricant, Traces, read_case, simulate
+from macroslip import Bearing, BearingLoads, Case, Heat, Laws, Lubricant, Traces, read_case, simulate
 from macroslip.errors import InputError
 from macroslip.result.heat_balance import bearing_friction_power
+from macroslip.result.plausibility import doubtful_result
 from macroslip.result.run_input import run_input
 
 pytestmark = pytest.mark.slow
@@ -110,4 +111,22 @@ def test_rings_of_their_own_temperature_share_the_balance():
     assert 293.15 < outer < inner
     assert 0.5 * (inner + outer) == pytest.approx(float(result.inlet_temperature), abs=1e-6)
     assert 60.0 * (outer - 293.15) == pytest.approx(bearing_friction_power(result), rel=0.03)
-    assert result.attrs["clearance_loss"] == pytest.approx(11.9e-6 * 0.7454 * (inner - outer), rel=1e-6)
+    loss = result.attrs["clearance_loss"]
+    assert loss == pytest.approx(11.9e-6 * 0.7454 * (inner - outer), rel=1e-6)
+    # The rollers ran in the clearance that is left.
+    bearing = Bearing.read("skf-240-600-bc")
+    left = bearing.diametral_clearance - loss
+    assert 0.0 < left == pytest.approx(run_input(result).bearing.diametral_clearance)
+    alone = simulate(
+        case(temperature=float(result.inlet_temperature), bearing=bearing.replace(diametral_clearance=left))
+    )
+    np.testing.assert_array_equal(alone.energy, result.energy)
+    assert not (alone.energy == simulate(case(temperature=float(result.inlet_temperature))).energy).all()
+
+
+def test_rings_that_leave_no_clearance_say_so():
+    heat = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=3000.0, ring_conductance=5.0)
+    result = simulate(case(temperature="balance", heat=heat))
+    assert run_input(result).bearing.diametral_clearance == 0.0
+    assert result.attrs["clearance_loss"] > Bearing.read("skf-240-600-bc").diametral_clearance
+    assert any("preload is not modelled" in line for line in doubtful_result(result))

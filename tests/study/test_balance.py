@@ -2,10 +2,12 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from macroslip import Bearing, HubLoads, simulate
 from macroslip.errors import InputError
 from macroslip.study.reader import open_study
 from macroslip.study.run import run_study
@@ -99,3 +101,27 @@ def test_a_bearing_that_cannot_lose_its_heat_has_no_balance(tmp_path):
     content["case"]["loads"] = {"end": "7 s"}
     with pytest.raises(InputError, match="no heat balance"):
         run_study(study_of(content), tmp_path / "out", threads=1)
+
+
+def test_warmer_inner_rings_take_clearance_in_a_study_too(tmp_path):
+    content = made()
+    content["case"]["heat"] |= {"inner_mass": "4000 kg", "outer_mass": "3000 kg", "ring_conductance": "100 W/K"}
+    assert not run_study(study_of(content), tmp_path / "out", threads=1).failures
+    found = open_study(tmp_path / "out")
+    at = float(found.temperature[0])
+    case = case_at(content, at)
+    # Half of the power goes from ring to ring; 11.9e-6 per kelvin over the pitch diameter.
+    loss = 11.9e-6 * 0.7454 * 0.5 * case.heat.to_oil * (at - AMBIENT) / 100.0
+    left = Bearing.read("skf-240-600-bc").diametral_clearance - loss
+    assert 0.0 < left == pytest.approx(case.bearing.diametral_clearance, rel=1e-6)
+    result = simulate(replace(case, loads=HubLoads.bundled("12B").window(0.0, 9.0)))
+    energy = result.energy.mean("roller").sel(row="downwind").values
+    np.testing.assert_allclose(found.energy_mean.sel(row="downwind")[0], energy.sum(), rtol=1e-6)
+
+
+def case_at(content, temperature):
+    """The case of a study's first run at the temperature of its balance."""
+    study = study_of(content)
+    first = next(study.runs())
+    known = replace(study, heat=None, temperatures={first.group: temperature})
+    return known.case_of(next(known.runs()))[0]

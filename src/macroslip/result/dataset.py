@@ -10,7 +10,6 @@ momentum and energy are closed.
 from __future__ import annotations
 
 import json
-import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -28,7 +27,7 @@ from macroslip.measures.details import STATIONS
 from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
 from macroslip.result import skew, surface_maps
-from macroslip.result.heat_balance import clearance_loss, ring_temperatures
+from macroslip.result.heat_balance import clearance_loss, rings_at_balance
 from macroslip.result.variables import COUNTS, ENTRY_EXTREMES, ORBIT_EXTREMES, VARIABLES
 from macroslip.roller.model import TableReport
 from macroslip.whole.books import FLOWS, STOCKS, Books
@@ -196,14 +195,13 @@ def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict
 
 
 def _rings(case: Case) -> dict[str, float]:
-    """Temperatures of the rings at the balance of heat [K], and the clearance that their difference takes [m]."""
+    """Temperatures of the rings at the balance of heat [K], and the clearance that their difference took [m]."""
     heat = case.heat
     if heat is None or heat.ring_conductance is None or not isinstance(case.temperature, float):
         return {}
-    power = heat.to_oil * (case.temperature - heat.ambient)
-    inner, outer = ring_temperatures(heat, power, [math.inf], (heat.ambient, heat.ambient))[0]
+    inner, outer = rings_at_balance(heat, case.temperature)
     loss = clearance_loss(case.bearing, inner, outer)
-    return {"inner_ring_temperature": float(inner), "outer_ring_temperature": float(outer), "clearance_loss": loss}
+    return {"inner_ring_temperature": inner, "outer_ring_temperature": outer, "clearance_loss": loss}
 
 
 def _failed(table: list[list[Measured]]) -> np.ndarray:

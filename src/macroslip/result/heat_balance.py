@@ -174,10 +174,30 @@ def case_at_balance(case: Case, simulate: Callable[[Case], xr.Dataset]) -> Case:
     known: dict[float, float] = {}
     while True:
         temperature, settled = next_temperature(known, heat)
+        balanced = at_balance(case, temperature)
         if settled:
-            return replace(case, temperature=temperature)
-        trial = replace(case, temperature=temperature, traces=None, contact_details=False)
-        known[temperature] = bearing_friction_power(simulate(trial))
+            return balanced
+        known[temperature] = bearing_friction_power(simulate(replace(balanced, traces=None, contact_details=False)))
+
+
+def at_balance(case: Case, temperature: float) -> Case:
+    """The case at a temperature [K] of its balance, with the clearance that rings of their own temperatures leave there.
+
+    An inner ring that takes more than the clearance leaves none: a preload is not modelled, and a result says so.
+    """
+    case = replace(case, temperature=temperature)
+    if case.heat is None or case.heat.ring_conductance is None:
+        return case
+    loss = clearance_loss(case.bearing, *rings_at_balance(case.heat, temperature))
+    left = max(case.bearing.diametral_clearance - loss, 0.0)
+    return replace(case, bearing=case.bearing.replace(diametral_clearance=left))
+
+
+def rings_at_balance(heat: Heat, temperature: float) -> tuple[float, float]:
+    """Temperatures of inner and outer ring [K] where the balance has the oil at a temperature [K]."""
+    power = heat.to_oil * (temperature - heat.ambient)
+    inner, outer = ring_temperatures(heat, power, [math.inf], (heat.ambient, heat.ambient))[0]
+    return float(inner), float(outer)
 
 
 def ring_temperatures(

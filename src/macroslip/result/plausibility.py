@@ -5,6 +5,7 @@ Every sentence says what was found, what is usual, and what to look at. Nothing 
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -100,6 +101,12 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
         found.append(
             f"the film's formula is outside its range for {100.0 * share:.3g} % of the loaded time at a raceway: film "
             "thickness and traction are extrapolated there"
+        )
+    loss = result.attrs.get("clearance_loss", 0.0)
+    if loss > 0.0 and json.loads(result.attrs["input"])["bearing"]["diametral_clearance"]["value"] <= 0.0:
+        found.append(
+            f"the inner ring is so much warmer that it takes all of the clearance and more ({1e6 * loss:.3g} um): preload is not "
+            "modelled; give the bearing more clearance, or check heat.ring_conductance"
         )
     if "mean_film_load" in result and "mean_elastic_load" in result.attrs:
         films, elastic = float(result.mean_film_load.mean()), float(result.attrs["mean_elastic_load"])

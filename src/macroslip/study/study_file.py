@@ -19,6 +19,7 @@ from macroslip.input.files import Place, Source, parse, read_text
 from macroslip.input.messages import shown, together
 from macroslip.input.record import Record
 from macroslip.input.section import MappingOf, input_section, read_all, read_fields
+from macroslip.result.heat_balance import at_balance
 from macroslip.result.variables import VARIABLES
 from macroslip.study.loads_list import Load, LoadList, load_list
 from macroslip.study.settings import CUT_KEYS, RECORDS, Sample, Setting, template
@@ -133,7 +134,10 @@ class Study:
         """The case of a run, by default the base case, without its loads; and how to read these."""
         known = {noun: getattr(self, f"{noun}s") for noun in RECORDS}
         records = {noun: one[getattr(run, noun)] if run else next(iter(one.values())) for noun, one in known.items()}
-        return template(self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder)
+        case, cut = template(self.case, run.settings if run else [], records, keep=self.keep, folder=self.folder)
+        if run and self.temperatures:
+            case = at_balance(case, self.temperatures[run.group])
+        return case, cut
 
     def place(self, load: Load) -> str:
         """Path of a load history, or its name if it is bundled."""
