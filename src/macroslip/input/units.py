@@ -114,7 +114,7 @@ INVERSE_SPEED = _dimension(**{"s/m": 1})
 CONDUCTIVITY = _dimension(**{"W/(m K)": 1})
 CONDUCTANCE = _dimension(**{"W/K": 1})
 SPECIFIC_HEAT = _dimension(**{"J/(kg K)": 1})
-MASS = _dimension(kg=1)
+MASS = _dimension(kg=1, t=1000)
 DENSITY = _dimension(**{"kg/m3": 1})
 NUMBER = _dimension(**{"1": 1})
 
