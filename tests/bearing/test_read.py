@@ -166,7 +166,7 @@ def test_unknown_key_inside_an_entry(reported):
         ("roller_length: {value: 106, unit: mm", "roller_length: {value: .nan, unit: mm",
          "roller_length.value: it is nan. Allowed: a finite number"),
         ("mass: {value: 519, unit: kg, tag: V, note: \"catalogue\"}", "mass: 519",
-         "mass: it is 519, which does not give its unit. Allowed: mass: 1 kg; or mass: {value: a number, unit: kg,"),
+         "mass: it is 519, which does not give its unit. Allowed: mass: 1 kg; or mass: {value: a number, unit: kg or t,"),
         ("mass: {value: 519, unit: kg, tag: V", "mass: {value: 519, unit: kg, tag: Q",
          "mass.tag: 'Q' does not exist. Allowed: P, V, D, R, E, U. Choose one of these. P: paper; V: catalogue or public model;"),
         ("mass: {value: 519, unit: kg, tag: V, note: \"catalogue\"", "mass: {value: 519, unit: kg, note: 3",
