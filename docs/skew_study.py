@@ -4,6 +4,7 @@ python docs/skew_study.py               # 12A, 14B, 18C and 24A, two rollers a r
 python docs/skew_study.py 14B 24A
 python docs/skew_study.py check 14B     # powers of a result against contacts at the slip that a skewed roller has
 python docs/skew_study.py speed 14B
+python docs/skew_study.py coupled 14B 24A   # rest under spars as they press on imposed orbits, and on coupled ones
 python docs/skew_study.py damage 12B 14B    # wear and criteria of damage, three rollers a row, the whole case
 """
 
@@ -20,7 +21,9 @@ from macroslip.bearing.geometry import roller_radius
 from macroslip.contact.laws import prepare
 from macroslip.contact.skewed import resultants
 from macroslip.result.damage import damage as criteria
-from macroslip.roller.skew import equilibrium, placed, raceways
+from macroslip.result.prepared import prepare as prepare_case
+from macroslip.roller.skew import equilibrium, placed, pocket, raceways
+from macroslip.roller.skew_table import guide_of, skew_table, turned
 from macroslip.whole.cage import Cage
 
 END, ROLLERS = 60.0, [0, 14]
@@ -100,6 +103,44 @@ def check(name: str) -> None:
     )
 
 
+def coupled(names: list[str]) -> None:
+    """Rest of the rollers under the spars' forces of imposed orbits and of the whole bearing, whose cage holds nothing else."""
+    for name in names:
+        loads = HubLoads.bundled(name)
+        start = float(loads.time[0])
+        for described, changes in {"imposed": {}, "coupled": {"dynamics": "whole-bearing"}}.items():
+            case = Case(
+                loads=loads, window=Window(start=start + 20.0, end=start + END), contact_details=False,
+                traces=Traces(step=0.05, start=start + 20.0), **changes,
+            )  # fmt: skip
+            ready, found = prepare_case(case), simulate(case)
+            prepared = prepare(SKEWED, case.bearing, case.oil, 1)
+            table = skew_table(prepared, case.bearing, ready.box)
+            stop = pocket(case.bearing, "conforming-pocket", case.cage.gap)
+            for row, side in (("downwind", 1), ("upwind", -1)):
+                guide = guide_of(stop, side)
+                one = found.sel(row=row).stack(state=("roller", "time"))
+                one = one.isel(state=np.flatnonzero(one.roller_load.values > 1e3))
+                if not one.sizes["state"]:
+                    continue
+                speed = one.spin_pure.values * roller_radius(case.bearing)
+                states = zip(one.roller_load.values, speed, one.cage_force.values, strict=True)
+                at = np.array(
+                    [
+                        (rest.skew, rest.inner_power + rest.outer_power)
+                        for rest in (turned(table, guide, *state) for state in states)
+                    ]
+                )
+                power = one.power.sel(interface=["inner", "outer"]).sum("interface").values
+                push, skew = np.abs(one.cage_force.values), np.abs(1e3 * at[:, 0])
+                print(
+                    f"{name} {described} {row}: spars press with {np.median(push):.2f} N (median; mean {push.mean():.2f}), skew "
+                    f"{np.quantile(skew, [0.1, 0.5, 0.9]).round(2)} mrad (a tenth, half, nine tenths), at the stop "
+                    f"{100.0 * (skew > 0.999e3 * stop.largest).mean():.0f} %, power x {1.0 + at[:, 1].sum() / power.sum():.3f}",
+                    flush=True,
+                )
+
+
 def damage(names: list[str]) -> None:
     """Criteria of damage of straight and skewed rollers, and of the downwind raceways energy, asperities' energy and ∫ p |v|."""
     for name in names:
@@ -132,8 +173,8 @@ def damage(names: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["damage"]:
-        damage(sys.argv[2:])
+    if sys.argv[1:2] in (["damage"], ["coupled"]):
+        {"damage": damage, "coupled": coupled}[sys.argv[1]](sys.argv[2:])
     elif sys.argv[1:2] in (["check"], ["speed"]):
         {"check": check, "speed": speed}[sys.argv[1]](sys.argv[2])
     else:
