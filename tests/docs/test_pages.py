@@ -103,3 +103,26 @@ def test_ratios_that_the_page_on_the_study_quotes(pages):
     assert none == pytest.approx([1.0, 1.0], abs=5e-3)
     words = f"with a fifth of it {fifth[0]:.1f} under `paper` and {fifth[1]:.1f} under `physical`"
     assert f"{words}, with all of it {whole[0]:.1f} and {whole[1]:.0f}." in quoted_by("physical-study.md")
+
+
+def test_the_readme_quotes_what_the_case_that_init_writes_gives():
+    from dataclasses import replace
+
+    from macroslip import Traces, read_case, simulate
+
+    case = read_case(ROOT / "src" / "macroslip" / "cli" / "case_template.yaml")
+    case = replace(case, traces=Traces(step=0.02), contact_details=False)
+
+    def mean_spin(result):
+        inside = result.sel(time=slice(*(result.attrs[f"window_{end}"] for end in ("start", "end"))))
+        return (inside.spin / inside.spin_pure).mean(("roller", "time"))
+
+    found, full = simulate(case), simulate(replace(case, oil_supply="flooded"))
+    power = found.energy.sum("interface").mean("roller") / (found.attrs["window_end"] - found.attrs["window_start"])
+    loaded = 100.0 * (found.roller_load > 0.0).mean(("roller", "time"))
+    words = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    assert (
+        f"loaded for {loaded[0]:.0f} % of the time, slide by {power[0]:.1f} W each, and slow down to "
+        f"{found.min_spin_ratio[0].min():.2f} of pure rolling where they are not; upwind they carry nothing and turn at "
+        f"{mean_spin(found)[1]:.2f} of it, with full inlets at {mean_spin(full)[1]:.2f}."
+    ) in words

@@ -14,6 +14,7 @@ from macroslip.errors import InputError
 from macroslip.input.units import with_unit
 from macroslip.report.accessor import open_result
 from macroslip.report.result_numbers import estimated_values
+from macroslip.report.style import scaled
 from macroslip.result.run_input import stored_settings
 from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
@@ -300,7 +301,8 @@ def _ranking(frame: pd.DataFrame) -> str:
     best, *others = sorted(known, key=lambda one: one["value"])
     if others[-1]["value"] == best["value"]:
         return "All dissipate the same energy."
-    told = [f"{best['design']} dissipates least, {best['value']:.4g} {best['units']} ({ENERGY})"]
+    factor, units = scaled(best["value"], best["units"])
+    told = [f"{best['design']} dissipates least, {factor * best['value']:.4g} {units} ({ENERGY})"]
     shown = others if len(others) <= _MOST_RANKED else [*others[: _MOST_RANKED - 1], others[-1]]
     told += [f"{one['design']} {100.0 * (one['value'] / best['value'] - 1.0):.3g} % more" for one in shown]
     if len(shown) < len(others):

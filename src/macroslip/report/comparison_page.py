@@ -10,7 +10,7 @@ import numpy as np
 
 from macroslip.report import bearing_figures as draw
 from macroslip.report.page import Opening, Table, number, render, sections, words
-from macroslip.report.style import OPENING, Picture, compared, finish, log_ticks, picture
+from macroslip.report.style import OPENING, Picture, compared, finish, log_ticks, picture, scaled, years
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -89,11 +89,15 @@ def comparison_tables(found: pd.DataFrame) -> list[Table]:
     # The designs of a quantity follow each other.
     for start in range(0, len(lines), len(names)):
         quantity, units, _, first, *_ = lines[start]
-        cells = [number(first)]
-        for _, _, _, value, change, low, high in lines[start + 1 : start + len(names)]:
+        here = lines[start : start + len(names)]
+        factor, shown = scaled(max(abs(one[3]) for one in here), units)
+        # Lives have their unit beside them: beyond 500 years they are written as such.
+        write = years if quantity.endswith("life") else lambda value, factor=factor: number(factor * value)
+        cells = [write(first)]
+        for _, _, _, value, change, low, high in here[1:]:
             between = f" ({low:.3g} to {high:.3g})" if np.isfinite(low) else ""
-            cells += [number(value), f"{round(change, 9):+.3g}{between}" if np.isfinite(change) else "–"]
-        rows.append((f"{quantity} [{units}]", *cells))
+            cells += [write(value), f"{round(change, 9):+.3g}{between}" if np.isfinite(change) else "–"]
+        rows.append((quantity if write is years else f"{quantity} [{shown}]", *cells))
     headings = ["", names[0]]
     for name in names[1:]:
         headings += [name, "difference [%]"]

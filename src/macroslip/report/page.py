@@ -121,14 +121,17 @@ def render(title: str, subtitle: str, opening: Opening, found: Iterable[Section]
 
 
 def number(value: Any, digits: int = 4) -> str:
-    """A number, or a dash where there is none.
+    """A number, or a dash where there is none; without a power of ten up to a thousand million.
 
     Examples
     --------
-    >>> number(1234.56), number(0.5, 3), number(float("nan")), number(None)
-    ('1235', '0.5', '–', '–')
+    >>> number(1234.56), number(0.5, 3), number(2605123.0, 3), number(float("nan")), number(None)
+    ('1235', '0.5', '2,610,000', '–', '–')
     """
-    return "–" if value is None or not np.isfinite(value) else f"{value:.{digits}g}"
+    if value is None or not np.isfinite(value):
+        return "–"
+    text = f"{value:.{digits}g}"
+    return f"{float(text):,.0f}" if "e+0" in text else text
 
 
 def _as_json(value: Any) -> Markup:

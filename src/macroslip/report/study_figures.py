@@ -58,7 +58,7 @@ def plot_lifetime(axes: Axes, life: xr.Dataset, shown: Sequence[int]) -> Axes:
     for one, style in _curves(life.bin_energy, shown):
         axes.plot(one.bin.values, 1e-6 * one.values, **style)
     axes.set_ylim(bottom=0.0)
-    return finish(axes, "wind speed [m/s]", "energy in the lifetime [MJ]", _rows(life.bin_energy, shown))
+    return finish(axes, "wind speed [m/s]", "lifetime energy [MJ]", _rows(life.bin_energy, shown))
 
 
 def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[int]) -> Axes:
@@ -73,7 +73,7 @@ def plot_exceedance(axes: Axes, curves: xr.Dataset, name: str, shown: Sequence[i
     drawn = curves.threshold.values[(curves[name].isel(group=list(shown)) > 0.0).any(["group", "row"]).values]
     if drawn.size and drawn.max() > 50.0 * drawn.min():
         axes.set_xscale("log")
-    return finish(axes, EXCEEDED[name], "orbits a year above it", _rows(curves[name], shown))
+    return finish(axes, EXCEEDED[name], "orbits a year above", _rows(curves[name], shown))
 
 
 def plot_effects(axes: Axes, found: xr.Dataset, quantity: str) -> Axes:

@@ -195,13 +195,18 @@ def _first(ranking: str) -> str:
     return f"{head.rstrip('.')}." if head else ""
 
 
+def _shown(name: str, value: float) -> str:
+    value *= _SHOWN[name][0]
+    return "> 500" if name.endswith("life") and value > 500.0 else number(value, 3)
+
+
 def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
     """Designs with their criteria, the least energy first."""
     columns = [name for name in _SHOWN if name in table]
     rows = [
         (
             f"{k} {names[int(group)]}" if names[int(group)] else "the study",
-            *(number(_SHOWN[name][0] * float(line[name]), 3) for name in columns),
+            *(_shown(name, float(line[name])) for name in columns),
         )
         for k, (group, line) in enumerate(table.head(most).to_dict("index").items(), start=1)
     ]

@@ -29,6 +29,7 @@ ROW: _Styles = MappingProxyType(
     {
         "downwind": {"color": BLUE, "marker": "o", "linestyle": "-"},
         "upwind": {"color": ORANGE, "marker": "s", "linestyle": "--"},
+        "single": {"color": BLUE, "marker": "o", "linestyle": "-"},
     }
 )
 #: Line of each interface.
@@ -73,6 +74,22 @@ def years(hours: float) -> str:
     if hours > 500.0 * HOURS_A_YEAR:
         return "beyond 500 years"
     return f"{hours / HOURS_A_YEAR:.3g} years" if hours >= HOURS_A_YEAR else f"{hours:.0f} h"
+
+
+def scaled(largest: float, units: str) -> tuple[float, str]:
+    """Factor and unit in which a quantity of the given size [SI] is written.
+
+    Examples
+    --------
+    >>> scaled(2.13e7, "J/year"), scaled(3e-9, "m/year"), scaled(5.0, "W")
+    ((1e-06, 'MJ/year'), (1000000.0, 'µm/year'), (1.0, 'W'))
+    """
+    what, per, span = units.partition("/")
+    if what == "m" and largest < 1e-2:
+        return 1e6, f"µm{per}{span}"
+    if what in ("J", "W") and largest >= 1e4:
+        return (1e-6, f"M{units}") if largest >= 1e6 else (1e-3, f"k{units}")
+    return 1.0, units
 
 
 def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list]:
