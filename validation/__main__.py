@@ -9,7 +9,7 @@ from pathlib import Path
 from validation.comparison import table
 
 #: Comparisons by name; each is a module with `compare`, which gives its lines of the table, and `draw`.
-NAMES = ("thrust_friction", "skf_parts", "regime", "wear_lines", "heat")
+NAMES = ("thrust_friction", "skf_parts", "regime", "wear_lines", "heat", "cage_slip")
 
 
 def main() -> None:

@@ -95,7 +95,7 @@ RANGES = {
     "poisson_ratio": (-1e-9, 0.5), "density": (500, 25000), "cage_youngs_modulus": (1e8, 1e12),
     "cage_poisson_ratio": (-1e-9, 0.5),
     "composite_roughness": (0, 1e-4), "hardness": (1e8, 1e11),
-    "thermal_conductivity": (0, 1000), "specific_heat": (0, 10000),
+    "thermal_conductivity": (0, 1000), "specific_heat": (0, 10000), "roller_crown_radius": (0, 1000),
     "out_of_round_second": (-1e-3, 1e-3), "out_of_round_third": (-1e-3, 1e-3), "out_of_round_angle": (-math.pi, math.pi),
 }  # fmt: skip
 

@@ -88,9 +88,8 @@ def reported(tmp_path):
         ),
         (
             "loads:\n  main_bearing: {force: [0 N, -3e5 N, 0 N], shaft_speed: 1800 rpm, duration: 5 s}\n",
-            "case.yaml, line 2, loads.main_bearing: constant load, t = 0 s: shaft_speed is 188.496 rad/s, beyond "
-            "any wind turbine. Allowed: magnitudes up to 100 rad/s. Check the unit. Is it in rpm, or the speed of "
-            "the generator?",
+            "case.yaml, line 1, loads: the shaft turns at up to 188.5 rad/s, beyond any rotor. Allowed: up to 100 rad/s on a "
+            "double-row spherical roller bearing. Check the unit. Is it in rpm, or the speed of the generator?",
         ),
         (
             LOADS + "drivetrain:\n  hub_to_bearing: 1.26\n",

@@ -318,3 +318,20 @@ def test_both_main_bearings_are_no_single_case_and_no_study(folder, macroslip):
     done = macroslip("run", "case.yaml", "-o", "case.nc")
     assert done.code == 2 and "line 2, drivetrain: the mount is three-point, which has no" in done.err
     assert "both" in case_schema()["properties"]["drivetrain"]["properties"]["bearing"]["enum"]
+
+
+def test_a_cylindrical_bearing_runs_from_file_to_page_and_tells_how_its_cage_slips(folder, macroslip):
+    bearing = Path(__file__).parents[2] / "validation" / "data" / "cylindrical-160.yaml"
+    (folder / "case.yaml").write_text(
+        f"bearing: {bearing}\nlubricant: vg320-mineral\ntemperature: 40 degC\noil_supply: flooded\n"
+        "loads: {main_bearing: {force: [0 N, -8 kN, 0 N], shaft_speed: 1500 rpm, duration: 0.5 s}}\n"
+        "dynamics: whole-bearing\ncage: {gap: 0.3 mm, mass: 4 kg}\n"
+    )
+    done = macroslip("run", "case.yaml", "-o", "case.nc")
+    assert done.code == 0 and "mean slip of the cage: 6" in done.out and "% behind pure rolling" in done.out
+    assert "not rated: rating: cylindrical-160 is a cylindrical roller bearing" in done.out
+    assert "rotors on main bearings" not in done.err
+    assert (
+        -0.75 < json.loads(macroslip("run", "case.yaml", "-o", "two.nc", "--json").out)["cage slip [1]"]["both"] < -0.6
+    )
+    assert macroslip("report", "case.nc").code == 0 and "single row" in (folder / "report.html").read_text()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from macroslip import Bearing, Case, Laws, Lubricant, RollerLoads, Traces, simulate
-from macroslip.bearing.geometry import AXIAL_SIGNS, roller_radius
+from macroslip.bearing.geometry import ROWS, roller_radius
 from macroslip.contact.laws import prepare
 from macroslip.contact.skewed import constant_friction, resultants, slip_lines
 from macroslip.measures import details as looks
@@ -148,7 +148,7 @@ def test_sums_over_maps_and_classes_are_the_whole(stopped, straight):
         straight.film_slip_time.sum(classes).values, rel=2e-3
     )
     # Both rows have the same loads, and turn the opposite way.
-    down, up = (stopped.surface_work.sel(row=row).sum("angle").values for row in AXIAL_SIGNS)
+    down, up = (stopped.surface_work.sel(row=row).sum("angle").values for row in ROWS)
     assert up == pytest.approx(down[:, ::-1], rel=5e-3, abs=1e-3 * down.max())
 
 

@@ -45,11 +45,11 @@ def test_a_fixed_step_is_refused_because_of_impacts():
 
 def test_random_starts_are_seeded_and_within_the_pocket():
     cage = Cage(offsets="random", diameter_scatter=1.5e-6, seed=7)
-    offsets = cage.start_offsets(28)
-    assert np.array_equal(offsets, cage.start_offsets(28))
-    assert not np.array_equal(offsets, Cage(offsets="random", seed=8).start_offsets(28))
+    offsets = cage.start_offsets(56)
+    assert np.array_equal(offsets, cage.start_offsets(56))
+    assert not np.array_equal(offsets, Cage(offsets="random", seed=8).start_offsets(56))
     assert np.abs(offsets).max() <= 0.5 * cage.gap
-    deviations = cage.diameter_deviations(28)
+    deviations = cage.diameter_deviations(2, 28)
     assert deviations.mean(axis=1) == pytest.approx(0.0, abs=1e-20)
     assert 0.5e-6 < deviations.std() < 2.5e-6
 

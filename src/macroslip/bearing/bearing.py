@@ -1,4 +1,4 @@
-"""A double-row spherical roller bearing: all its data that the model uses."""
+"""A double-row spherical or single-row cylindrical roller bearing: all its data that the model uses."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ _Optional = float | None
 
 
 class Bearing(Record):
-    """Data of a double-row spherical roller bearing with identical, mirrored rows.
+    """Data of a double-row spherical roller bearing with identical, mirrored rows, or of a single-row cylindrical one.
+
+    A cylindrical roller bearing has a `roller_crown_radius` and no osculations: its crowned rollers touch straight raceways.
+    Contact angle and row offset are 0, and `outer_raceway_radius` is the radius of a cylinder.
 
     Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths and angles
     have no sign, except the clearance, which is negative for a preloaded bearing.
@@ -72,13 +75,16 @@ class Bearing(Record):
     outer_raceway_radius: Annotated[float, Positive("radius of the outer raceway sphere", LENGTH, 10)]
     row_offset: Annotated[float, Quantity("axial distance of the roller centres from the mid-plane", LENGTH, 0, 5)]
     osculation_inner: Annotated[
-        float,
+        _Optional,
         Quantity("roller contour radius / contour radius of the inner raceway", NUMBER, 0.9, 1, above=True, below=True),
-    ]
+    ] = None
     osculation_outer: Annotated[
-        float,
+        _Optional,
         Quantity("roller contour radius / radius of the outer raceway sphere", NUMBER, 0.9, 1, above=True, below=True),
-    ]
+    ] = None
+    roller_crown_radius: Annotated[
+        _Optional, Positive("radius of a cylindrical roller's crown along its axis", LENGTH, 1000)
+    ] = None
     diametral_clearance: Annotated[
         float, Quantity("diametral operating clearance, negative for preload", LENGTH, -1e-3, 5e-3)
     ]
@@ -105,8 +111,17 @@ class Bearing(Record):
     ] = None
     specific_heat: Annotated[_Optional, Positive("specific heat of rollers and raceways", SPECIFIC_HEAT, 10000)] = None
 
+    @property
+    def rows(self) -> int:
+        """Number of rows: 1 in a cylindrical roller bearing, otherwise 2."""
+        return 2 if self.roller_crown_radius is None else 1
+
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
         """Yield what keeps the parts from fitting into each other."""
+        kind = list(_kind(self, source))
+        yield from kind
+        if kind:
+            return
         # Positions or shapes that contradict each other make all that is computed from them meaningless.
         contradictions = [*_centres(self, source), *_shape(self, source)]
         yield from contradictions
@@ -114,6 +129,31 @@ class Bearing(Record):
         if not contradictions:
             yield from _rows(self, source)
             yield from _rings(self, source)
+
+
+def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
+    """Yield osculations that are missing, and values that a cylindrical roller bearing cannot have."""
+    osculations = ("osculation_inner", "osculation_outer")
+    if bearing.rows > 1:
+        if missing := [key for key in osculations if getattr(bearing, key) is None]:
+            yield InputError(
+                f"{' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing",
+                where=source.where(missing[0]),
+                allowed="both, above 0.9 and below 1",
+                remedy="Add what is missing. A cylindrical roller bearing has a roller_crown_radius in their place: with a drop "
+                "d of the roller's contour at its ends, roller_length²/(8 d).",
+            )
+        return
+    for key in (*osculations, "contact_angle", "row_offset"):
+        if getattr(bearing, key):
+            yield InputError(
+                f"{key} is {bearing.written(key)}, and roller_crown_radius tells of a cylindrical roller bearing",
+                where=source.where(key, "value"),
+                allowed="no value" if key in osculations else "0",
+                remedy=f"Remove roller_crown_radius from a spherical roller bearing, or {key} from a cylindrical one."
+                if key in osculations
+                else "Remove roller_crown_radius from a spherical roller bearing.",
+            )
 
 
 def _centres(bearing: Bearing, source: Source) -> Iterator[InputError]:
@@ -159,7 +199,7 @@ def _shape(bearing: Bearing, source: Source) -> Iterator[InputError]:
 
 def _rows(bearing: Bearing, source: Source) -> Iterator[InputError]:
     space = geometry.envelope(bearing)
-    if space.nearest < 0.0:
+    if space.nearest < 0.0 and bearing.rows > 1:
         overlap = bearing.written("row_offset", -2.0 * space.nearest)
         coincide = bearing.row_offset == 0.0
         what = "both rows lie in one plane" if coincide else f"the rollers of the two rows overlap by {overlap}"

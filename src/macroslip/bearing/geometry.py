@@ -24,12 +24,14 @@ if TYPE_CHECKING:
 
     from macroslip.bearing.bearing import Bearing
 
-#: Names of the rows, in the order in which results list them.
+#: Names of the rows of a double-row bearing, in the order in which results list them.
 ROWS: tuple[str, ...] = ("downwind", "upwind")
-#: Axial sign s of each row: the downwind row (+1) carries downwind thrust.
-AXIAL_SIGNS: Mapping[str, int] = MappingProxyType({"downwind": 1, "upwind": -1})
+#: Name of the row of a single-row bearing.
+SINGLE = "single"
+#: Axial sign s of each row: the downwind row (+1) carries downwind thrust; without contact angle it means nothing.
+AXIAL_SIGNS: Mapping[str, int] = MappingProxyType({"downwind": 1, "upwind": -1, SINGLE: 1})
 # The rows are staggered by half a pitch.
-_STAGGER = MappingProxyType({"downwind": 0.0, "upwind": 0.5})
+_STAGGER = MappingProxyType({"downwind": 0.0, "upwind": 0.5, SINGLE: 0.0})
 
 
 class Curvatures(NamedTuple):
@@ -37,6 +39,18 @@ class Curvatures(NamedTuple):
 
     rolling: float  #: Sum of the curvatures of both bodies in the rolling direction [1/m]
     lateral: float  #: Sum of the curvatures of both bodies along the roller's axis [1/m]
+
+
+def row_names(bearing: Bearing) -> tuple[str, ...]:
+    """Names of a bearing's rows: `ROWS`, or ("single",).
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> row_names(Bearing.read("skf-240-600-bc"))
+    ('downwind', 'upwind')
+    """
+    return ROWS if bearing.rows == len(ROWS) else (SINGLE,)
 
 
 def roller_radius(bearing: Bearing) -> float:
@@ -91,17 +105,23 @@ def orbit_ratio(bearing: Bearing) -> float:
 def roller_contour_radius(bearing: Bearing) -> float:
     """Radius of the roller's barrel contour [m]: one contour, set by the osculation at the outer raceway sphere.
 
+    That of a cylindrical roller is its crown.
+
     Examples
     --------
     >>> from macroslip.bearing import Bearing
     >>> round(roller_contour_radius(Bearing.read("skf-240-600-bc")), 6)
     0.406602
     """
+    if bearing.osculation_outer is None:
+        return float(bearing.roller_crown_radius or math.inf)
     return bearing.osculation_outer * bearing.outer_raceway_radius
 
 
 def inner_raceway_contour_radius(bearing: Bearing) -> float:
     """Radius of the inner raceway's contour in the axial plane [m]: roller contour radius / inner osculation.
+
+    Infinite where a cylindrical roller runs on it.
 
     Examples
     --------
@@ -109,7 +129,19 @@ def inner_raceway_contour_radius(bearing: Bearing) -> float:
     >>> round(inner_raceway_contour_radius(Bearing.read("skf-240-600-bc")), 6)
     0.4149
     """
-    return roller_contour_radius(bearing) / bearing.osculation_inner
+    return math.inf if bearing.osculation_inner is None else roller_contour_radius(bearing) / bearing.osculation_inner
+
+
+def outer_raceway_contour_radius(bearing: Bearing) -> float:
+    """Radius of the outer raceway's contour in the axial plane [m]: its sphere, or infinite under a cylindrical roller.
+
+    Examples
+    --------
+    >>> from macroslip.bearing import Bearing
+    >>> outer_raceway_contour_radius(Bearing.read("skf-240-600-bc"))
+    0.4149
+    """
+    return math.inf if bearing.osculation_outer is None else bearing.outer_raceway_radius
 
 
 def inner_curvatures(bearing: Bearing) -> Curvatures:
@@ -126,7 +158,7 @@ def inner_curvatures(bearing: Bearing) -> Curvatures:
     """
     return Curvatures(
         1 / roller_radius(bearing) + math.cos(bearing.contact_angle) / inner_contact_radius(bearing),
-        (1 - bearing.osculation_inner) / roller_contour_radius(bearing),
+        (1 - (bearing.osculation_inner or 0.0)) / roller_contour_radius(bearing),
     )
 
 
@@ -144,7 +176,7 @@ def outer_curvatures(bearing: Bearing) -> Curvatures:
     """
     return Curvatures(
         1 / roller_radius(bearing) - math.cos(bearing.contact_angle) / outer_contact_radius(bearing),
-        (1 - bearing.osculation_outer) / roller_contour_radius(bearing),
+        (1 - (bearing.osculation_outer or 0.0)) / roller_contour_radius(bearing),
     )
 
 
@@ -152,7 +184,7 @@ def cage_curvatures(bearing: Bearing) -> Curvatures:
     """Curvature sums of the roller in its conforming cage pocket [1/m] (Hart et al., force 5).
 
     The pocket conforms as closely across the roller as along it: rolling direction 1/r - osculation/r, lateral as at
-    the outer raceway.
+    the outer raceway. The spars of a cylindrical roller's cage are flat.
 
     Examples
     --------
@@ -161,7 +193,8 @@ def cage_curvatures(bearing: Bearing) -> Curvatures:
     >>> round(curvatures.rolling, 6), round(curvatures.lateral, 6)
     (0.571429, 0.049188)
     """
-    return Curvatures((1 - bearing.osculation_outer) / roller_radius(bearing), outer_curvatures(bearing).lateral)
+    across = (1 - (bearing.osculation_outer or 0.0)) / roller_radius(bearing)
+    return Curvatures(across, outer_curvatures(bearing).lateral)
 
 
 def roller_end_radius(bearing: Bearing) -> float:
@@ -210,9 +243,9 @@ def envelope(bearing: Bearing) -> Envelope:
 
 
 def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
-    """Positions (Z,) [rad] of the Z rollers of one of `ROWS` at the start, evenly spaced from the bottom, rising.
+    """Positions (Z,) [rad] of the Z rollers of a row at the start, evenly spaced from the bottom, rising.
 
-    -pi/2 + 2 pi j/Z downwind, -pi/2 + 2 pi (j + 1/2)/Z upwind: rows are staggered by half a pitch. Raises InputError for
+    -pi/2 + 2 pi j/Z downwind and in a single row, -pi/2 + 2 pi (j + 1/2)/Z upwind: rows are staggered by half a pitch. Raises InputError for
     another row.
 
     Examples
@@ -222,7 +255,7 @@ def initial_angles(row: str, rollers_per_row: int) -> NDArray[np.float64]:
     >>> np.degrees(initial_angles("upwind", 4)).round(9).tolist()
     [-45.0, 45.0, 135.0, 225.0]
     """
-    if row not in ROWS:
+    if row not in _STAGGER:
         raise InputError(f"there is no row {row!r}", allowed=" or ".join(ROWS), remedy="Choose one of the two rows.")
     return -np.pi / 2 + 2 * np.pi * (np.arange(rollers_per_row) + _STAGGER[row]) / rollers_per_row
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from macroslip.lubricant import Lubricant
 
 FLOODED, SKF = WORDS = ("flooded", "skf")
+#: K_Z of the SKF model by the number of rows: cylindrical roller bearings with cage, and spherical ones.
+_TYPE_FACTORS = {1: 5.1, 2: 5.5}
 #: Least film over flooded film.
 _LEAST = 0.3
 
@@ -110,7 +112,8 @@ def _gap(
         return FLOODED_GAP
     if supply == SKF:
         diameters = bearing.bore_diameter, bearing.outside_diameter
-        filled = float(replenishment(oil.viscosity / oil.density, speed, *diameters))
+        factor = _TYPE_FACTORS[bearing.rows]
+        filled = float(replenishment(oil.viscosity / oil.density, speed, *diameters, type_factor=factor))
         inlet = inlet_for_rolling(filled) if filled < 1.0 else math.inf
     else:
         inlet = inlet_for_film(float(supply))
@@ -131,7 +134,7 @@ def _inner_raceway(bearing: Bearing, oil: Lubricant, force: tuple[float, ...], s
     balance(ring, 0.0, np.array(force), place)
     found = np.empty(ring.cosine.size)
     roller_loads(ring, 0.0, place, found)
-    row = max(found.reshape(2, -1), key=np.sum)
+    row = max(found.reshape(bearing.rows, -1), key=np.sum)
     loaded = row[row > 0.0]
     return (float(loaded.mean()) if loaded.size else 0.0), speed * model.orbit_ratio * model.outer_radius
 

@@ -148,6 +148,8 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         found["rating"]["largest pressure [Pa]"] = float(dataset.largest_pressure.max())
     if "rating_problem" in dataset.attrs:
         found["not rated"] = dataset.attrs["rating_problem"]
+    if "cage_slip" in dataset:
+        found["cage slip [1]"] = {str(one.cage.item()): float(one) for one in dataset.cage_slip}
     if "books_warning" in dataset.attrs:
         found["warning"] = dataset.attrs["books_warning"]
     from macroslip.result.damage import lines
@@ -179,6 +181,10 @@ def _print_rows(dataset: xr.Dataset) -> None:
     window = f"from {start:.6g} s to {end:.6g} s, {orbits} complete orbit{'' if orbits == 1 else 's'}"
     numbers = [name for name in next(iter(found["rows"].values())) if name != "rollers"]
     print_table(f"{found['title']}, {window}", [("row", False), *((heading, True) for heading in numbers)], rows)
+    for cage, slip in found.get("cage slip [1]", {}).items():
+        whose = "the cage" if len(found["cage slip [1]"]) == 1 else f"the {cage} cage"
+        behind = "behind" if slip <= 0.0 else "ahead of"
+        typer.echo(f"mean slip of {whose}: {number(100.0 * abs(slip))} % {behind} pure rolling")
     if "rating_problem" in dataset.attrs:
         typer.echo(f"not rated: {dataset.attrs['rating_problem']}")
     if "static_safety" not in dataset:

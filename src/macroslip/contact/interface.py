@@ -58,14 +58,14 @@ class ContactShape(NamedTuple):
 
 
 def common_contour_radius(roller: float, raceway: float) -> float:
-    """R_d = 2 R_roller R_raceway/(R_roller + R_raceway) [m].
+    """R_d = 2 R_roller R_raceway/(R_roller + R_raceway) [m], 2 R_roller on a straight raceway.
 
     Examples
     --------
     >>> round(common_contour_radius(0.406602, 0.4149), 6)
     0.410709
     """
-    return 2.0 * roller * raceway / (roller + raceway)
+    return 2.0 / (1.0 / roller + 1.0 / raceway)
 
 
 def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Interface, Interface]:
@@ -114,7 +114,7 @@ def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, mi
     if not microslip or interface.name == "cage":
         return ContactShape(False, math.inf, math.inf, half_length, 0.0, 0.0)
     inner = interface.name == "inner"
-    raceway = geometry.inner_raceway_contour_radius(bearing) if inner else bearing.outer_raceway_radius
+    raceway = (geometry.inner_raceway_contour_radius if inner else geometry.outer_raceway_contour_radius)(bearing)
     place = geometry.inner_contact_radius(bearing) if inner else geometry.outer_contact_radius(bearing)
     return ContactShape(
         microslip=True,

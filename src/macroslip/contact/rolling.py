@@ -129,7 +129,7 @@ def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, t
     constant : float
         K_rs: 6e-8 for grease and oil-air, 3e-8 for a low oil bath, 0 where oil covers the lowest roller's axis.
     type_factor : float
-        K_Z; 5.5 for double-row spherical roller bearings.
+        K_Z; 5.5 for double-row spherical, 5.1 for cylindrical roller bearings with a cage.
 
     Returns
     -------

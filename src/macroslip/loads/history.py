@@ -29,7 +29,7 @@ GAP_FACTOR = 1.5
 LATEST_TIME = 1e10
 """Largest time stamp [s], about 300 years: seconds since 1970 are allowed, milliseconds are not."""
 
-MAGNITUDE_LIMITS = {"shaft_speed": (100.0, "rad/s"), "force": (1e8, "N"), "moment": (1e9, "N m")}
+MAGNITUDE_LIMITS = {"force": (1e8, "N"), "moment": (1e9, "N m")}
 """Magnitudes beyond which the unit must be a mistake.
 
 Rotors on a main bearing stay below 10 rad/s, generators behind a gearbox turn faster than 100. 1e8 N is about ten times
@@ -61,6 +61,8 @@ class History:
 
     #: Fields of shape (n, 3), and the names of their components.
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]]
+    #: Highest shaft speed [rad/s].
+    _FASTEST: ClassVar[float] = 100.0
     time: NDArray[np.float64]
     shaft_speed: NDArray[np.float64]
     force: NDArray[np.float64]
@@ -91,7 +93,8 @@ class History:
                     + ("." if components is None else f" and component ({', '.join(components)})."),
                 )
             for name, values in zip(components or (field,), array.reshape(time.size, -1).T, strict=True):
-                _check_values(name, values, *MAGNITUDE_LIMITS[field], time, source)
+                limits = {"shaft_speed": (self._FASTEST, "rad/s"), **MAGNITUDE_LIMITS}
+                _check_values(name, values, *limits[field], time, source)
             object.__setattr__(self, field, array)
 
     @property
@@ -265,6 +268,8 @@ class BearingLoads(History):
     """
 
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("F_X0", "F_Y0", "F_Z0")}
+    #: Shafts of gearboxes and generators turn faster than rotors.
+    _FASTEST: ClassVar[float] = 400.0
     time: NDArray[np.float64]
     shaft_speed: NDArray[np.float64]
     force: NDArray[np.float64]

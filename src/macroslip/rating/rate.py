@@ -64,6 +64,13 @@ def roller_load_history(
     >>> load.shape, round(load[0].sum(axis=0)[0] * np.sin(np.radians(11.2))), load[1].max().item()
     ((2, 28, 21), 100000, 0.0)
     """
+    if bearing.rows == 1:
+        raise InputError(
+            f"{bearing.name} is a cylindrical roller bearing",
+            where="rating",
+            allowed="double-row spherical roller bearings, whose load factors and raceways the formulas here are for",
+            remedy="Leave the rating out: set rating: false in a case.",
+        )
     model = roller_model(bearing, lubricant, AXIAL_SIGNS["downwind"], tilt=0.0)
     ring = ring_geometry(bearing, model)
     motion, _ = ring_motion(loads, bearing, ring, highest_load(bearing, lubricant, Laws.physical()))

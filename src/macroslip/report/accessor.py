@@ -159,42 +159,48 @@ class Plot:
             figure.suptitle(f"model {self._result.attrs['model']}, {self._result.attrs['oil']}", fontsize=SMALL)
         return axes
 
+    def _row(self, row: str | None, first: str = "downwind") -> str:
+        """The row that is drawn: the one asked for, or `first` where the bearing has two."""
+        return row or (first if first in self._result.row else str(self._result.row[0].item()))
+
     def energy(self, *, axes: Axes | None = None) -> Axes:
         """Energy of a mean roller of each row, by interface."""
         return _legend(draw.plot_energy_by_interface(axes or self._new_axes(), self._result.energy))
 
-    def rollers(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
-        """Energy of every roller of a row, over the mean of the row."""
-        return draw.plot_roller_spread(axes or self._new_axes(), self._result.energy, row)
+    def rollers(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
+        """Energy of every roller of a row (the downwind one by default), over the mean of the row."""
+        return draw.plot_roller_spread(axes or self._new_axes(), self._result.energy, self._row(row))
 
     def peaks(self, *, axes: Axes | None = None) -> Axes:
         """Share of orbits whose largest power exceeds a value, for both rows."""
         return _legend(draw.plot_peak_exceedance(axes or self._new_axes(), self._result))
 
-    def spin(self, row: str = "upwind", roller: int | None = None, *, axes: Axes | None = None) -> Axes:
-        """Spin of a roller over time, with its spin in pure rolling; by default the first roller. Needs traces."""
+    def spin(self, row: str | None = None, roller: int | None = None, *, axes: Axes | None = None) -> Axes:
+        """Spin of a roller over time, with its spin in pure rolling; by default the upwind row's first. Needs traces."""
         number = int(self._result.roller[0]) if roller is None else roller
-        return draw.plot_spin_over_time(axes or self._new_axes(), self._result, row, number)
+        return draw.plot_spin_over_time(axes or self._new_axes(), self._result, self._row(row, "upwind"), number)
 
-    def load_zone(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
+    def load_zone(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Roller load over angle and time. Needs traces that begin with the loads."""
         from macroslip.result.orbit import load_zone
 
-        return draw.plot_load_zone(axes or self._new_axes(), load_zone(self._result), row)
+        return draw.plot_load_zone(axes or self._new_axes(), load_zone(self._result), self._row(row))
 
-    def orbit(self, row: str = "downwind", *, axes: PolarAxes | None = None) -> PolarAxes:
+    def orbit(self, row: str | None = None, *, axes: PolarAxes | None = None) -> PolarAxes:
         """Where on the orbit energy is dissipated, looking downwind; axes of your own must be polar.
 
         Needs traces that begin with the loads.
         """
         from macroslip.result.orbit import energy_over_orbit
 
-        drawn = draw.plot_energy_over_orbit(axes or self._new_axes("polar"), energy_over_orbit(self._result), row)
+        drawn = draw.plot_energy_over_orbit(
+            axes or self._new_axes("polar"), energy_over_orbit(self._result), self._row(row)
+        )
         drawn.legend(frameon=False, fontsize=SMALL, loc="upper center", bbox_to_anchor=(0.5, -0.06))
         return drawn
 
     def bearing(self, *, axes: Axes | None = None) -> Axes:
-        """Both rows to scale, coloured by slip, at the moment of the largest power. Needs traces as `load_zone`."""
+        """All rows to scale, coloured by slip, at the moment of the largest power. Needs traces as `load_zone`."""
         from macroslip.result.orbit import still
 
         return draw.plot_bearing(axes or self._new_axes(), still(self._result), run_input(self._result).bearing)
@@ -203,9 +209,9 @@ class Plot:
         """Criteria of damage side by side, each over what it is compared with. Needs details of the contacts."""
         return draw.plot_criteria(axes or self._new_axes(), self._result.macroslip.damage)
 
-    def wear(self, row: str = "downwind", *, axes: Axes | None = None) -> Axes:
+    def wear(self, row: str | None = None, *, axes: Axes | None = None) -> Axes:
         """Worn profile of the inner raceway, the outer raceway and the rollers of a row over the years."""
-        return _legend(draw.plot_worn_profile(axes or self._new_axes(), self._result.macroslip.damage, row))
+        return _legend(draw.plot_worn_profile(axes or self._new_axes(), self._result.macroslip.damage, self._row(row)))
 
     def maps(self, quantity: str = "energy", *, axes: Sequence[Axes] | None = None) -> list[Axes]:
         """Where the raceways suffer: energy, or with "power" the largest power, per area on each of the four.
@@ -228,7 +234,7 @@ class Plot:
         ]
 
     def film_and_slip(
-        self, row: str = "downwind", quantity: str = "time", *, axes: Sequence[Axes] | None = None
+        self, row: str | None = None, quantity: str = "time", *, axes: Sequence[Axes] | None = None
     ) -> list[Axes]:
         """Time under load, or "passes", by Λ and slide-roll ratio with its sign: what micropitting depends on.
 
@@ -239,6 +245,7 @@ class Plot:
         if "film_slip_time" not in self._result:
             remedy = "Write laws: {model: physical} and contact_details: true in the case."
             raise InputError("the result has no time by film and slip", allowed="details of contacts", remedy=remedy)
+        row = self._row(row)
         amounts = self._result[f"film_slip_{quantity}"].sel(row=row)
         if axes is None:
             axes = self._new_axes(columns=2, figsize=(10.0, 3.8)).ravel()

@@ -219,6 +219,8 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
 
     Takes a result with complete orbits; samples of failed rollers are left out.
     """
+    from matplotlib.ticker import LogFormatter
+
     for row in result.row.values.tolist():
         peak = np.sort(result.peak_power.sel(row=row).max("interface", skipna=False).values.ravel())
         peak = peak[np.isfinite(peak)]
@@ -228,6 +230,8 @@ def plot_peak_exceedance(axes: Axes, result: xr.Dataset) -> Axes:
             power = np.append(0.5 * peak[0], peak)
             axes.step(power, share, where="pre", label=f"{row} row", linewidth=1.6, **style)
     axes.set(xscale="log", yscale="log")
+    # Powers within a decade would be written one over the other.
+    axes.xaxis.set_minor_formatter(LogFormatter(minor_thresholds=(0.5, 0.25)))
     return finish(axes, r"$P_\mathrm{max}$ of an orbit [W]", "share of orbits above [–]")
 
 

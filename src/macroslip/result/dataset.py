@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 import macroslip
-from macroslip.bearing.geometry import ROWS, initial_angles
+from macroslip.bearing.geometry import initial_angles, row_names
 from macroslip.case.parts import Radau
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.contact.laws import references
@@ -86,7 +86,7 @@ def whole_dataset(
         attributes["books_warning"] = open_books
     extra = _cage_variables(ready.case, bearing, outcome, cages)
     coordinates = {
-        "cage": ["both"] if bearing.cages == 1 else list(ROWS),
+        "cage": ["both"] if bearing.cages == 1 else list(row_names(ready.case.bearing)),
         "side": list(SIDES),
         "position": _positions(),
         "book_time": ("book_time", cages.books.times, _TIME),
@@ -130,7 +130,7 @@ def _dataset(
     import xarray as xr
 
     case, curved = ready.case, ready.model.curved
-    table = [[results[row, number] for number in case.roller_numbers] for row in ROWS]
+    table = [[results[row, number] for number in case.roller_numbers] for row in row_names(case.bearing)]
     values = _window_values(table)
     if ready.edges.size == 1:
         sectors = np.array([[one.measures.sector_power for one in line] for line in table])
@@ -275,7 +275,7 @@ def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: 
         data[name] = (dims, values, {"units": units, "long_name": long_name})
 
     def by_roller(values: np.ndarray) -> np.ndarray:
-        found = np.array(values, dtype=float).reshape(len(ROWS), count, *values.shape[1:])[:, numbers]
+        found = np.array(values, dtype=float).reshape(case.bearing.rows, count, *values.shape[1:])[:, numbers]
         if outcome.status != Status.COMPLETED:
             found[:] = np.nan
         return found
@@ -284,7 +284,7 @@ def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: 
     put("pocket_impulse", sided, by_roller(cages.impulse), "N s", "impulse of a spar on its roller in the window")
     put("largest_pocket_force", sided, by_roller(cages.largest), "N", "largest force of a spar in the window")
     put("pocket_contact_time", sided, by_roller(cages.time), "s", "time in the window with force on the spar")
-    places = cages.largest_by_place.reshape(len(ROWS), count, -1).max(axis=1)
+    places = cages.largest_by_place.reshape(case.bearing.rows, count, -1).max(axis=1)
     about = "largest force of a spar in the window by place on the orbit, over all rollers"
     put("largest_force_by_position", ("row", "position"), places, "N", about)
     span, first, second = cages.slip.T
@@ -313,12 +313,12 @@ def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: 
     traced = ("row", "roller", "time")
 
     def over_time(values: np.ndarray) -> np.ndarray:
-        return np.moveaxis(values.reshape(len(values), len(ROWS), count)[:, :, numbers], 0, -1)
+        return np.moveaxis(values.reshape(len(values), case.bearing.rows, count)[:, :, numbers], 0, -1)
 
     put("pocket_offset", traced, over_time(cages.offset), "m", "roller's way ahead of the middle of its pocket")
     about = "orbit speed less that of pure rolling"
     put("orbit_speed_deviation", traced, over_time(cages.deviation), "rad/s", about)
-    every = cages.offset.reshape(-1, len(ROWS), count)
+    every = cages.offset.reshape(-1, case.bearing.rows, count)
     ahead = np.roll(every, -1, axis=2) - every
     about = "distance to the next roller ahead along the orbit, less the pitch"
     put("spacing_deviation", traced, over_time(ahead.reshape(len(ahead), -1)), "m", about)
@@ -343,10 +343,10 @@ def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
 def roller_coordinates(case: Case, edges: np.ndarray, *, curved: bool, raceways: bool) -> dict[str, Any]:
     """Rows, rollers, interfaces and orbits, and places and mechanisms where contacts distinguish them."""
     numbers = list(case.roller_numbers)
-    angles = np.array([initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in ROWS])
+    angles = np.array([initial_angles(row, case.bearing.rollers_per_row)[numbers] for row in row_names(case.bearing)])
     about = {"units": "rad", "long_name": "position at the first sample, from +X0 towards +Y0"}
     found: dict[str, Any] = {
-        "row": list(ROWS),
+        "row": list(row_names(case.bearing)),
         "roller": ("roller", numbers, {"units": "1", "long_name": "number of the roller in its row"}),
         "interface": list(INTERFACES),
         "orbit": ("orbit", np.arange(edges.size - 1), {"units": "1", "long_name": "complete orbit in the window"}),

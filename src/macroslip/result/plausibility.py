@@ -47,7 +47,7 @@ def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearin
     "the rotor's weight acts upwards: the mean of"
     """
     found, fastest = [], float(np.abs(loads.shaft_speed).max())
-    if fastest > _FASTEST:
+    if fastest > _FASTEST and (bearing is None or bearing.rows > 1):
         found.append(
             f"the shaft turns at up to {_RPM * fastest:.3g} rpm, and rotors on main bearings stay below 40 rpm; is the "
             "speed that of the generator, or in another unit?"

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
 from macroslip.case.case import Case
 from macroslip.case.oil_supply import supply_note
 from macroslip.case.parts import Radau
@@ -48,17 +48,18 @@ class Prepared:
 
     @property
     def model(self) -> RollerModel:
-        """A roller of the downwind row."""
-        return self.models[ROWS[0]]
+        """A roller of the first row."""
+        return next(iter(self.models.values()))
 
     def drag_power(self) -> float:
-        """Mean power of the lubricant's drag (24) on the rollers of both rows in the window [W]."""
+        """Mean power of the lubricant's drag (24) on all rollers in the window [W]."""
         motion, model, start = self.motion, self.model, self.edges[0]
         inside = (motion.time > start) & (motion.time < self.end)
         time = np.concatenate([[start], motion.time[inside], [self.end]])
         speed = np.abs(model.orbit_ratio * np.interp(time, motion.time, motion.shaft_speed))
         power = model.drag * speed**3 * self.case.bearing.pitch_radius
-        return 2 * self.case.bearing.rollers_per_row * float(np.trapezoid(power, time)) / (self.end - start)
+        rollers = self.case.bearing.rows * self.case.bearing.rollers_per_row
+        return rollers * float(np.trapezoid(power, time)) / (self.end - start)
 
     def _mean_elastic_load(self) -> float:
         """Mean load with which the rings press a roller of either row [N], from some hundred samples."""
@@ -90,8 +91,8 @@ def prepare(case: Case) -> Prepared:
     """
     loads = case.ring_loads
     options = {"tilt": case.drivetrain.tilt, "gravity": case.gravity, "drag": case.drag, "laws": case.laws}
-    models = {row: roller_model(case.bearing, case.oil, AXIAL_SIGNS[row], **options) for row in ROWS}
-    model = models[ROWS[0]]
+    models = {row: roller_model(case.bearing, case.oil, AXIAL_SIGNS[row], **options) for row in row_names(case.bearing)}
+    model = next(iter(models.values()))
     ring = ring_geometry(case.bearing, model)
     limit = highest_load(case.bearing, case.oil, case.laws)
     motion, largest = ring_motion(loads, case.bearing, ring, limit)

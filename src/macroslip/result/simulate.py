@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.geometry import ROWS, initial_angles
+from macroslip.bearing.geometry import initial_angles, row_names
 from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
 from macroslip.case.parts import BackwardEuler, Radau
 from macroslip.contact.table import larger
@@ -38,7 +38,7 @@ _ENLARGED = 4
 def simulate(
     case: Case, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None
 ) -> xr.Dataset:
-    """Compute the slip of the rollers of both rows.
+    """Compute the slip of the rollers of all rows.
 
     Parameters
     ----------
@@ -94,23 +94,23 @@ def _imposed_orbits(
     ready: Prepared, wanted: Wanted, threads: int, progress: Callable | None, stop: threading.Event
 ) -> xr.Dataset:
     case = ready.case
-    numbers = case.roller_numbers
-    angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in ROWS}
-    left = [(row, number) for row in ROWS for number in numbers]
+    numbers, names = case.roller_numbers, row_names(case.bearing)
+    angles = {row: initial_angles(row, case.bearing.rollers_per_row) for row in names}
+    left = [(row, number) for row in names for number in numbers]
     results: dict[tuple[str, int], Measured] = {}
     total, report, own_motions = len(left), None, ready.own_motions
     with ThreadPoolExecutor(threads) as pool:
         for enlarged in range(_ENLARGED + 1):
             rollers, made = with_tables(ready.models, ready.box)
             report = report or made
-            problems = {row: _problem(ready, rollers[row]) for row in ROWS}
+            problems = {row: _problem(ready, rollers[row]) for row in names}
             skews = skewing(case, ready.model.laws, ready.box)
-            rows = {row: Row(ready.models[row], rollers[row], ready.motion, wanted, skews.get(row)) for row in ROWS}
+            rows = {row: Row(ready.models[row], rollers[row], ready.motion, wanted, skews.get(row)) for row in names}
 
             def run(row: str, number: int, problems: dict = problems, rows: dict = rows) -> Measured:
                 problem = problems[row]
                 if own_motions:
-                    place = ROWS.index(row) * case.bearing.rollers_per_row + number
+                    place = names.index(row) * case.bearing.rollers_per_row + number
                     problem = replace(problem, motion=own_motions[place])
                 return _roller(problem, rows[row], float(angles[row][number]), stop)
 
@@ -202,13 +202,13 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     """Integrate and measure the whole bearing."""
     case, motion = ready.case, ready.motion
     assembly, report = assembled(bearing, ready.box)
-    count = case.bearing.rollers_per_row
+    count, names = case.bearing.rollers_per_row, row_names(case.bearing)
     rows = {
         row: Row(bearing.models[row], Roller(assembly.bodies[k : k + 1], assembly.tables), motion, wanted)
-        for k, row in enumerate(ROWS)
+        for k, row in enumerate(names)
     }
-    chosen = [(row, number) for row in ROWS for number in case.roller_numbers]
-    places = [ROWS.index(row) * count + number for row, number in chosen]
+    chosen = [(row, number) for row in names for number in case.roller_numbers]
+    places = [names.index(row) * count + number for row, number in chosen]
     measures = [
         RollerMeasures(rows[row], float(bearing.places["angle"][place]))
         for (row, _), place in zip(chosen, places, strict=True)

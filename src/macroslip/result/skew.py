@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from macroslip.bearing.geometry import AXIAL_SIGNS
+from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.measures.skew import BY_PLACE, Skewing
 from macroslip.ring.orbit import Motion
 from macroslip.roller.skew import pocket, raceways
@@ -67,8 +67,8 @@ def skewing(case: Case, laws: RollerLaws, box: Box) -> dict[str, Skewing]:
     if cage.alignment == "none":
         stop = stop._replace(effective_radius=0.0)
     return {
-        row: Skewing(table, guide_of(stop, side), raceways(laws, case.bearing, side))
-        for row, side in AXIAL_SIGNS.items()
+        row: Skewing(table, guide_of(stop, AXIAL_SIGNS[row]), raceways(laws, case.bearing, AXIAL_SIGNS[row]))
+        for row in ROWS
     }
 
 

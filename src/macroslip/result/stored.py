@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from macroslip.bearing.geometry import ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS
 from macroslip.errors import InputError
 from macroslip.imposed.status import Status
 from macroslip.measures.totals import INTERFACES
@@ -92,7 +92,7 @@ def _is_finite(value: Any) -> bool:
 
 def _labels(result: xr.Dataset) -> str:
     """Coordinates with other labels than they can have."""
-    for name, known in (("row", ROWS), ("interface", INTERFACES)):
+    for name, known in (("row", tuple(AXIAL_SIGNS)), ("interface", INTERFACES)):
         found = result[name].values.tolist()
         if not found or len(set(found)) != len(found) or not set(found) <= set(known):
             return f"{name} is {', '.join(map(str, found))[:80] or 'empty'}, not of {', '.join(known)}"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
+from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
 from macroslip.errors import InputError
 from macroslip.measures.details import FILM_EDGES, FILM_REGIMES, SECTORS, SLIP_EDGES, SLIP_SIGNS, STATIONS
 
@@ -107,7 +107,7 @@ def _areas(bearing: Bearing) -> np.ndarray:
     return np.array(
         [
             [(radius - AXIAL_SIGNS[row] * middles * lean) * (2.0 * math.pi / SECTORS) * width for radius in radii]
-            for row in ROWS
+            for row in row_names(bearing)
         ]
     )
 

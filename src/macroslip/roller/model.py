@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from macroslip.bearing import geometry
-from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing.geometry import AXIAL_SIGNS, initial_angles, row_names
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
 from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
@@ -135,10 +135,10 @@ class TableReport(NamedTuple):
 
 
 def ring_geometry(bearing: Bearing, model: RollerModel) -> RingGeometry:
-    """Geometry and stiffness for the ring balance; `model` is a roller of the downwind row."""
-    count = bearing.rollers_per_row
-    angles = np.concatenate([initial_angles(row, count) for row in ROWS])
-    signs = np.repeat([AXIAL_SIGNS[row] for row in ROWS], count)
+    """Geometry and stiffness for the ring balance; `model` is a roller of the first row."""
+    count, rows = bearing.rollers_per_row, row_names(bearing)
+    angles = np.concatenate([initial_angles(row, count) for row in rows])
+    signs = np.repeat([AXIAL_SIGNS[row] for row in rows], count)
     return RingGeometry(
         cosine=np.cos(angles),
         sine=np.sin(angles),

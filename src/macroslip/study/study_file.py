@@ -370,6 +370,15 @@ def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> S
     return _study(content, Source(), Path(folder))
 
 
+def _check_kind(bearing: Any) -> None:
+    if bearing.rows == 1:
+        raise InputError(
+            f"{bearing.name} is a cylindrical roller bearing, and studies compare rows of spherical ones",
+            allowed="double-row spherical roller bearings",
+            remedy="Compute cases of it one by one with macroslip run.",
+        )
+
+
 def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     place = Place(source)
     values, problems = read_fields(StudyFile, data, place)
@@ -391,6 +400,8 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         for noun in RECORDS
         if f"{noun}s" in values
     }
+    for bearing in [*(records.get("bearing") or {}).values(), *([base.bearing] if base else [])]:
+        attempt("bearings", lambda bearing=bearing: _check_kind(bearing))
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
     sample = attempt("variations", lambda: _sample(variations.sample, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))

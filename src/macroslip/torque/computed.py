@@ -69,7 +69,7 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     contacts = _per_speed(result.power, per_power)
     rolling = _per_speed(result.rolling_power, per_power)
     drag_force = model.drag * orbital**2
-    drag = 2 * bearing.rollers_per_row * drag_force * bearing.pitch_radius * np.abs(orbital) * per_power
+    drag = bearing.rows * bearing.rollers_per_row * drag_force * bearing.pitch_radius * np.abs(orbital) * per_power
 
     contacts.attrs = {"units": "N m", "long_name": "torque of the friction at the interface"}
     rolling.attrs = {"units": "N m", "long_name": "torque of rolling resistance at the interface"}

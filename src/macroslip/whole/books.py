@@ -64,9 +64,12 @@ def add_flows(assembly, shaft_speed, k, span, space, flows):
         cage = cages[c].y[FIRST + k]
         turning = cage[0] + 0.5 * shaft_speed * bearing.inner_radius
         drag = bearing.guide_friction * math.tanh(turning / GUIDE_SPEED)
-        flows[3] -= span * pitch * drag
+        ring = bearing.land_turns * shaft_speed * pitch
+        sheared = bearing.land_drag * (turning - ring)
+        flows[3] -= span * pitch * (drag + sheared)
+        flows[5] -= span * sheared * ring
         flows[7] -= span * bearing.cage_weight * cage[3]
-        flows[10] += span * drag * turning
+        flows[10] += span * (drag * turning + sheared * (turning - ring))
         if bearing.translates:
             push, n_x, n_y, _, _ = guide_force(bearing.radial_play, cage[4], cage[5], cage[2], cage[3])
             flows[12] += span * push * (n_x * cage[2] + n_y * cage[3])

@@ -8,7 +8,6 @@ from typing import Annotated
 import numpy as np
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.bearing.geometry import ROWS
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Quantity, Whole
 from macroslip.input.section import input_section
@@ -24,6 +23,8 @@ AXES = ("free", "pinned")
 GUIDANCES, ALIGNMENTS = ("conforming-pocket", "straight-bars", "guide-ring", "none"), ("spar", "none")
 #: Keys that go with skew alone.
 SKEW_KEYS = ("guidance", "skew_play", "alignment")
+#: What guides the cage, and keys of a ring's land that does.
+GUIDED_BY, _LAND = ("rollers", "inner-ring", "outer-ring"), ("land_diameter", "land_width", "land_clearance")
 #: Where rollers are in their pockets at the start.
 OFFSETS = ("centred", "random")
 
@@ -53,6 +54,11 @@ class Cage:
         pinned where `weight` is false.
     guide_friction : float
         Friction force at the pitch radius that brakes each cage [N]; zero for a cage that only rollers guide.
+    guided_by : "rollers", "inner-ring" or "outer-ring"
+        What holds the cage in the middle. A ring's land shears the oil between it and the cage as Petroff's concentric
+        bearing does, and drives or brakes the cage by it; the land stops the cage after half its clearance.
+    land_diameter, land_width, land_clearance : float, optional
+        Diameter of that land, width of both lands together, and diametral clearance between land and cage [m].
     offsets : "centred" or "random"
         Rollers start in the middle of their pockets, or anywhere in them with equal probability.
     diameter_scatter : float
@@ -99,6 +105,12 @@ class Cage:
         float,
         Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6),
     ] = 0.0
+    guided_by: Annotated[str, Choice("what holds the cage in the middle", lambda: GUIDED_BY)] = "rollers"
+    land_diameter: Annotated[float | None, Quantity("diameter of the land that guides", LENGTH, 1e-3, 10.0)] = None
+    land_width: Annotated[float | None, Quantity("width of both lands together", LENGTH, 1e-4, 1.0)] = None
+    land_clearance: Annotated[
+        float | None, Quantity("diametral clearance between land and cage", LENGTH, 1e-6, 0.1)
+    ] = None
     offsets: Annotated[str, Choice("where rollers start in their pockets", lambda: OFFSETS)] = "centred"
     diameter_scatter: Annotated[float, Quantity("standard deviation of the roller diameters", LENGTH, 0.0, 1e-4)] = 0.0
     seed: Annotated[int, Whole("seed of the random offsets and diameters")] = 1
@@ -116,6 +128,40 @@ class Cage:
                 allowed="the largest skew, such as 5 mrad, with guidance: guide-ring",
                 remedy="Its axial play over the distance of its edges is that angle.",
             )
+
+        given = [name for name in _LAND if getattr(self, name) is not None]
+        if self.guided_by == "rollers" and given:
+            raise InputError(
+                f"{' and '.join(given)} {'describes' if len(given) == 1 else 'describe'} a ring's land, and rollers guide the cage",
+                where=given[0],
+                allowed="with guided_by: inner-ring or outer-ring",
+                remedy=f"Set guided_by, or remove {' and '.join(given)}.",
+            )
+        if self.guided_by != "rollers" and len(given) < len(_LAND):
+            missing = [name for name in _LAND if name not in given]
+            raise InputError(
+                f"the {self.guided_by} guides the cage, and {' and '.join(missing)} {'is' if len(missing) == 1 else 'are'} "
+                "not given",
+                where=missing[0],
+                allowed="a length for each",
+                remedy="Add them: the oil film between land and cage follows from them.",
+            )
+
+    def land_drag(self, pitch_radius: float, viscosity: float) -> float:
+        """Force at the pitch radius [m] per difference of speeds there [N s/m] by the oil [Pa s] at a ring's land.
+
+        4 π η R³ b/(c r~²), with c the diametral clearance: Petroff's shear η ΔΩ R/(c/2) on 2πRb. 0 where rollers guide.
+
+        Examples
+        --------
+        >>> led = Cage(guided_by="outer-ring", land_diameter=0.25, land_width=0.02, land_clearance=1e-3)
+        >>> round(led.land_drag(0.1125, 0.1), 3)
+        3.879
+        """
+        if self.land_diameter is None or self.land_width is None or self.land_clearance is None:
+            return 0.0
+        radius = 0.5 * self.land_diameter
+        return 4.0 * math.pi * viscosity * radius**3 * self.land_width / (self.land_clearance * pitch_radius**2)
 
     def check_fit(self, bearing: Bearing) -> None:
         """Refuse pockets that do not fit between the rollers.
@@ -136,17 +182,17 @@ class Cage:
             )
 
     def start_offsets(self, count: int) -> np.ndarray:
-        """Offsets of all rollers in their pockets at the start [m], shape (rows, count)."""
+        """Offsets of `count` rollers in their pockets at the start [m]."""
         if self.offsets == "centred":
-            return np.zeros((len(ROWS), count))
+            return np.zeros(count)
         generator = np.random.default_rng([self.seed, 0])
-        return generator.uniform(-0.5 * self.gap, 0.5 * self.gap, (len(ROWS), count))
+        return generator.uniform(-0.5 * self.gap, 0.5 * self.gap, count)
 
-    def diameter_deviations(self, count: int) -> np.ndarray:
-        """Deviations of the roller diameters from their mean [m], shape (rows, count)."""
+    def diameter_deviations(self, rows: int, count: int) -> np.ndarray:
+        """Deviations of the roller diameters from the mean of their row [m], shape (rows, count)."""
         if self.diameter_scatter == 0.0:
-            return np.zeros((len(ROWS), count))
-        drawn = np.random.default_rng([self.seed, 1]).normal(0.0, self.diameter_scatter, (len(ROWS), count))
+            return np.zeros((rows, count))
+        drawn = np.random.default_rng([self.seed, 1]).normal(0.0, self.diameter_scatter, (rows, count))
         return drawn - drawn.mean(axis=1, keepdims=True)
 
 

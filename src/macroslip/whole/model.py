@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from macroslip.bearing import Bearing, geometry
-from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS, initial_angles
+from macroslip.bearing.geometry import AXIAL_SIGNS, initial_angles, row_names
 from macroslip.constants import GRAVITY
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import Box
@@ -21,7 +21,7 @@ from macroslip.whole.pocket import POCKET, Pocket, prepare_pocket
 
 _NUMBERS = (
     "roller_mass", "radius", "pitch_radius", "inner_radius", "outer_radius", "orbit_ratio", "lever", "cage_mass",
-    "cage_weight", "radial_play", "guide_friction",
+    "cage_weight", "radial_play", "guide_friction", "land_drag", "land_turns",
 )  # fmt: skip
 #: The numbers of a `WholeBearing`.
 BEARING = np.dtype([*((name, "f8") for name in _NUMBERS), ("cages", "i8"), ("translates", "i8"), ("pocket", POCKET)])
@@ -53,13 +53,15 @@ class WholeBearing:
     translates: bool  #: Whether the cages can leave the bearing's axis, see `macroslip.whole.cage`
     radial_play: float  #: Distance by which a cage can leave the axis before rollers hold it radially [m]
     guide_friction: float  #: Brakes each cage at the pitch radius [N]
+    land_drag: float  #: Of a ring's land on each cage at the pitch radius [N s/m], see `macroslip.whole.cage.Cage`
+    land_turns: float  #: 1 where that ring is the inner one, which turns; otherwise 0
 
 
 class Assembly(NamedTuple):
     """A bearing with its cages as compiled functions take it."""
 
     bearing: np.ndarray  #: shape (1,)
-    bodies: np.ndarray  #: Shape (2,). A roller of each row.
+    bodies: np.ndarray  #: Shape (rows,). A roller of each row.
     tables: np.ndarray  #: The flat array of their tables
     places: np.ndarray  #: shape (n,)
 
@@ -79,20 +81,20 @@ def whole_bearing(
     Raises InputError if the pockets do not fit, and as `roller_model`.
     """
     cage.check_fit(bearing)
-    count = bearing.rollers_per_row
+    count, names = bearing.rollers_per_row, row_names(bearing)
     models = {
         row: roller_model(bearing, lubricant, AXIAL_SIGNS[row], tilt=tilt, gravity=gravity, drag=drag, laws=laws)
-        for row in ROWS
+        for row in names
     }
-    model = models[ROWS[0]]
-    cages = 2 if cage.arrangement == "per-row" else 1
+    model = models[names[0]]
+    cages = len(names) if cage.arrangement == "per-row" else 1
     weighs = gravity and cage.weight
-    places = np.zeros(len(ROWS) * count, PLACE)
-    places["row"] = np.repeat(np.arange(len(ROWS)), count)
-    places["cage"] = places["row"] if cages == 2 else 0
-    places["angle"] = np.concatenate([initial_angles(row, count) for row in ROWS])
+    places = np.zeros(len(names) * count, PLACE)
+    places["row"] = np.repeat(np.arange(len(names)), count)
+    places["cage"] = places["row"] if cages > 1 else 0
+    places["angle"] = np.concatenate([initial_angles(row, count) for row in names])
     places["cosine"], places["sine"] = np.cos(places["angle"]), np.sin(places["angle"])
-    places["inner_radius"] = inner_radii(bearing, cage.diameter_deviations(count).ravel())
+    places["inner_radius"] = inner_radii(bearing, cage.diameter_deviations(len(names), count).ravel())
     return WholeBearing(
         models=models,
         places=places,
@@ -108,8 +110,10 @@ def whole_bearing(
         cage_mass=float(cage.mass) / cages,
         cage_weight=float(cage.mass) / cages * GRAVITY * math.cos(tilt) if weighs else 0.0,
         translates=weighs if cage.axis is None else cage.axis == "free",
-        radial_play=float(cage.gap),
+        radial_play=float(cage.gap if cage.land_clearance is None else 0.5 * cage.land_clearance),
         guide_friction=float(cage.guide_friction),
+        land_drag=cage.land_drag(bearing.pitch_radius, lubricant.viscosity) / cages,
+        land_turns=float(cage.guided_by == "inner-ring"),
     )
 
 
@@ -128,5 +132,5 @@ def with_tables(bearing: WholeBearing, box: Box) -> tuple[Assembly, TableReport]
     for name in (*_NUMBERS, "cages", "translates"):
         numbers[name] = getattr(bearing, name)
     numbers["pocket"] = tuple(pocket)
-    bodies = np.concatenate([rollers[row].body for row in ROWS])
-    return Assembly(numbers, bodies, rollers[ROWS[0]].tables, bearing.places), report
+    bodies = np.concatenate([roller.body for roller in rollers.values()])
+    return Assembly(numbers, bodies, next(iter(rollers.values())).tables, bearing.places), report

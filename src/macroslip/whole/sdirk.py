@@ -134,7 +134,7 @@ class Part(NamedTuple):
 def pure_rolling(bearing: WholeBearing, cage: Cage) -> Start:
     """All rollers in pure rolling at their initial offsets, cages with them."""
     count = bearing.places.size
-    offset = cage.start_offsets(count // 2).ravel()
+    offset = cage.start_offsets(count)
     return Start(offset, np.zeros(count), np.zeros(count), np.zeros(bearing.cages))
 
 

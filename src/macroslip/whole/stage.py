@@ -245,8 +245,9 @@ def _begin_cage(bearing, stage, cage, star, border):
             matrix[i, k] = inertia if i == k else 0.0
     turning = cage[0] + 0.5 * stage.shaft_speed * bearing.inner_radius
     drive = math.tanh(turning / GUIDE_SPEED)
-    rest[0] = inertia * (cage[0] - star[0]) + bearing.guide_friction * drive
-    matrix[0, 0] += bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED
+    past = turning - bearing.land_turns * stage.shaft_speed * bearing.pitch_radius
+    rest[0] = inertia * (cage[0] - star[0]) + bearing.guide_friction * drive + bearing.land_drag * past
+    matrix[0, 0] += bearing.guide_friction * (1.0 - drive * drive) / GUIDE_SPEED + bearing.land_drag
     rest[1] = inertia * (cage[2] - star[2])
     rest[2] = inertia * (cage[3] - star[3]) + bearing.cage_weight
     if bearing.translates:
@@ -268,7 +269,7 @@ def _raceway_forces(assembly, stage, k, moments, rollers, rests, sheets):
         rest, at, sheet, own = rests[j], moments[j], sheets[j], rollers[j].y[FIRST + k]
         at.spin_inner, at.pull_inner = raceway_from(sheet.inner, at.inner_load, at.inner_speed, own[0])
         at.spin_outer, at.pull_outer = raceway_from(sheet.outer, at.outer_load, at.outer_speed, own[1])
-        if not rest.fresh and is_out_of_reach(sheet, at):
+        if not rest.fresh and is_out_of_reach(sheet, at, own):
             rest.fresh = True
         rest.marked = rest.fresh and not rest.settled
     evaluations = evaluate_marked(assembly, stage.time, moments, rollers, FIRST + k, rests, sheets)

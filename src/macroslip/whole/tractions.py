@@ -193,11 +193,14 @@ def shear_from(sheet, load, speed, slip):
 
 
 @jit_inline
-def is_out_of_reach(sheet, at):
-    """Whether a raceway load has changed too much for the slopes."""
-    inner, outer = sheet.inner.load, sheet.outer.load
+def is_out_of_reach(sheet, at, slips):
+    """Whether a raceway's load or slip [m/s] has changed too much for the slopes."""
+    inner, outer = sheet.inner, sheet.outer
     return (
-        abs(at.inner_load - inner) > tuning.LOAD_REACH * inner or abs(at.outer_load - outer) > tuning.LOAD_REACH * outer
+        abs(at.inner_load - inner.load) > tuning.LOAD_REACH * inner.load
+        or abs(at.outer_load - outer.load) > tuning.LOAD_REACH * outer.load
+        or abs(inner.pull_by_slip * (slips[0] - inner.slip)) > tuning.SLIP_REACH * at.inner_load
+        or abs(outer.pull_by_slip * (slips[1] - outer.slip)) > tuning.SLIP_REACH * at.outer_load
     )
 
 
