@@ -81,17 +81,15 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
     def cubed(t: float) -> float:  # ∫ dt/(1 + t²)³
         return 0.25 * t / (1.0 + t * t) ** 2 + 0.75 * squared(t)
 
-    def flow(start: float, end: float) -> float:
+    def start_of(end: float) -> float:  # where the gap is S times the film of the volume flow
+        return -math.sqrt(inlet * (1.0 + end * end) - 1.0)
+
+    def flow(end: float) -> float:
+        start = start_of(end)
         return squared(end) - squared(start) - (1.0 + end * end) * (cubed(end) - cubed(start))
 
-    def exit_of(start: float) -> float:
-        return float(brentq(lambda end: flow(start, end), 1e-9 * -start, min(-start, 1.0), xtol=1e-15))
-
-    def inlet_rest(t: float) -> float:
-        return 1.0 + t * t - inlet * (1.0 + exit_of(-t) ** 2)
-
-    start = -float(brentq(inlet_rest, 1e-3, 2.0 * math.sqrt(inlet), xtol=1e-13))
-    end = exit_of(start)
+    end = float(brentq(flow, 0.0, 0.5, xtol=1e-15))
+    start = start_of(end)
     # −∫ t dp and ∫ (1 + t²) dp, dp = 1/(1 + t²)² − (1 + t_e²)/(1 + t²)³.
     ends = [-0.5 / (1.0 + t * t) + 0.25 * (1.0 + end * end) / (1.0 + t * t) ** 2 for t in (start, end)]
     load = -24.0 * (ends[1] - ends[0])

@@ -71,18 +71,22 @@ def spline_coefficients(values: np.ndarray, dimensions: int) -> np.ndarray:
     array([-1.,  0.,  1.,  2.,  3.,  4.,  5.,  6.])
     """
     for dimension in range(dimensions):
-        count = values.shape[dimension]
-        # Diagonals of the matrix, from the fourth above to the fourth below: an element lies in its column.
-        bands = np.zeros((9, count + 2))
-        bands[3, 2:] = bands[5, :-2] = 1.0 / 6.0
-        bands[4, 1:-1] = 4.0 / 6.0
-        for place, value in enumerate((1.0, -4.0, 6.0, -4.0, 1.0)):
-            bands[4 - place, place] = bands[8 - place, count - 3 + place] = value
-        moved = np.moveaxis(values, dimension, 0)
-        ends = np.zeros((1, *moved.shape[1:]))
-        right = np.concatenate([ends, moved, ends])
-        solved = solve_banded((4, 4), bands, right.reshape(count + 2, -1)).reshape(right.shape)
-        values = np.moveaxis(solved, 0, dimension)
+        nodes = np.moveaxis(values, dimension, 0)
+        found = np.empty((len(nodes) + 2, *nodes.shape[1:]))
+        inner = found[1:-1]  # that of a node stands at its place
+        # Not a knot: the fourth difference of the first five coefficients vanishes, which gives the second node's.
+        for side in (slice(None), slice(None, None, -1)):
+            inner[side][1] = (8.0 * nodes[side][1] - nodes[side][0] - nodes[side][2]) / 6.0
+        right = 6.0 * nodes[2:-2]
+        right[0] -= inner[1]
+        right[-1] -= inner[-2]
+        bands = np.tile([[1.0], [4.0], [1.0]], len(right))
+        # With three diagonals LAPACK starts no threads, which wait for each other on a busy machine.
+        inner[2:-2] = solve_banded((1, 1), bands, right.reshape(len(right), -1)).reshape(right.shape)
+        for side in (slice(None), slice(None, None, -1)):
+            for place in (1, 0):
+                found[side][place] = 6.0 * nodes[side][place] - 4.0 * found[side][place + 1] - found[side][place + 2]
+        values = np.moveaxis(found, 0, dimension)
     return np.ascontiguousarray(values)
 
 
