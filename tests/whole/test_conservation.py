@@ -176,3 +176,11 @@ def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
     drift = found.offset[-1, :28] - found.offset[-1, :28].mean()
     assert np.abs(expected).max() > 1e-6 * nominal
     assert drift == pytest.approx(expected - expected.mean(), abs=0.05 * np.abs(expected).max())
+
+
+def test_rollers_that_drop_faster_than_the_rings_creep_stay_in_the_tables():
+    loads = BearingLoads.constant((0.0, -5e3, 0.0), 0.01, 3.0)
+    found = simulate(Case(loads=loads, laws=Laws.paper(), dynamics="whole-bearing", rating=False, contact_details=False))
+    assert (found.status == 0).all()
+    drop = found.book_body_work.max() + found.book_cage_weight_work.max()
+    assert np.abs(found.energy_residual).max() < 5e-3 * drop

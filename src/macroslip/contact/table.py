@@ -56,7 +56,7 @@ class Box(NamedTuple):
     fineness: float  #: Distances between nodes over those at the default tolerance
 
 
-def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float) -> Box:
+def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float, falling: float = 0.0) -> Box:
     """The box of a case, rounded outward so that cases alike share their tables.
 
     Parameters
@@ -67,6 +67,8 @@ def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float) ->
         Largest load of a roller, with weight and centrifugal force [N].
     tolerance : float
         Of the integrator: the error of a spline goes with the fourth power of the distance between its nodes.
+    falling : float
+        Speed that a roller reaches by itself, however slow the rings are [m/s].
 
     Examples
     --------
@@ -74,7 +76,7 @@ def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float) ->
     Box(load=65536.0, slowest=0.38, fastest=0.46, fineness=1.0)
     """
     speeds = np.abs(ring_speeds)
-    fastest = max(float(speeds.max()), 10.0 * REST_SPEED)
+    fastest = max(float(speeds.max()), 10.0 * REST_SPEED, falling)
     turns = float(ring_speeds.min()) * float(ring_speeds.max()) <= 0.0
     slowest = 0.0 if turns else float(speeds.min())
     load = 2.0 ** math.ceil(math.log2(1.02 * highest_load + 100.0))

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
-from macroslip.case.case import Case
+from macroslip.case.case import WHOLE_BEARING, Case
 from macroslip.case.oil_supply import supply_note
 from macroslip.case.parts import Radau
+from macroslip.constants import GRAVITY
 from macroslip.contact.interface import highest_load, interfaces, truncated_share, truncation_load
 from macroslip.contact.registry import check_own_laws, film_range_notes
 from macroslip.contact.table import Box, table_box
@@ -100,9 +102,11 @@ def prepare(case: Case) -> Prepared:
     fastest = float(np.abs(ring_speeds).max())
     check_own_laws(case.laws, case.bearing, case.oil, fastest)
     body = body_force(model, float(np.abs(motion.shaft_speed).max()))
+    # Free rollers drop through their pockets, even where the rings creep.
+    falling = math.sqrt(2.0 * GRAVITY * case.cage.gap) if case.dynamics == WHOLE_BEARING and case.gravity else 0.0
     tolerance = case.integrator.tolerance if isinstance(case.integrator, Radau) else _FIXED_STEP_TOLERANCE
     for _ in range(0 if case.laws.skew == "none" or isinstance(loads, RollerLoads) else _BALANCED):
-        box = table_box(ring_speeds, largest + body, float(tolerance))
+        box = table_box(ring_speeds, largest + body, float(tolerance), falling)
         more = thrust_on_ring(case, model, ring, motion, box)
         motion, largest = ring_motion(loads, case.bearing, ring, limit, more)
     heaviest = largest + body
@@ -118,7 +122,7 @@ def prepare(case: Case) -> Prepared:
         edges=_orbit_edges(case, motion, model.orbit_ratio, end),
         end=end,
         trace_time=_trace_times(case, motion, end),
-        box=table_box(ring_speeds, heaviest, float(tolerance)),
+        box=table_box(ring_speeds, heaviest, float(tolerance), falling),
     )
 
 
