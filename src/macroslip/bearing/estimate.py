@@ -169,18 +169,10 @@ class MakersPage:
 
 
 class EstimatedBearing(NamedTuple):
-    """A bearing from its maker's page.
+    """A bearing from its maker's page."""
 
-    Attributes
-    ----------
-    bearing : Bearing
-        The medians, with ranges in their provenance.
-    samples : mapping of str to ndarray
-        Every inner dimension [SI], n samples, by key of the bearing.
-    """
-
-    bearing: Bearing
-    samples: Mapping[str, NDArray[np.float64]]
+    bearing: Bearing  #: The medians, with ranges in their provenance
+    samples: Mapping[str, NDArray[np.float64]]  #: Every inner dimension [SI], n samples, by key of the bearing
 
 
 def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:

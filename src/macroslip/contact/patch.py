@@ -31,33 +31,21 @@ _SHORTEST = 1e-12
 
 
 class Patch(NamedTuple):
-    """A contact ellipse over which slip varies, as a compiled function takes it.
+    """A contact ellipse over which slip varies, as a compiled function takes it."""
 
-    Attributes
-    ----------
-    microslip : bool
-        Whether slip varies; otherwise the middle's serves everywhere.
-    contour_radius, roller_radius, half_length : float
-        R_d, r and half the roller's length [m].
-    curvature_ratio, spin_ratio : float
-        κ/u2 and s/u2 in pure rolling [1/m].
-    across, along : float
-        Semi-axes of the ellipse per Q^(1/3) [m/N^(1/3)].
-    pressure : float
-        p0 per Q^(1/3) [Pa/N^(1/3)].
-    boundary_friction, full_slip : float
-        µ_b [-], and slip from which on asperities slide [m/s].
-    """
-
-    microslip: bool
+    microslip: bool  #: Whether slip varies; otherwise the middle's serves everywhere
+    #: R_d, r and half the roller's length [m].
     contour_radius: float
     roller_radius: float
     half_length: float
+    #: κ/u2 and s/u2 in pure rolling [1/m].
     curvature_ratio: float
     spin_ratio: float
+    #: Semi-axes of the ellipse per Q^(1/3) [m/N^(1/3)].
     across: float
     along: float
-    pressure: float
+    pressure: float  #: p0 per Q^(1/3) [Pa/N^(1/3)]
+    #: µ_b [-], and slip from which on asperities slide [m/s].
     boundary_friction: float
     full_slip: float
 
@@ -78,39 +66,22 @@ _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
 
 
 class Chords(NamedTuple):
-    """Stress along chords of one oil's film, as a compiled function looks it up; see `macroslip.contact.traction`.
+    """Stress along chords of one oil's film, as a compiled function looks it up; see `macroslip.contact.traction`."""
 
-    Attributes
-    ----------
-    rheology : int
-        0 Newtonian, 1 limiting shear, 2 Eyring.
-    characteristic : float
-        τ_L/p [-] or τ_E [Pa].
-    heating : float
-        β/(8k) [m/W].
-    lowest_pressure, highest_pressure : float
-        Of the table [Pa].
-    pressure_spacing : float
-        In p1^¼ [Pa^¼].
-    lowest_film, film_spacing, lowest_slip, slip_spacing : float
-        In the logarithms [-].
-    shape : tuple of 3 int
-        Of the coefficients, over pressures, films and slips.
-    coefficients, log_viscosities : ndarray, 1 dimension
-        Of the splines of ln stress, and of ln η over pressures.
-    """
-
-    rheology: int
-    characteristic: float
-    heating: float
+    rheology: int  #: 0 Newtonian, 1 limiting shear, 2 Eyring
+    characteristic: float  #: τ_L/p [-] or τ_E [Pa]
+    heating: float  #: β/(8k) [m/W]
+    #: Of the table [Pa].
     lowest_pressure: float
     highest_pressure: float
-    pressure_spacing: float
+    pressure_spacing: float  #: In p1^¼ [Pa^¼]
+    #: In the logarithms [-].
     lowest_film: float
     film_spacing: float
     lowest_slip: float
     slip_spacing: float
-    shape: tuple[int, int, int]
+    shape: tuple[int, int, int]  #: Of the coefficients, over pressures, films and slips
+    #: Of the splines of ln stress, and of ln η over pressures.
     coefficients: np.ndarray
     log_viscosities: np.ndarray
 

@@ -41,26 +41,16 @@ _begun = [0.0]
 
 
 class Law(NamedTuple):
-    """A law by name.
-
-    Attributes
-    ----------
-    kind, name : str
-    function : callable
-        Of an interface and arrays.
-    reference : str
-        Work to cite.
-    in_range : callable or None
-        Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for everywhere.
-    range_notes : callable or None
-        Of a film law: numbers outside its range whatever load and speed, a list of str for an interface.
-    """
+    """A law by name."""
 
     kind: str
     name: str
-    function: Callable
-    reference: str
+    function: Callable  #: Of an interface and arrays
+    reference: str  #: Work to cite
+    #: Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for
+    #: everywhere.
     in_range: Callable | None = None
+    #: Of a film law: numbers outside its range whatever load and speed, a list of str for an interface.
     range_notes: Callable | None = None
 
     def __call__(self, interface: Interface, *states: Any) -> np.ndarray:

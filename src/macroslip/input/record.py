@@ -40,27 +40,14 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a value comes from, and how it was written.
+    """Where a value comes from, and how it was written."""
 
-    Parameters
-    ----------
-    value : float
-        Number as written [unit].
-    unit : str
-        Unit as written.
-    tag : str
-        One of `TAGS`.
-    note : str
-        Free text.
-    range : tuple[float, float] | None
-        Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
-        nothing is known of its scatter.
-    """
-
-    value: float
-    unit: str
-    tag: str = "U"
-    note: str = ""
+    value: float  #: Number as written [unit]
+    unit: str  #: Unit as written
+    tag: str = "U"  #: One of `TAGS`
+    note: str = ""  #: Free text
+    #: Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
+    #: nothing is known of its scatter.
     range: tuple[float, float] | None = None
 
     def as_entry(self) -> dict[str, Any]:
