@@ -190,7 +190,6 @@ def patch_values(pressure_exponent, root_heating):
 
 
 def _moments(u: np.ndarray) -> np.ndarray:
-    """`moment_of_coth` for an array."""
     square, large = u * u, np.maximum(u, _SMALL_U)
     n = np.arange(1.0, 20.0)
     rest = np.exp(-2.0 * large[:, None] * n) * (large[:, None] ** 2 + (large[:, None] + 0.5 / n) / n) / n

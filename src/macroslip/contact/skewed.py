@@ -260,7 +260,6 @@ def _chords(contact: SkewedContact, across, shift, constant, linear, square) -> 
 
 
 def _stresses(contact: SkewedContact, load, entrainment, pressure, speed) -> tuple[np.ndarray, np.ndarray]:
-    """Stress of film and of asperities [Pa]."""
     laws = contact.laws
     film = laws.film_thickness(load, entrainment)
     share = laws.asperity_share(load, entrainment, film)

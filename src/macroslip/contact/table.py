@@ -233,8 +233,6 @@ def tractions(
 
 
 class _Grid(NamedTuple):
-    """Coordinates of a raceway's traction, see `macroslip.contact.look_up`."""
-
     load: Axis
     speed: Axis
     ratio: Axis

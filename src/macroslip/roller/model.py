@@ -252,7 +252,6 @@ def _write_contact(
 
 
 def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
-    """Write what differs between rows, and numbers of the whole roller."""
     for name in _NUMBERS:
         body[name] = getattr(model, name)
     laws = model.laws
