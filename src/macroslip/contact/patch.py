@@ -14,14 +14,26 @@ them. Stress along a chord is that of the oil's table (`macroslip.contact.tracti
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.asperities import asperity_patch
 from macroslip.contact.spline import spline_value
-from macroslip.contact.traction import Fluid, chord_stress
+from macroslip.contact.traction import (
+    HIGHEST_PRESSURE,
+    LIMITING_SHEAR,
+    LOWEST_LOG_SLIP,
+    LOWEST_PRESSURE,
+    NEWTONIAN,
+    ChordTable,
+    Fluid,
+    chord_stress,
+)
+
+if TYPE_CHECKING:
+    from macroslip.contact.laws import ContactLaws
 
 _asperity_patch = jit(asperity_patch)
 #: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below round-off of the rest.
@@ -50,6 +62,16 @@ class Patch(NamedTuple):
     full_slip: float
 
 
+def patch_of(contact: ContactLaws) -> Patch:
+    """Geometry of a contact, its roller's axis tilted to the positive side."""
+    shape, hertz = contact.shape, contact.interface.hertz
+    return Patch(
+        bool(shape.microslip), shape.contour_radius, shape.roller_radius, shape.half_length, shape.curvature_ratio,
+        abs(shape.spin_ratio), hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure,
+        contact.boundary_friction, contact.full_slip,
+    )  # fmt: skip
+
+
 def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
     """Quadrature on [0, 1], graded towards both ends: nodes m and weights.
 
@@ -63,27 +85,6 @@ def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 
 _NODES, _WEIGHTS = graded_rule(10)
 _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
-
-
-class Chords(NamedTuple):
-    """Stress along chords of one oil's film, as a compiled function looks it up; see `macroslip.contact.traction`."""
-
-    rheology: int  #: 0 Newtonian, 1 limiting shear, 2 Eyring
-    characteristic: float  #: τ_L/p [-] or τ_E [Pa]
-    heating: float  #: β/(8k) [m/W]
-    #: Of the table [Pa].
-    lowest_pressure: float
-    highest_pressure: float
-    pressure_spacing: float  #: In p1^¼ [Pa^¼]
-    #: In the logarithms [-].
-    lowest_film: float
-    film_spacing: float
-    lowest_slip: float
-    slip_spacing: float
-    shape: tuple[int, int, int]  #: Of the coefficients, over pressures, films and slips
-    #: Of the splines of ln stress, and of ln η over pressures.
-    coefficients: np.ndarray
-    log_viscosities: np.ndarray
 
 
 @jit_inline
@@ -123,24 +124,24 @@ def film_node(chords, film):
 @jit_inline
 def chord_stress_at(chords, node, pressure, slip):
     """Mean stress along a chord [Pa] of a film, a `FilmNode`, from its largest pressure p1 [Pa] and |slip| [m/s]."""
-    pressure = min(max(pressure, chords.lowest_pressure), chords.highest_pressure)
-    pressures, films, slips = chords.shape
+    pressure = min(max(pressure, LOWEST_PRESSURE), HIGHEST_PRESSURE)
+    fluid, (pressures, films, slips) = chords.fluid, chords.shape
     i, t = _node(pressures, math.sqrt(math.sqrt(pressure)) / chords.pressure_spacing)
     log_eta = _on_line(chords.log_viscosities, i, t)
-    if chords.rheology == 0:
-        unit = 1.0 / (math.sqrt(max(chords.heating, 1e-30)) * node.film)
+    if fluid.rheology == NEWTONIAN:
+        unit = 1.0 / (math.sqrt(max(fluid.heating, 1e-30)) * node.film)
         ahead = 0.5 * log_eta
     else:
-        unit = chords.characteristic * pressure if chords.rheology == 1 else chords.characteristic
+        unit = fluid.characteristic * pressure if fluid.rheology == LIMITING_SHEAR else fluid.characteristic
         ahead = log_eta
-    log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - chords.lowest_slip
+    log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
     j, u = _node(slips, log_slip / chords.slip_spacing)
     start = (i * films + node.cell) * slips + j
     value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.place, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     # Below the first slip of the table stress is in proportion to slip.
-    stress = unit * math.exp(value + min(log_slip, 0.0) + (ahead if chords.rheology == 0 else 0.0))
+    stress = unit * math.exp(value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0))
     # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
-    return min(stress, 0.25 * math.pi * unit) if chords.rheology == 1 else stress
+    return min(stress, 0.25 * math.pi * unit) if fluid.rheology == LIMITING_SHEAR else stress
 
 
 @jit_inline
@@ -167,7 +168,7 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
     Parameters
     ----------
     patch : Patch
-    chords : Chords
+    chords : ChordTable
     load, film : float
         Q > 0 [N], and h > 0 [m], the same all over the patch.
     share : float
@@ -226,7 +227,14 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
     return found
 
 
-def patch_power(patch: Patch, chords: Chords, load: float, film: float, ring_speed: float, slip: float) -> float:
+def traction_values(patch: Patch, chords: ChordTable, *states: np.ndarray) -> np.ndarray:
+    """`patch_tractions` of arrays that broadcast against each other, shape (..., 4)."""
+    states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in states))
+    found = patch_tractions(patch, chords, *(np.ascontiguousarray(one).ravel() for one in states))
+    return found.reshape(*states[0].shape, 4)
+
+
+def patch_power(patch: Patch, chords: ChordTable, load: float, film: float, ring_speed: float, slip: float) -> float:
     """Frictional power of a film [W], ∫τ v dA, by the rule of `patch_traction`; parameters as there."""
     found = np.empty(4)
     patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, found)

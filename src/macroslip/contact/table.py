@@ -16,11 +16,11 @@ import numpy as np
 
 from macroslip.contact.laws import ContactLaws
 from macroslip.contact.look_up import REST_SPEED
-from macroslip.contact.patch import Chords, Patch, patch_tractions
+from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.table_store import remembered, stored, table_key
-from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST_PRESSURE, chord_table
+from macroslip.contact.traction import chord_table
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of w^(1/4) for the
 #: fastest speed of the box of 1 m/s.
@@ -183,29 +183,6 @@ def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
     return values
 
 
-def patch_of(contact: ContactLaws) -> Patch:
-    """Geometry of a contact, its roller's axis tilted to the positive side."""
-    shape, hertz = contact.shape, contact.interface.hertz
-    return Patch(
-        bool(shape.microslip), shape.contour_radius, shape.roller_radius, shape.half_length, shape.curvature_ratio,
-        abs(shape.spin_ratio), hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure,
-        contact.boundary_friction, contact.full_slip,
-    )  # fmt: skip
-
-
-def chords_for(contact: ContactLaws) -> Chords:
-    """Stress along the chords of a contact's oil, as compiled functions look it up; empty where it has no sheared film."""
-    if contact.fluid is None:
-        return Chords(0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0, (4, 4, 4), np.zeros(64), np.zeros(4))
-    table = chord_table(contact.fluid)
-    fluid = table.fluid
-    return Chords(
-        fluid.rheology, fluid.characteristic, fluid.heating, LOWEST_PRESSURE, HIGHEST_PRESSURE, table.pressure_spacing,
-        table.lowest_film, table.film_spacing, LOWEST_LOG_SLIP, table.slip_spacing, table.coefficients.shape,
-        table.coefficients.ravel(), table.log_viscosities,
-    )  # fmt: skip
-
-
 def tractions(
     contact: ContactLaws, load: np.ndarray, ring_speed: np.ndarray, slip: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -221,11 +198,7 @@ def tractions(
     film = contact.film_thickness(load, entrainment)
     share = contact.asperity_share(load, entrainment, film)
     if contact.fluid is not None:
-        flat = (
-            np.ascontiguousarray(np.broadcast_to(one, load.shape)).ravel()
-            for one in (load, film, share, ring_speed, slip)
-        )
-        found = patch_tractions(patch_of(contact), chords_for(contact), *flat).reshape(*load.shape, 4)
+        found = traction_values(patch_of(contact), chord_table(contact.fluid), load, film, share, ring_speed, slip)
         return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
     rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
     none = np.zeros_like(load)
