@@ -78,14 +78,10 @@ def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float) ->
     turns = float(ring_speeds.min()) * float(ring_speeds.max()) <= 0.0
     slowest = 0.0 if turns else float(speeds.min())
     load = 2.0 ** math.ceil(math.log2(1.02 * highest_load + 100.0))
+    # In steps of √2 between a half and 2.
+    steps = min(max(round(2.0 * math.log2((tolerance / 2e-4) ** 0.25)), -2), 2)
     # A roller at rest has w = 1.12 u2; one that still runs forward when the ring runs back 1.41 u2.
-    return Box(load, slowest, round((1.45 if turns else 1.15) * fastest, 12), _fineness(tolerance))
-
-
-def _fineness(tolerance: float) -> float:
-    """Distances between nodes over those at a tolerance of 2e-4, in steps of √2 between a half and 2."""
-    steps = round(2.0 * math.log2((tolerance / 2e-4) ** 0.25))
-    return 2.0 ** (0.5 * min(max(steps, -2), 2))
+    return Box(load, slowest, round((1.45 if turns else 1.15) * fastest, 12), 2.0 ** (0.5 * steps))
 
 
 def larger(box: Box) -> Box:
@@ -114,10 +110,6 @@ class Tables:
         return found
 
 
-def _write_axis(record: np.void, name: str, one: Axis) -> None:
-    record[name] = tuple(one)
-
-
 def write_plane(record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box) -> None:
     """Make a plane over ln Q and ln u and write where it stands.
 
@@ -138,8 +130,7 @@ def write_plane(record: np.void, tables: Tables, values: Callable, lightest: flo
     for channel, one in enumerate(values(*states)):
         nodes[..., channel] = one
     record["start"] = tables.add(spline_coefficients(nodes, 2))
-    _write_axis(record, "load", load)
-    _write_axis(record, "speed", speed)
+    record["load"], record["speed"] = tuple(load), tuple(speed)
 
 
 def film_values(contact: ContactLaws) -> Callable:
@@ -314,7 +305,7 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
     record["start"], record["rising"] = tables.add(made.coefficients), tables.add(made.rising)
     for name in ("load", "speed", "ratio"):
-        _write_axis(record, name, getattr(grid, name))
+        record[name] = tuple(getattr(grid, name))
     record["stretch"], record["middle"], record["scale"] = grid.stretch, grid.middle, grid.scale
     record["side"] = math.copysign(1.0, contact.shape.spin_ratio)
     return made.errors
