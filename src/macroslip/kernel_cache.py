@@ -87,7 +87,6 @@ def _homes() -> Iterator[Path]:
 
 
 def _remove_old(home: Path) -> None:
-    """Remove the folders of other sources but for the newest."""
     used = {}
     for folder in home.iterdir():
         # Another process may remove it at the same time.
@@ -125,7 +124,6 @@ def _damaged(folder: Path) -> tuple[list[Path], int]:
 
 
 def _remove_damaged(folder: Path) -> None:
-    """Remove files of kernels that do not agree with the manifest, and say so."""
     if not _damaged(folder)[0]:
         return
     with _locked(folder):  # what another process is about to store is in the manifest now

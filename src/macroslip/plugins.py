@@ -121,7 +121,6 @@ def _import(path: Path, name: str) -> None:
 
 
 def _place(path: Path, error: BaseException) -> str:
-    """File and the line in it at which the error left it."""
     own = str(path.resolve())
     if isinstance(error, SyntaxError) and error.filename == own:
         return f"{path}, line {error.lineno}"

@@ -17,9 +17,10 @@ from scipy.optimize import brentq
 from macroslip import BearingLoads, Case, Drivetrain, HubLoads, Radau, Traces, Window, simulate
 from macroslip.bearing import Bearing
 from macroslip.contact.mechanisms import Laws
-from macroslip.contact.patch import patch_power, patch_traction
+from macroslip.contact.patch import patch_of, patch_power, patch_traction
 from macroslip.contact.starvation import film_factor
-from macroslip.contact.table import chords_for, patch_of, tractions
+from macroslip.contact.table import tractions
+from macroslip.contact.traction import chord_table
 from macroslip.imposed.status import Status
 from macroslip.lubricant import Lubricant
 from macroslip.roller.model import roller_model
@@ -73,7 +74,7 @@ class Film:
     """Traction of a contact's film of a given thickness at 50 kN."""
 
     def __init__(self, contact, thickness, ring_speed):
-        self._patch, self._chords = patch_of(contact), chords_for(contact)
+        self._patch, self._chords = patch_of(contact), chord_table(contact.fluid)
         self._state = 5e4, thickness
         self._ring_speed = ring_speed
 

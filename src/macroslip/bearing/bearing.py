@@ -117,7 +117,6 @@ class Bearing(Record):
         return 2 if self.roller_crown_radius is None else 1
 
     def _inconsistencies(self, source: Source) -> Iterator[InputError]:
-        """Yield what keeps the parts from fitting into each other."""
         kind = list(_kind(self, source))
         yield from kind
         if kind:

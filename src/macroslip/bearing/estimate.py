@@ -169,18 +169,10 @@ class MakersPage:
 
 
 class EstimatedBearing(NamedTuple):
-    """A bearing from its maker's page.
+    """A bearing from its maker's page."""
 
-    Attributes
-    ----------
-    bearing : Bearing
-        The medians, with ranges in their provenance.
-    samples : mapping of str to ndarray
-        Every inner dimension [SI], n samples, by key of the bearing.
-    """
-
-    bearing: Bearing
-    samples: Mapping[str, NDArray[np.float64]]
+    bearing: Bearing  #: The medians, with ranges in their provenance
+    samples: Mapping[str, NDArray[np.float64]]  #: Every inner dimension [SI], n samples, by key of the bearing
 
 
 def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:
@@ -280,7 +272,6 @@ def _drop(contour, length):
 
 
 def _fitting(page: MakersPage, drawn: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
-    """Keep the samples whose parts fit."""
     sine, cosine = np.sin(drawn["contact_angle"]), np.cos(drawn["contact_angle"])
     diameter, length = drawn["roller_diameter"], drawn["roller_length"]
     end = 0.5 * diameter - _drop(drawn["osculation"] * drawn["outer_raceway_radius"], length)
@@ -354,7 +345,6 @@ def _short(number: float) -> float:
 
 
 def _published(page: MakersPage) -> dict[str, dict]:
-    """Entries of the values on the page itself."""
     found = {
         "bore_diameter": (page.bore, "mm", "d"),
         "outside_diameter": (page.outside, "mm", "D"),

@@ -278,7 +278,6 @@ class Case:
         return html_overview("Case", ["", ""], self._overview())
 
     def _overview(self) -> list[tuple[str, str]]:
-        """The main data, each in a few words."""
         loads, start, end = self.loads, self.window.start, self.window.end
         count = "all rollers" if self.rollers == "all" else f"{len(self.roller_numbers)} rollers of each row"
         late = "at the first sample" if loads.event else "after the first orbit"
@@ -297,7 +296,6 @@ class Case:
 
 
 def _temperature(case: Case) -> Iterator[InputError]:
-    """Yield faults of the temperature."""
     if case.temperature == BALANCE and case.heat is None:
         yield InputError(
             "temperature is to balance, and the heat that the bearing loses is not given",
@@ -311,7 +309,6 @@ def _temperature(case: Case) -> Iterator[InputError]:
 
 
 def _raised(check: Callable[..., Any], *values: Any) -> Iterator[InputError]:
-    """Yield the fault that a check raises."""
     try:
         check(*values)
     except InputError as problem:

@@ -131,7 +131,6 @@ def build_case(
 
 
 def _record(kind: type[Record], name: str, folder: Path) -> Record:
-    """Read a bearing or lubricant by catalogue name or path."""
     names, path = kind.catalogue(), folder / name
     if name in names:
         return kind.read(name)

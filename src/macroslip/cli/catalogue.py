@@ -46,7 +46,6 @@ def _record(noun: str) -> type[Record]:
 
 
 def _catalogue(noun: str) -> typer.Typer:
-    """The commands for one kind of record."""
     app = typer.Typer(
         name=noun, help=f"The {noun} catalogue and files of your own.", no_args_is_help=True, rich_markup_mode=None
     )

@@ -90,7 +90,6 @@ def _wear(found: xr.Dataset) -> list[dict[str, Any]]:
 
 
 def _threshold(text: str) -> tuple[str, Threshold]:
-    """Name and threshold from 'name=value unit, source'."""
     from fractions import Fraction
 
     from macroslip.input.units import NUMBER, Dimension, Unit, parse_quantity

@@ -51,7 +51,6 @@ def command(app: typer.Typer, function: Callable[..., None], name: str | None = 
 
 
 def _told(error: BaseException, *, quiet: bool) -> tuple[int, str]:
-    """Exit code and words for an error."""
     if isinstance(error, KeyboardInterrupt):
         return INTERRUPTED, "interrupted"
     if isinstance(error, MacroslipError):

@@ -143,7 +143,6 @@ def _holds_bearing_loads(file: Path) -> bool:
 
 
 def _described(read: HubLoads | BearingLoads, kind: str) -> dict[str, Any]:
-    """Where loads come from, how they are sampled, and their statistics."""
     import numpy as np
 
     from macroslip.loads import HubLoads
@@ -210,7 +209,6 @@ def _table(title: str, statistics: dict[str, dict[str, float]]) -> None:
 
 
 def _words(given: dict[str, Any]) -> str:
-    """The drivetrain in a line."""
     shaft = "no shaft mass"
     if mass := given["shaft_mass [kg]"]:
         shaft = f"a shaft of {mass:g} kg {given['shaft_mass_station [m]']:g} m behind the hub"
@@ -224,7 +222,6 @@ def _words(given: dict[str, Any]) -> str:
 
 
 def _picture(bearing: BearingLoads, base: Case | None, drivetrain: Drivetrain) -> Figure:
-    """The picture of the loads, with the load that the upwind row carries in the case's bearing."""
     from macroslip.bearing.geometry import ROWS
     from macroslip.case.case import Case
     from macroslip.report.load_figures import load_figure

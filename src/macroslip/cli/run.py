@@ -80,7 +80,6 @@ def run(
 
 
 def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.Dataset:
-    """The result of a case file, of one of its main bearings if there are two."""
     from macroslip.case.case_file import names_key, read_case
     from macroslip.result.plausibility import doubtful_loads
     from macroslip.result.rating import with_rating
@@ -128,7 +127,6 @@ def _named(case: Path, loads: str) -> Iterator[None]:
 
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
-    """The main results, by row; NaN where a roller failed."""
     from macroslip.report.result_numbers import row_numbers
 
     rows = {
@@ -159,7 +157,6 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def _summary(dataset: xr.Dataset, bearing: str, path: Path) -> None:
-    """Print the main results, what they mean for damage, and the file."""
     from macroslip.cli.damage import print_criteria
     from macroslip.result.damage import lines
 
@@ -171,7 +168,6 @@ def _summary(dataset: xr.Dataset, bearing: str, path: Path) -> None:
 
 
 def _print_rows(dataset: xr.Dataset) -> None:
-    """Print the main results row by row, and the numbers beside slip in a line."""
     found = _numbers(dataset)
     rows = []
     for name, row in found["rows"].items():

@@ -169,7 +169,6 @@ def _summary(ended: Ended, output: Path, as_json: bool) -> None:
 
 
 def _failures(ended: Ended, output: Path) -> None:
-    """A table of failures on standard error, and how often each outcome came."""
     from rich.table import Table
 
     from macroslip.study.loads_list import safe_text

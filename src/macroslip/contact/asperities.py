@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from macroslip.contact.film import line_groups
 from macroslip.contact.interface import Interface
 
 #: Works to cite for each share, by the names in case files.
@@ -94,32 +95,6 @@ def film_ratio_share(film_ratio):
     return np.exp(-2.32 * np.power(film_ratio, 0.97))
 
 
-def _none(interface: Interface, load, entrainment_speed, film_thickness):
-    return np.zeros(np.broadcast(load, entrainment_speed, film_thickness).shape)[()]
-
-
-def _load_ratio(interface: Interface, load, entrainment_speed, film_thickness):
-    radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
-    share = load_ratio(
-        0.75 * np.cbrt(load) ** 2 / interface.hertz.semi_axis_across / (modulus * radius),
-        oil.viscosity / (modulus * radius) * np.asarray(entrainment_speed),
-        oil.pressure_viscosity * modulus,
-        interface.roughness / radius,
-        interface.hardness / modulus,
-    )
-    return np.minimum(1.0, share) + _none(interface, load, entrainment_speed, film_thickness)
-
-
-def _film_ratio(interface: Interface, load, entrainment_speed, film_thickness):
-    none = _none(interface, load, entrainment_speed, film_thickness)
-    if interface.roughness <= 0.0:
-        return none
-    return film_ratio_share(np.asarray(film_thickness) / interface.roughness) + none
-
-
-_SHARES = {"none": _none, "masjedi-khonsari": _load_ratio, "film-ratio": _film_ratio}
-
-
 def asperity_share(name: str, interface: Interface, load, entrainment_speed, film_thickness):
     """Share of the load that asperities carry by the law called `name`, a key of `REFERENCES`.
 
@@ -151,7 +126,14 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
     >>> float(round(asperity_share("masjedi-khonsari", inner, 5e4, 0.396, 1e-6), 5))
     0.00123
     """
-    return _SHARES[name](interface, load, entrainment_speed, film_thickness)
+    none = np.zeros(np.broadcast(load, entrainment_speed, film_thickness).shape)[()]
+    if name == "film-ratio" and interface.roughness > 0.0:
+        return film_ratio_share(np.asarray(film_thickness) / interface.roughness) + none
+    if name == "masjedi-khonsari":
+        groups = line_groups(interface)
+        loads, speeds = groups.load * np.cbrt(load) ** 2, groups.speed * np.asarray(entrainment_speed)
+        return np.minimum(1.0, load_ratio(loads, speeds, *groups[2:])) + none
+    return none
 
 
 def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):

@@ -13,8 +13,6 @@ large u. For small P the bracket cancels, and Φ is taken by a Gauss rule with t
 B = −1, lie π/P or more from the interval, so that the error of n nodes is of order (4π/P)^(−2n), below round-off. For small
 B0 e^P the power series of g is integrated term by term. The same I gives the derivatives: dI/dx0 = h w1 − (u1² − u0²)/2 and
 dI/dh = h w1.
-
-Scalars are for kernels, arrays for everything else; both follow the same formulas.
 """
 
 from __future__ import annotations
@@ -27,7 +25,6 @@ from scipy.special import roots_jacobi, zeta
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.interface import Interface
-from macroslip.contact.traction import thermal_reduction
 
 #: Power series of g, (−4)^n (n!)²/(2n + 1)!, and B up to which it is used; what its last term leaves out is below 1e-16.
 _G_SERIES = np.array([(-4.0) ** n * math.factorial(n) ** 2 / math.factorial(2 * n + 1) for n in range(9)])
@@ -164,38 +161,8 @@ def patch_integral(pressure_exponent, root_heating):
     return value, slope * scale - 2.0 * value, 0.5 * w1 * h * scale - value / h
 
 
-def patch_values(pressure_exponent, root_heating):
-    """Φ of `patch_integral` [-] for arrays.
-
-    Examples
-    --------
-    >>> [float(round(value, 12)) for value in patch_values(np.array([0.5, 5.0]), np.array([1e-8, 1.0]))]
-    [0.7025574586, 1.160551948246]
-    """
-    p, q0 = np.broadcast_arrays(np.asarray(pressure_exponent, dtype=float), np.asarray(root_heating, dtype=float))
-    exp_p, found = np.exp(p), np.empty(p.shape)
-    light = p < _LARGEST_P
-    cool = ~light & (q0 * q0 * exp_p < _COOL)
-    growth = np.exp(p[light][:, None] * _PLACES)
-    found[light] = (growth * thermal_reduction(q0[light][:, None] ** 2 * growth)) @ _WEIGHTS
-    n = np.arange(1.0, _G_SERIES.size + 1.0)
-    x = n * p[cool][:, None]
-    powers = _G_SERIES * (q0[cool] ** 2 * exp_p[cool])[:, None] ** (n - 1.0)
-    found[cool] = exp_p[cool] * (powers * (x - 1.0 + np.exp(-x)) / (x * x)).sum(axis=1)
-    hot = ~light & ~cool
-    half, start = 0.5 * p[hot], q0[hot]
-    u0, u1 = np.arcsinh(start), np.arcsinh(start * np.exp(half))
-    found[hot] = 0.5 * (half * u1 * u1 - (_moments(u1) - _moments(u0))) / (half * start) ** 2
-    return found[()]
-
-
-def _moments(u: np.ndarray) -> np.ndarray:
-    """`moment_of_coth` for an array."""
-    square, large = u * u, np.maximum(u, _SMALL_U)
-    n = np.arange(1.0, 20.0)
-    rest = np.exp(-2.0 * large[:, None] * n) * (large[:, None] ** 2 + (large[:, None] + 0.5 / n) / n) / n
-    series = square * np.polynomial.polynomial.polyval(np.minimum(square, _SMALL_U**2), _M_SERIES)
-    return np.where(u < _SMALL_U, series, u * square / 3.0 + _HALF_ZETA_3 - rest.sum(axis=1))
+#: Φ of `patch_integral` for arrays.
+_patch = np.vectorize(lambda exponent, heating: patch_integral(exponent, heating)[0], otypes=[float])
 
 
 class BarusCrook(NamedTuple):
@@ -219,5 +186,5 @@ def prepare_barus_crook(interface: Interface) -> BarusCrook:
 def barus_crook_traction(law: BarusCrook, load, film_thickness, slip):
     """Force [N] with the sign of the slip, at loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]."""
     root = np.cbrt(load)
-    patch = patch_values(law.pressure_exponent * root, law.heating * np.abs(slip))
+    patch = _patch(law.pressure_exponent * root, law.heating * np.abs(slip))
     return law.conductance * root * root / film_thickness * patch * slip

@@ -42,7 +42,7 @@ HIGHEST_COMPARED_LOAD, HIGHEST_COMPARED_MATERIAL = 20.0, 15.0
 _LOG_HEAVY, _DECADE = math.log(RANGES["load"][0]), math.log(10.0)
 
 
-class _Groups(NamedTuple):
+class LineGroups(NamedTuple):
     """Dimensionless groups of an equivalent line contact; load is W per Q^(2/3), speed is U per u_e."""
 
     load: float
@@ -52,9 +52,10 @@ class _Groups(NamedTuple):
     hardness: float
 
 
-def _groups(interface: Interface) -> _Groups:
+def line_groups(interface: Interface) -> LineGroups:
+    """Groups of a contact, taken as a line."""
     radius, modulus, oil = interface.rolling_radius, interface.modulus, interface.lubricant
-    return _Groups(
+    return LineGroups(
         0.75 / interface.hertz.semi_axis_across / (modulus * radius),
         oil.viscosity / (modulus * radius),
         oil.pressure_viscosity * modulus,
@@ -109,14 +110,14 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
 
 def masjedi_khonsari(interface: Interface, load, entrainment_speed):
     """Film thickness h [m] by `masjedi_khonsari_thickness` at loads [N] and speeds [m/s], in range or not."""
-    groups = _groups(interface)
+    groups = line_groups(interface)
     load_group, speed_group = groups.load * np.cbrt(load) ** 2, groups.speed * np.asarray(entrainment_speed)
     return interface.rolling_radius * masjedi_khonsari_thickness(load_group, speed_group, *groups[2:])
 
 
 def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
     """Whether W and U are in `RANGES`; `masjedi_khonsari_notes` judges the groups that load and speed do not change."""
-    groups = _groups(interface)
+    groups = line_groups(interface)
     w, u = groups.load * np.cbrt(load) ** 2, groups.speed * np.asarray(entrainment_speed)
     (least, most), (slowest, fastest) = RANGES["load"], RANGES["speed"]
     return (least <= w) & (w <= most) & (slowest <= u) & (u <= fastest)
@@ -124,7 +125,7 @@ def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
 
 def masjedi_khonsari_notes(interface: Interface) -> list[str]:
     """The groups that load and speed do not change, where they are outside `RANGES`."""
-    found = _groups(interface)._asdict()
+    found = line_groups(interface)._asdict()
     outside = [name for name in ("material", "roughness", "hardness") if not _within(found[name], RANGES[name])]
     return [
         f"the {name} group {found[name]:.4g} is outside {RANGES[name][0]:g} to {RANGES[name][1]:g}" for name in outside
@@ -209,10 +210,12 @@ def joined(first, second, order):
 
 def moes(interface: Interface, load, entrainment_speed):
     """Film thickness h [m] by `moes_thickness` at loads [N] and speeds [m/s], in range or not."""
-    return np.exp(_log_moes_film(_groups(interface), interface.rolling_radius, np.log(load), np.log(entrainment_speed)))
+    return np.exp(
+        _log_moes_film(line_groups(interface), interface.rolling_radius, np.log(load), np.log(entrainment_speed))
+    )
 
 
-def _log_moes_film(groups: _Groups, radius: float, log_load, log_speed):
+def _log_moes_film(groups: LineGroups, radius: float, log_load, log_speed):
     half = 0.5 * (math.log(2.0 * groups.speed) + log_speed)
     log_m = math.log(groups.load) + (2.0 / 3.0) * log_load - half
     log_film = log_moes(math.log(3.0) - log_m, log_m, math.log(groups.material) + 0.5 * half)
@@ -221,7 +224,7 @@ def _log_moes_film(groups: _Groups, radius: float, log_load, log_speed):
 
 def moes_in_range(interface: Interface, load, entrainment_speed):
     """Whether M and L are at most those at which the formula was compared; lighter loads approach its exact limit."""
-    groups = _groups(interface)
+    groups = line_groups(interface)
     doubled = 2.0 * groups.speed * np.asarray(entrainment_speed)
     m, material = groups.load * np.cbrt(load) ** 2 / np.sqrt(doubled), groups.material * doubled**0.25
     return (m <= HIGHEST_COMPARED_LOAD) & (material <= HIGHEST_COMPARED_MATERIAL)
@@ -251,7 +254,7 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
     >>> [float(round(1e6 * h, 2)) for h in masjedi_khonsari_moes(inner, np.array([30.0, 2e4]), 0.4)]
     [5.2, 1.32]
     """
-    groups, radius = _groups(interface), interface.rolling_radius
+    groups, radius = line_groups(interface), interface.rolling_radius
     log_load, log_speed = np.log(load), np.log(entrainment_speed)
     log_w, log_u = math.log(groups.load) + (2.0 / 3.0) * log_load, math.log(groups.speed) + log_speed
     scale = math.log(radius * 2.691) + 0.556 * math.log(groups.material)
@@ -275,7 +278,7 @@ def masjedi_khonsari_moes(interface: Interface, load, entrainment_speed):
 def masjedi_khonsari_moes_in_range(interface: Interface, load, entrainment_speed):
     """Whether the formula that counts there is in its range: Masjedi and Khonsari's W and U, or Moes' M and L below."""
     return np.where(
-        _groups(interface).load * np.cbrt(load) ** 2 >= RANGES["load"][0],
+        line_groups(interface).load * np.cbrt(load) ** 2 >= RANGES["load"][0],
         masjedi_khonsari_in_range(interface, load, entrainment_speed),
         moes_in_range(interface, load, entrainment_speed),
     )

@@ -13,24 +13,12 @@ from macroslip.errors import InputError
 
 
 class HertzContact(NamedTuple):
-    """Coefficients of a Hertz contact; every result follows from the load Q [N] by a power.
+    """Coefficients of a Hertz contact; every result follows from the load Q [N] by a power."""
 
-    Attributes
-    ----------
-    semi_axis_across : float
-        Semi-axis of the ellipse across rolling per Q^(1/3) [m/N^(1/3)].
-    semi_axis_along : float
-        Semi-axis along rolling per Q^(1/3) [m/N^(1/3)].
-    pressure : float
-        Maximum pressure p0 per Q^(1/3) [Pa/N^(1/3)].
-    approach : float
-        Elastic approach per Q^(2/3) [m/N^(2/3)].
-    """
-
-    semi_axis_across: float
-    semi_axis_along: float
-    pressure: float
-    approach: float
+    semi_axis_across: float  #: Semi-axis of the ellipse across rolling per Q^(1/3) [m/N^(1/3)]
+    semi_axis_along: float  #: Semi-axis along rolling per Q^(1/3) [m/N^(1/3)]
+    pressure: float  #: Maximum pressure p0 per Q^(1/3) [Pa/N^(1/3)]
+    approach: float  #: Elastic approach per Q^(2/3) [m/N^(2/3)]
 
     @property
     def stiffness(self) -> float:

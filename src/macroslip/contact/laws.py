@@ -16,10 +16,11 @@ from macroslip.contact.flash import effusivity
 from macroslip.contact.gap import GapShape
 from macroslip.contact.interface import ContactShape, Interface, contact_shape, interfaces
 from macroslip.contact.mechanisms import check_lubricant
+from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
 from macroslip.contact.rolling import RollingNumbers, prepare_rolling
 from macroslip.contact.starvation import film_factor, inlet_at_gap
-from macroslip.contact.traction import Fluid, chord_table, film_traction, prepare_fluid
+from macroslip.contact.traction import Fluid, chord_table, prepare_fluid
 
 if TYPE_CHECKING:
     from macroslip.bearing import Bearing
@@ -80,12 +81,14 @@ class ContactLaws:
     def uniform_traction(self, load, film_thickness, slip) -> np.ndarray:
         """Force of the film [N] with the sign of the slip, which is the same all over the contact.
 
-        At loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s].
+        At loads Q > 0 [N], films h > 0 [m] and slips Δu [m/s]; the ellipse ends at the roller's ends.
         """
         if self.closed_form is not None:
             return barus_crook_traction(self.closed_form, load, film_thickness, slip)
         if self.fluid is not None:
-            return film_traction(chord_table(self.fluid), self.interface.hertz, load, film_thickness, slip)
+            patch = patch_of(self)._replace(microslip=False)
+            pull = traction_values(patch, chord_table(self.fluid), load, film_thickness, 0.0, 0.0, slip)[..., 0]
+            return np.where(np.equal(slip, 0.0), 0.0, pull)[()]
         size = np.maximum(np.abs(slip), LEAST_SLIP)
         return TRACTION_LAWS.named(self.traction_name)(self.interface, load, film_thickness, size) * (slip / size)
 

@@ -115,7 +115,7 @@ class Laws:
             void = [name for name in _REPLACED if getattr(self, name) != _DEFAULTS[name]]
             if void:
                 chosen = " and ".join(f"{name} ({_word(getattr(self, name))})" for name in void)
-                beside = ", ".join(f"{name}: {_written(_DEFAULTS[name])}" for name in void)
+                beside = ", ".join(f"{name}: {str(_DEFAULTS[name]).lower()}" for name in void)
                 raise InputError(
                     f"the traction law '{self.traction}' has no {chosen}, which stand beside it: a traction law of one's "
                     "own takes the place of these mechanisms",
@@ -210,10 +210,6 @@ PRESETS: dict[str, dict[str, Any]] = {
 
 def _word(value: Any) -> str:
     return ("on" if value else "off") if isinstance(value, bool) else str(value)
-
-
-def _written(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:

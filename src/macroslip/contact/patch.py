@@ -14,14 +14,26 @@ them. Stress along a chord is that of the oil's table (`macroslip.contact.tracti
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.asperities import asperity_patch
 from macroslip.contact.spline import spline_value
-from macroslip.contact.traction import Fluid, chord_stress
+from macroslip.contact.traction import (
+    HIGHEST_PRESSURE,
+    LIMITING_SHEAR,
+    LOWEST_LOG_SLIP,
+    LOWEST_PRESSURE,
+    NEWTONIAN,
+    ChordTable,
+    Fluid,
+    chord_stress,
+)
+
+if TYPE_CHECKING:
+    from macroslip.contact.laws import ContactLaws
 
 _asperity_patch = jit(asperity_patch)
 #: Slip below which a chord is not looked up [m/s]: its stress is proportional to slip and far below round-off of the rest.
@@ -31,35 +43,33 @@ _SHORTEST = 1e-12
 
 
 class Patch(NamedTuple):
-    """A contact ellipse over which slip varies, as a compiled function takes it.
+    """A contact ellipse over which slip varies, as a compiled function takes it."""
 
-    Attributes
-    ----------
-    microslip : bool
-        Whether slip varies; otherwise the middle's serves everywhere.
-    contour_radius, roller_radius, half_length : float
-        R_d, r and half the roller's length [m].
-    curvature_ratio, spin_ratio : float
-        κ/u2 and s/u2 in pure rolling [1/m].
-    across, along : float
-        Semi-axes of the ellipse per Q^(1/3) [m/N^(1/3)].
-    pressure : float
-        p0 per Q^(1/3) [Pa/N^(1/3)].
-    boundary_friction, full_slip : float
-        µ_b [-], and slip from which on asperities slide [m/s].
-    """
-
-    microslip: bool
+    microslip: bool  #: Whether slip varies; otherwise the middle's serves everywhere
+    #: R_d, r and half the roller's length [m].
     contour_radius: float
     roller_radius: float
     half_length: float
+    #: κ/u2 and s/u2 in pure rolling [1/m].
     curvature_ratio: float
     spin_ratio: float
+    #: Semi-axes of the ellipse per Q^(1/3) [m/N^(1/3)].
     across: float
     along: float
-    pressure: float
+    pressure: float  #: p0 per Q^(1/3) [Pa/N^(1/3)]
+    #: µ_b [-], and slip from which on asperities slide [m/s].
     boundary_friction: float
     full_slip: float
+
+
+def patch_of(contact: ContactLaws) -> Patch:
+    """Geometry of a contact, its roller's axis tilted to the positive side."""
+    shape, hertz = contact.shape, contact.interface.hertz
+    return Patch(
+        bool(shape.microslip), shape.contour_radius, shape.roller_radius, shape.half_length, shape.curvature_ratio,
+        abs(shape.spin_ratio), hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure,
+        contact.boundary_friction, contact.full_slip,
+    )  # fmt: skip
 
 
 def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
@@ -75,44 +85,6 @@ def graded_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
 
 _NODES, _WEIGHTS = graded_rule(10)
 _FINE_NODES, _FINE_WEIGHTS = graded_rule(20)
-
-
-class Chords(NamedTuple):
-    """Stress along chords of one oil's film, as a compiled function looks it up; see `macroslip.contact.traction`.
-
-    Attributes
-    ----------
-    rheology : int
-        0 Newtonian, 1 limiting shear, 2 Eyring.
-    characteristic : float
-        τ_L/p [-] or τ_E [Pa].
-    heating : float
-        β/(8k) [m/W].
-    lowest_pressure, highest_pressure : float
-        Of the table [Pa].
-    pressure_spacing : float
-        In p1^¼ [Pa^¼].
-    lowest_film, film_spacing, lowest_slip, slip_spacing : float
-        In the logarithms [-].
-    shape : tuple of 3 int
-        Of the coefficients, over pressures, films and slips.
-    coefficients, log_viscosities : ndarray, 1 dimension
-        Of the splines of ln stress, and of ln η over pressures.
-    """
-
-    rheology: int
-    characteristic: float
-    heating: float
-    lowest_pressure: float
-    highest_pressure: float
-    pressure_spacing: float
-    lowest_film: float
-    film_spacing: float
-    lowest_slip: float
-    slip_spacing: float
-    shape: tuple[int, int, int]
-    coefficients: np.ndarray
-    log_viscosities: np.ndarray
 
 
 @jit_inline
@@ -152,24 +124,24 @@ def film_node(chords, film):
 @jit_inline
 def chord_stress_at(chords, node, pressure, slip):
     """Mean stress along a chord [Pa] of a film, a `FilmNode`, from its largest pressure p1 [Pa] and |slip| [m/s]."""
-    pressure = min(max(pressure, chords.lowest_pressure), chords.highest_pressure)
-    pressures, films, slips = chords.shape
+    pressure = min(max(pressure, LOWEST_PRESSURE), HIGHEST_PRESSURE)
+    fluid, (pressures, films, slips) = chords.fluid, chords.shape
     i, t = _node(pressures, math.sqrt(math.sqrt(pressure)) / chords.pressure_spacing)
     log_eta = _on_line(chords.log_viscosities, i, t)
-    if chords.rheology == 0:
-        unit = 1.0 / (math.sqrt(max(chords.heating, 1e-30)) * node.film)
+    if fluid.rheology == NEWTONIAN:
+        unit = 1.0 / (math.sqrt(max(fluid.heating, 1e-30)) * node.film)
         ahead = 0.5 * log_eta
     else:
-        unit = chords.characteristic * pressure if chords.rheology == 1 else chords.characteristic
+        unit = fluid.characteristic * pressure if fluid.rheology == LIMITING_SHEAR else fluid.characteristic
         ahead = log_eta
-    log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - chords.lowest_slip
+    log_slip = math.log(max(slip, _NO_SLIP) / unit) - node.logarithm + ahead - LOWEST_LOG_SLIP
     j, u = _node(slips, log_slip / chords.slip_spacing)
     start = (i * films + node.cell) * slips + j
     value = spline_value(chords.coefficients, start, (films * slips, slips), (t, node.place, u))  # pyright: ignore[reportCallIssue, reportGeneralTypeIssues]
     # Below the first slip of the table stress is in proportion to slip.
-    stress = unit * math.exp(value + min(log_slip, 0.0) + (ahead if chords.rheology == 0 else 0.0))
+    stress = unit * math.exp(value + min(log_slip, 0.0) + (ahead if fluid.rheology == NEWTONIAN else 0.0))
     # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
-    return min(stress, 0.25 * math.pi * unit) if chords.rheology == 1 else stress
+    return min(stress, 0.25 * math.pi * unit) if fluid.rheology == LIMITING_SHEAR else stress
 
 
 @jit_inline
@@ -196,7 +168,7 @@ def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
     Parameters
     ----------
     patch : Patch
-    chords : Chords
+    chords : ChordTable
     load, film : float
         Q > 0 [N], and h > 0 [m], the same all over the patch.
     share : float
@@ -255,7 +227,14 @@ def patch_tractions(patch, chords, loads, films, shares, ring_speeds, slips):
     return found
 
 
-def patch_power(patch: Patch, chords: Chords, load: float, film: float, ring_speed: float, slip: float) -> float:
+def traction_values(patch: Patch, chords: ChordTable, *states: np.ndarray) -> np.ndarray:
+    """`patch_tractions` of arrays that broadcast against each other, shape (..., 4)."""
+    states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in states))
+    found = patch_tractions(patch, chords, *(np.ascontiguousarray(one).ravel() for one in states))
+    return found.reshape(*states[0].shape, 4)
+
+
+def patch_power(patch: Patch, chords: ChordTable, load: float, film: float, ring_speed: float, slip: float) -> float:
     """Frictional power of a film [W], ∫τ v dA, by the rule of `patch_traction`; parameters as there."""
     found = np.empty(4)
     patch_traction(patch, chords, load, film, 0.0, ring_speed, slip, found)

@@ -41,81 +41,60 @@ _begun = [0.0]
 
 
 class Law(NamedTuple):
-    """A law by name.
-
-    Attributes
-    ----------
-    kind, name : str
-    function : callable
-        Of an interface and arrays.
-    reference : str
-        Work to cite.
-    in_range : callable or None
-        Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for everywhere.
-    range_notes : callable or None
-        Of a film law: numbers outside its range whatever load and speed, a list of str for an interface.
-    """
+    """A law by name."""
 
     kind: str
     name: str
-    function: Callable
-    reference: str
+    function: Callable  #: Of an interface and arrays
+    reference: str  #: Work to cite
+    #: Of a film law: whether its formula is in its range, at (interface, load, entrainment_speed); None for
+    #: everywhere.
     in_range: Callable | None = None
+    #: Of a film law: numbers outside its range whatever load and speed, a list of str for an interface.
     range_notes: Callable | None = None
 
     def __call__(self, interface: Interface, *states: Any) -> np.ndarray:
         """Values at broadcastable states.
 
-        Raises
-        ------
-        InputError
-            If the law raises, or gives anything but finite, positive numbers, one for each state.
+        Raises InputError if the law raises, or gives anything but finite, positive numbers, one for each state.
         """
-        arrays = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in states))
-        where = f"{self.kind} law '{self.name}', {interface.name}"
-        # A law may change the arrays it is given.
-        found = self._called(where, self.function, interface, *(np.array(one).ravel() for one in arrays))
-        size = arrays[0].size
-        if found.shape != (size,) or found.dtype.kind not in "fiu":
-            raise _wrong(
-                f"for {size} states it gives {_described(found)}",
-                where,
-                f"an array of {size} real numbers, one for each state",
-            )
-        found = found.astype(float)
-        bad = np.flatnonzero(~(np.isfinite(found) & (found > 0.0)))
-        if bad.size:
-            state = zip(_STATES[self.kind], (one.ravel()[bad[0]] for one in arrays), strict=True)
-            at = ", ".join(f"{name} {value:.4g} {unit}" for (name, unit), value in state)
-            raise _wrong(
-                f"it gives {found[bad[0]]:.4g} {_UNITS[self.kind]}", f"{where}, {at}", "a finite number above zero"
-            )
-        return found.reshape(arrays[0].shape)[()]
+        found = self._values(self.function, interface, states, "fiu", "real numbers").astype(float)
+        bad = ~(np.isfinite(found) & (found > 0.0))
+        if bad.any():
+            known = zip(_STATES[self.kind], (np.broadcast_to(one, bad.shape)[bad][0] for one in states), strict=True)
+            at = ", ".join(f"{name} {value:.4g} {unit}" for (name, unit), value in known)
+            what = f"it gives {found[bad][0]:.4g} {_UNITS[self.kind]}"
+            raise _wrong(what, f"{self.kind} law '{self.name}', {interface.name}, {at}", "a finite number above zero")
+        return found[()]
 
     def inside(self, interface: Interface, load, entrainment_speed) -> np.ndarray:
         """Whether a film law is in its range."""
-        arrays = np.broadcast_arrays(np.asarray(load, dtype=float), np.asarray(entrainment_speed, dtype=float))
-        shape, size = arrays[0].shape, arrays[0].size
         if self.in_range is None:
-            return np.ones(shape, dtype=bool)[()]
-        where = f"in_range of {self.kind} law '{self.name}', {interface.name}"
-        found = self._called(where, self.in_range, interface, *(np.array(one).ravel() for one in arrays))
-        if found.shape != (size,) or found.dtype != bool:
-            what = f"for {size} states it gives {_described(found)}"
-            raise _wrong(what, where, f"an array of {size} truth values, one for each state")
-        return found.reshape(shape)[()]
+            return np.ones(np.broadcast(load, entrainment_speed).shape, dtype=bool)[()]
+        return self._values(self.in_range, interface, (load, entrainment_speed), "b", "truth values", "in_range of ")[
+            ()
+        ]
 
-    @staticmethod
-    def _called(where: str, function: Callable, *arguments: Any) -> np.ndarray:
+    def _values(
+        self, function: Callable, interface: Interface, states: tuple, kinds: str, what: str, part: str = ""
+    ) -> np.ndarray:
+        """What a function of the law gives at states, refused if it is none of the kinds, or not one for each state."""
+        # A law may change the arrays it is given.
+        arrays = [np.array(one, dtype=float) for one in np.broadcast_arrays(*states)]
+        where, size = f"{part}{self.kind} law '{self.name}', {interface.name}", arrays[0].size
         _begun[0] = time.monotonic()
         try:
             with np.errstate(all="ignore"):
-                return np.asarray(function(*arguments))
+                found = np.asarray(function(interface, *(one.ravel() for one in arrays)))
         except (KeyboardInterrupt, MacroslipError):
             raise
         except BaseException as error:
             reason = " ".join(str(error).split())[:200]
             raise _wrong(f"{type(error).__name__} in it ({reason})", where, "a function that raises nothing") from error
+        if found.shape != (size,) or found.dtype.kind not in kinds:
+            given = f"an array of shape {found.shape} of type {found.dtype}" if found.ndim else f"{found.item()!r:.80}"
+            raise _wrong(f"for {size} states it gives {given}", where, f"an array of {size} {what}, one for each state")
+        return found.reshape(arrays[0].shape)
 
     @property
     def is_own(self) -> bool:
@@ -364,13 +343,6 @@ def _check_at(chosen: tuple[Law, ...], interface: Interface, heaviest: float, sp
         raise _wrong(f"it gives {ends}", where, "a force in proportion to slip where that is small")
 
 
-def _described(found: np.ndarray) -> str:
-    if found.ndim == 0:
-        return f"{found.item()!r:.80}"
-    return f"an array of shape {found.shape} of type {found.dtype}"
-
-
 def _wrong(what: str, where: str, allowed: str) -> InputError:
-    return InputError(
-        what, where=where, allowed=allowed, remedy="Mend the law; the page on laws of one's own has its contract."
-    )
+    remedy = "Mend the law; the page on laws of one's own has its contract."
+    return InputError(what, where=where, allowed=allowed, remedy=remedy)

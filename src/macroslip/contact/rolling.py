@@ -63,37 +63,6 @@ _LOG_FLOW, _LOG_RIGID, _LOG_SLICE = math.log(FLOW), math.log(RIGID), math.log(ma
 ORDERS = {"inlet": 10.0, "whole-film": 3.64}
 
 
-def biboulet_houpert(load):
-    """Rolling resistance of an isoviscous line contact, N_F = 1.42 √M/[1 + (0.966 √M)^10]^0.1.
-
-    Parameters
-    ----------
-    load : array_like
-        M = W (2U)^(−½), ≥ 0.
-
-    Returns
-    -------
-    ndarray
-        N_F = F_R/(E' R l) (2U)^(−¾) [-], F_R the force on each surface.
-
-    Notes
-    -----
-    The rigid limit is 3.4 % below Martin's. The elastic limit is 1.47; full solutions of the film give 1.90 at M = 5
-    and 2.05 at M = 20, their inlets alone 1.65.
-
-    References
-    ----------
-    Biboulet and Houpert, Proc. IMechE J 224 (2010) 763. Coefficients as later works quote them.
-
-    Examples
-    --------
-    >>> [float(round(force, 4)) for force in biboulet_houpert(np.array([0.01, 100.0]))]
-    [0.142, 1.47]
-    """
-    root = np.sqrt(load)
-    return 1.42 * root / (1.0 + (0.966 * root) ** 10.0) ** 0.1
-
-
 def starvation_factor(inlet):
     """Rolling resistance over the resistance of a flooded inlet, (S² + 162.8 S)/(S² + 193.1 S + 1257) [-], below 1.
 
@@ -149,41 +118,6 @@ def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, t
     return np.exp(-constant * flow * (bore + outside) * 1e3 * math.sqrt(type_factor / (2e3 * (outside - bore))))
 
 
-def goksem_hargreaves(load, speed, material):
-    """Rolling resistance of the inlet of a line contact, F_R α_p/(R l) = 4.318 (G U)^0.658 W^0.0126.
-
-    Parameters
-    ----------
-    load : array_like
-        W = w/(E' R), > 0.
-    speed : array_like
-        U = η0 u/(E' R), u the mean of the surface speeds, ≥ 0.
-    material : array_like
-        G = α_p E', > 0.
-
-    Returns
-    -------
-    ndarray
-        F_R α_p/(R l) [-], F_R the force on each surface, against its motion.
-
-    Notes
-    -----
-    It counts the inlet alone. In a full solution of the film the pressure ends at a constriction, where h is below and
-    dp/dx against that of the inlet, so that h dp/dx resists there as well: 30 to 40 % more at M = 2 to 40, L = 13.
-    Isothermal and flooded; piezoviscous and elastic, L = G (2U)^¼ above about 5 and M = W (2U)^(−½) above about 2.
-
-    References
-    ----------
-    Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 346. Coefficients as later works quote them.
-
-    Examples
-    --------
-    >>> float(round(goksem_hargreaves(8.36e-5, 2.916e-11, 4846.0), 7))
-    0.0001193
-    """
-    return 4.318 * np.power(material * speed, 0.658) * np.power(load, 0.0126)
-
-
 def inlet_heating_of_rolling(loading):
     """Rolling resistance over the resistance of an isothermal inlet, 1/(1 + 0.29 L_T^0.78) [-], above 0, at most 1.
 
@@ -209,7 +143,7 @@ def log_elastic(name: str, log_load, log_material):
     name : str
         `inlet`: the lower of Biboulet and Houpert's 1.470 and Goksem and Hargreaves' 2.737 L^(−0.342) M^0.0126, joined with
         order 10, the order with which Biboulet and Houpert join their limits. In Moes' groups Goksem and Hargreaves'
-        formula is left with (2U)^(−0.0002), which is dropped.
+        F_R α_p/(R l) = 4.318 (G U)^0.658 W^0.0126 is left with (2U)^(−0.0002), which is dropped.
         `whole-film`, inlet and exit: N_E = 2.026 exp(−0.00481 L) (1 + 1.97 M)^(−0.0692 L/(L + 4.71)), a fit.
     log_load, log_material : array_like
 
@@ -346,31 +280,15 @@ def prepare_rolling(
     )
 
 
-def light_film(numbers: RollingNumbers, load, mean_speed):
-    """Film of the volume flow [m]: 1.2257 h0 where the contact is rigid, the film of the flat middle where it is elastic.
-
-    Moes' blend whose rigid and isoviscous limit is the gap of finite length; at loads [N] and speeds [m/s] above zero.
-    """
-    log_load, log_speed = np.log(load), np.log(mean_speed)
-    log_gap, _, _ = film_at_load(numbers.gap, _log_group(numbers, log_load, log_speed))
-    return np.exp(_log_film(numbers, log_gap, log_load, log_speed))
-
-
 def _log_group(numbers: RollingNumbers, log_load, log_speed):
     return log_load - log_speed - math.log(numbers.viscosity)
 
 
 def _log_film(numbers: RollingNumbers, log_gap, log_load, log_speed):
+    """Ln of the film of the volume flow, by Moes' blend whose rigid, isoviscous limit is the gap of finite length."""
     scale = numbers.log_film + 0.5 * log_speed
     log_m = numbers.log_load + (2.0 / 3.0) * log_load - 0.5 * log_speed
     return scale + log_moes(log_gap + _LOG_FLOW - scale, log_m, numbers.log_material + 0.25 * log_speed)
-
-
-def beside_ellipse(numbers: RollingNumbers, load, mean_speed):
-    """F_B [N] of a full share 1 − g, at loads [N] and speeds [m/s] above zero."""
-    log_speed = np.log(mean_speed)
-    log_h0 = np.log(light_film(numbers, load, mean_speed)) - _LOG_FLOW
-    return _beside(numbers, np.log(load), log_speed, log_h0)
 
 
 def _beside(numbers: RollingNumbers, log_load, log_speed, log_h0):

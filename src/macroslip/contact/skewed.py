@@ -48,33 +48,20 @@ _NO_SLIP, _NO_PRESSURE = 1e-30, 1.0
 
 
 class SkewedContact(NamedTuple):
-    """A raceway contact of a roller that may be skewed.
+    """A raceway contact of a roller that may be skewed."""
 
-    Attributes
-    ----------
-    laws : ContactLaws
-        For film and asperities.
-    shear : callable
-        The film's stress, see `Shear`.
-    side : int
-        k.
-    roller_radius, roller_contour, raceway_radius, half_length : float
-        r, R_roller, the contact's distance from the bearing axis r~_k, and half the roller's length [m].
-    along, across : float
-        κ_z and κ_x of the raceway [1/m].
-    sine, cosine : float
-        s sin α and cos α.
-    """
-
-    laws: ContactLaws
-    shear: Shear
-    side: int
+    laws: ContactLaws  #: For film and asperities
+    shear: Shear  #: The film's stress, see `Shear`
+    side: int  #: k
+    #: r, R_roller, the contact's distance from the bearing axis r~_k, and half the roller's length [m].
     roller_radius: float
     roller_contour: float
     raceway_radius: float
     half_length: float
+    #: κ_z and κ_x of the raceway [1/m].
     along: float
     across: float
+    #: s sin α and cos α.
     sine: float
     cosine: float
 
@@ -95,34 +82,18 @@ class SkewedContact(NamedTuple):
 
 
 class Resultants(NamedTuple):
-    """What a contact does to the roller.
+    """What a contact does to the roller."""
 
-    Attributes
-    ----------
-    spin : ndarray
-        Moment of the tractions about the roller's axis over r [N]; positive where it drives the spin up.
-    pull : ndarray
-        Force of the tractions along −k x [N], with the sign of the slip.
-    axial : ndarray
-        Force of the tractions along z' [N].
-    moment : ndarray
-        Moment of the tractions about +y' [N m].
-    pressure_moment : ndarray
-        Moment of the pressure on the turned ellipse about +y' [N m].
-    power, asperity_power : ndarray
-        Frictional power, ∫ τ·v dA, and the asperities' part of it [W].
-    ring_torque : ndarray
-        Torque of the tractions on the ring about Z0 [N m].
-    """
-
+    #: Moment of the tractions about the roller's axis over r [N]; positive where it drives the spin up.
     spin: np.ndarray
-    pull: np.ndarray
-    axial: np.ndarray
-    moment: np.ndarray
-    pressure_moment: np.ndarray
+    pull: np.ndarray  #: Force of the tractions along −k x [N], with the sign of the slip
+    axial: np.ndarray  #: Force of the tractions along z' [N]
+    moment: np.ndarray  #: Moment of the tractions about +y' [N m]
+    pressure_moment: np.ndarray  #: Moment of the pressure on the turned ellipse about +y' [N m]
+    #: Frictional power, ∫ τ·v dA, and the asperities' part of it [W].
     power: np.ndarray
     asperity_power: np.ndarray
-    ring_torque: np.ndarray
+    ring_torque: np.ndarray  #: Torque of the tractions on the ring about Z0 [N m]
 
 
 class SlipLines(NamedTuple):
@@ -289,7 +260,6 @@ def _chords(contact: SkewedContact, across, shift, constant, linear, square) -> 
 
 
 def _stresses(contact: SkewedContact, load, entrainment, pressure, speed) -> tuple[np.ndarray, np.ndarray]:
-    """Stress of film and of asperities [Pa]."""
     laws = contact.laws
     film = laws.film_thickness(load, entrainment)
     share = laws.asperity_share(load, entrainment, film)

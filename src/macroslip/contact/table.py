@@ -16,11 +16,11 @@ import numpy as np
 
 from macroslip.contact.laws import ContactLaws
 from macroslip.contact.look_up import REST_SPEED
-from macroslip.contact.patch import Chords, Patch, patch_tractions
+from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
 from macroslip.contact.spline import CHANNELS, Axis, axis, spline_coefficients
 from macroslip.contact.table_store import remembered, stored, table_key
-from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST_PRESSURE, chord_table
+from macroslip.contact.traction import chord_table
 
 #: Distances between nodes of a raceway's traction at the default tolerance, 2e-4: of ln Q + k Q^(1/3), of asinh, and of w^(1/4) for the
 #: fastest speed of the box of 1 m/s.
@@ -80,14 +80,10 @@ def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float, fa
     turns = float(ring_speeds.min()) * float(ring_speeds.max()) <= 0.0
     slowest = 0.0 if turns else float(speeds.min())
     load = 2.0 ** math.ceil(math.log2(1.02 * highest_load + 100.0))
+    # In steps of √2 between a half and 2.
+    steps = min(max(round(2.0 * math.log2((tolerance / 2e-4) ** 0.25)), -2), 2)
     # A roller at rest has w = 1.12 u2; one that still runs forward when the ring runs back 1.41 u2.
-    return Box(load, slowest, round((1.45 if turns else 1.15) * fastest, 12), _fineness(tolerance))
-
-
-def _fineness(tolerance: float) -> float:
-    """Distances between nodes over those at a tolerance of 2e-4, in steps of √2 between a half and 2."""
-    steps = round(2.0 * math.log2((tolerance / 2e-4) ** 0.25))
-    return 2.0 ** (0.5 * min(max(steps, -2), 2))
+    return Box(load, slowest, round((1.45 if turns else 1.15) * fastest, 12), 2.0 ** (0.5 * steps))
 
 
 def larger(box: Box) -> Box:
@@ -116,10 +112,6 @@ class Tables:
         return found
 
 
-def _write_axis(record: np.void, name: str, one: Axis) -> None:
-    record[name] = tuple(one)
-
-
 def write_plane(record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box) -> None:
     """Make a plane over ln Q and ln u and write where it stands.
 
@@ -140,8 +132,7 @@ def write_plane(record: np.void, tables: Tables, values: Callable, lightest: flo
     for channel, one in enumerate(values(*states)):
         nodes[..., channel] = one
     record["start"] = tables.add(spline_coefficients(nodes, 2))
-    _write_axis(record, "load", load)
-    _write_axis(record, "speed", speed)
+    record["load"], record["speed"] = tuple(load), tuple(speed)
 
 
 def film_values(contact: ContactLaws) -> Callable:
@@ -185,29 +176,6 @@ def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
     return values
 
 
-def patch_of(contact: ContactLaws) -> Patch:
-    """Geometry of a contact, its roller's axis tilted to the positive side."""
-    shape, hertz = contact.shape, contact.interface.hertz
-    return Patch(
-        bool(shape.microslip), shape.contour_radius, shape.roller_radius, shape.half_length, shape.curvature_ratio,
-        abs(shape.spin_ratio), hertz.semi_axis_across, hertz.semi_axis_along, hertz.pressure,
-        contact.boundary_friction, contact.full_slip,
-    )  # fmt: skip
-
-
-def chords_for(contact: ContactLaws) -> Chords:
-    """Stress along the chords of a contact's oil, as compiled functions look it up; empty where it has no sheared film."""
-    if contact.fluid is None:
-        return Chords(0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0, (4, 4, 4), np.zeros(64), np.zeros(4))
-    table = chord_table(contact.fluid)
-    fluid = table.fluid
-    return Chords(
-        fluid.rheology, fluid.characteristic, fluid.heating, LOWEST_PRESSURE, HIGHEST_PRESSURE, table.pressure_spacing,
-        table.lowest_film, table.film_spacing, LOWEST_LOG_SLIP, table.slip_spacing, table.coefficients.shape,
-        table.coefficients.ravel(), table.log_viscosities,
-    )  # fmt: skip
-
-
 def tractions(
     contact: ContactLaws, load: np.ndarray, ring_speed: np.ndarray, slip: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -223,11 +191,7 @@ def tractions(
     film = contact.film_thickness(load, entrainment)
     share = contact.asperity_share(load, entrainment, film)
     if contact.fluid is not None:
-        flat = (
-            np.ascontiguousarray(np.broadcast_to(one, load.shape)).ravel()
-            for one in (load, film, share, ring_speed, slip)
-        )
-        found = patch_tractions(patch_of(contact), chords_for(contact), *flat).reshape(*load.shape, 4)
+        found = traction_values(patch_of(contact), chord_table(contact.fluid), load, film, share, ring_speed, slip)
         return found[..., 0], found[..., 1], found[..., 2], found[..., 3]
     rough = contact.boundary_friction * share * load * np.clip(slip / contact.full_slip, -1.0, 1.0)
     none = np.zeros_like(load)
@@ -235,8 +199,6 @@ def tractions(
 
 
 class _Grid(NamedTuple):
-    """Coordinates of a raceway's traction, see `macroslip.contact.look_up`."""
-
     load: Axis
     speed: Axis
     ratio: Axis
@@ -345,7 +307,7 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
     record["start"], record["rising"] = tables.add(made.coefficients), tables.add(made.rising)
     for name in ("load", "speed", "ratio"):
-        _write_axis(record, name, getattr(grid, name))
+        record[name] = tuple(getattr(grid, name))
     record["stretch"], record["middle"], record["scale"] = grid.stretch, grid.middle, grid.scale
     record["side"] = math.copysign(1.0, contact.shape.spin_ratio)
     return made.errors

@@ -96,7 +96,6 @@ def remembered(key: str, make: Callable[[], Made]) -> Made:
 
 
 def _read_only(values: np.ndarray) -> np.ndarray:
-    """An array that nobody changes, in C order."""
     found = np.ascontiguousarray(values)
     found.flags.writeable = False
     return found

@@ -26,7 +26,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-from macroslip.contact.hertz import HertzContact
 from macroslip.contact.spline import axis, spline_coefficients
 from macroslip.contact.table_store import stored, table_key
 from macroslip.errors import InputError
@@ -54,9 +53,6 @@ _HIGHEST_LOG_VISCOSITY = 600.0
 _BARUS_PRESSURE = 1e8
 #: Heat times stress below which heating is a small correction, taken to first order.
 _SMALL = 1e-7
-#: Slip below which a chord is not looked up: its stress is proportional to slip and far below round-off of the rest.
-_NO_SLIP = 1e-30
-
 #: Highest and lowest pressure of the chord table [Pa]; pressures beyond are treated as these.
 HIGHEST_PRESSURE, LOWEST_PRESSURE = 4e9, 10.0
 _THINNEST, _THICKEST, _FASTEST = 2e-8, 4e-4, 5.0
@@ -401,11 +397,12 @@ class ChordTable(NamedTuple):
     """Spline of ln q over p1^¼, the logarithm of film thickness and that of slip over `characteristic_slip`.
 
     Below the first slip a film is Newtonian and cool, and stress is proportional to slip. The spline is twice continuously
-    differentiable. One table serves all contacts of an oil.
+    differentiable. One table serves all contacts of an oil; compiled functions look it up (`macroslip.contact.patch`).
     """
 
     fluid: Fluid
-    coefficients: np.ndarray  #: shape (pressures + 2, films + 2, slips + 2)
+    shape: tuple[int, int, int]  #: Of the coefficients, over pressures, films and slips
+    coefficients: np.ndarray  #: Flat
     log_viscosities: np.ndarray  #: Shape (pressures + 2,). Of the spline of ln η.
     pressure_spacing: float  #: In p1^¼ [Pa^¼]
     #: In the logarithms [-].
@@ -415,8 +412,8 @@ class ChordTable(NamedTuple):
 
 
 @lru_cache(maxsize=16)
-def chord_table(fluid: Fluid) -> ChordTable:
-    """The table of a fluid, made in half a second of CPU time and kept, in memory and on disk.
+def chord_table(fluid: Fluid | None) -> ChordTable:
+    """The table of a fluid, made in half a second of CPU time and kept, in memory and on disk; empty without one.
 
     Notes
     -----
@@ -427,6 +424,9 @@ def chord_table(fluid: Fluid) -> ChordTable:
     cent. With Eyring's law it is 5e-4 at most (3e-5) up to 0.05 m/s, and 2e-3 beyond, for viscosities of 0.05 to 1.5 Pa s.
     The limiting stress itself is never exceeded.
     """
+    if fluid is None:
+        nothing = Fluid(NEWTONIAN, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0)
+        return ChordTable(nothing, (4, 4, 4), np.zeros(64), np.zeros(4), 1.0, 1.0, 1.0, 0.0)
     count, slip_spacing, film_spacing = _GRIDS[fluid.rheology]
     roots = np.linspace(0.0, HIGHEST_PRESSURE**0.25, count)
     films = np.arange(math.log(_THINNEST), math.log(_THICKEST) + film_spacing, film_spacing)
@@ -442,9 +442,11 @@ def chord_table(fluid: Fluid) -> ChordTable:
         return [spline_coefficients(values, 3)]
 
     (coefficients,) = stored(table_key("chord stress", fluid, pressures, slips, films), make)
-    return ChordTable(
-        fluid, coefficients, spline_coefficients(log_eta, 1), float(roots[1]), slip_spacing, film_spacing, float(films[0])
-    )  # fmt: skip
+    log_viscosities, numbers = (
+        spline_coefficients(log_eta, 1),
+        (float(roots[1]), slip_spacing, film_spacing, float(films[0])),
+    )
+    return ChordTable(fluid, coefficients.shape, coefficients.ravel(), log_viscosities, *numbers)
 
 
 def _chord_values(fluid: Fluid, pressure: float, slips: np.ndarray, films: np.ndarray) -> np.ndarray:
@@ -464,65 +466,3 @@ def _chord_values(fluid: Fluid, pressure: float, slips: np.ndarray, films: np.nd
     last = solved.sum(axis=1)[:, None] - 1
     end, before = np.take_along_axis(values, last, axis=1), np.take_along_axis(values, last - 1, axis=1)
     return np.where(solved, values, end + (np.arange(slips.size) - last) * (end - before))
-
-
-def interpolated_stress(table: ChordTable, pressure, film_thickness, slip):
-    """Mean stress q [Pa] along a chord from the table.
-
-    Parameters
-    ----------
-    table : ChordTable
-    pressure, film_thickness, slip : array_like
-        p1 [Pa], h [m] and |Δu| [m/s], > 0. Outside the table heating is that of its thinnest or thickest film.
-    """
-    fluid, shape = table.fluid, table.coefficients.shape
-    states = np.broadcast_arrays(pressure, film_thickness, slip)
-    pressure, film_thickness, slip = (one.ravel() for one in states)
-    pressure = np.clip(pressure, LOWEST_PRESSURE, HIGHEST_PRESSURE)
-    # A spline has one coefficient before its first node.
-    x = np.sqrt(np.sqrt(pressure)) / table.pressure_spacing + 1.0
-    z = np.clip((np.log(film_thickness) - table.lowest_film) / table.film_spacing, 0.0, shape[1] - 3.0) + 1.0
-    log_eta = map_coordinates(table.log_viscosities, [np.minimum(x, shape[0] - 2.0)], order=3, prefilter=False)
-    log_slip = np.log(slip / characteristic_slip(fluid, log_eta, pressure, film_thickness))
-    y = (log_slip - LOWEST_LOG_SLIP) / table.slip_spacing
-    places = [x, z, np.clip(y, 0.0, shape[2] - 3.0) + 1.0]
-    value = map_coordinates(table.coefficients, places, order=3, prefilter=False)
-    value = value + np.minimum(y, 0.0) * table.slip_spacing
-    if fluid.rheology == NEWTONIAN:
-        stress = np.exp(value + 0.5 * log_eta) * characteristic_slip(fluid, 0.0, pressure, 1.0) / film_thickness
-    else:
-        stress = characteristic_stress(fluid, pressure) * np.exp(value)
-    if fluid.rheology == LIMITING_SHEAR:
-        # A spline overshoots where limited stress turns into falling; the limit itself, γ p1 ∫cos²θ dθ, holds all the same.
-        stress = np.minimum(stress, 0.25 * math.pi * fluid.characteristic * pressure)
-    return stress.reshape(states[0].shape)[()]
-
-
-#: sin φ and weights of ∫ cos²φ f(cos φ) dφ over −π/2 to π/2, by Gauss-Chebyshev quadrature of the second kind.
-_ANGLES = np.pi * np.arange(1, 11) / 11.0
-_HEIGHTS, _CHORD_WEIGHTS = np.sin(_ANGLES), np.pi / 11.0 * np.sin(_ANGLES) ** 2
-
-
-def film_traction(table: ChordTable, hertz: HertzContact, load, film_thickness, slip):
-    """Force of a film over the whole contact ellipse, slip being the same all over [N].
-
-    Parameters
-    ----------
-    table : ChordTable
-    hertz : HertzContact
-    load : array_like
-        Q > 0 [N].
-    film_thickness : array_like
-        h > 0 [m].
-    slip : array_like
-        Δu [m/s]; the force has its sign.
-    """
-    load, film, slip = np.broadcast_arrays(load, film_thickness, slip)
-    root = np.cbrt(load)
-    pressure, speed = hertz.pressure * root, np.maximum(np.abs(slip), _NO_SLIP)
-    # The ellipse is symmetrical.
-    total = sum(
-        2.0 * weight * interpolated_stress(table, pressure * height, film, speed)
-        for height, weight in zip(_HEIGHTS[:5], _CHORD_WEIGHTS[:5], strict=True)
-    )
-    return 2.0 * hertz.semi_axis_across * hertz.semi_axis_along * root * root * total * np.sign(slip)

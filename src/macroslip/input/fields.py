@@ -85,33 +85,18 @@ class Form:
 
 @dataclass(frozen=True)
 class Quantity(Form):
-    """A number with its unit, within a range; or one of a few words, which read as None.
+    """A number with its unit, within a range; or one of a few words, which read as None."""
 
-    Parameters
-    ----------
-    about : str
-        Meaning of the value.
-    dimension : Dimension
-        Its units; NUMBER: a plain number.
-    lowest, highest : float or callable
-        Range [SI]; a callable computes an end from the values of the fields before, by their names.
-    above, below : bool
-        Whether the lowest and the highest value itself are excluded.
-    words : tuple of str
-        Words that a file may have instead.
-    whole : bool
-        Whether it is a whole number.
-    note, remedy : str
-        Words added to the range, and advice for a value outside.
-    """
-
-    dimension: Dimension = NUMBER
+    dimension: Dimension = NUMBER  #: Its units; NUMBER: a plain number
+    #: Range [SI]; a callable computes an end from the values of the fields before, by their names.
     lowest: float = -math.inf
     highest: float | Callable[[Mapping[str, float]], float] = math.inf
+    #: Whether the lowest and the highest value itself are excluded.
     above: bool = False
     below: bool = False
-    words: tuple[str, ...] = ()
-    whole: bool = False
+    words: tuple[str, ...] = ()  #: Words that a file may have instead
+    whole: bool = False  #: Whether it is a whole number
+    #: Words added to the range, and advice for a value outside.
     note: str = ""
     remedy: str = ""
 

@@ -196,7 +196,6 @@ def _lines(mapping: CommentedMap, outer: tuple[object, ...] = ()) -> Iterator[tu
 
 
 def _plain(value: Any) -> Any:
-    """Strip the parser's own types, which remember how they were written."""
     if isinstance(value, CommentedMap):
         return {key: _plain(entry) for key, entry in value.items()}
     if isinstance(value, CommentedSeq):

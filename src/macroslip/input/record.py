@@ -40,27 +40,14 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a value comes from, and how it was written.
+    """Where a value comes from, and how it was written."""
 
-    Parameters
-    ----------
-    value : float
-        Number as written [unit].
-    unit : str
-        Unit as written.
-    tag : str
-        One of `TAGS`.
-    note : str
-        Free text.
-    range : tuple[float, float] | None
-        Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
-        nothing is known of its scatter.
-    """
-
-    value: float
-    unit: str
-    tag: str = "U"
-    note: str = ""
+    value: float  #: Number as written [unit]
+    unit: str  #: Unit as written
+    tag: str = "U"  #: One of `TAGS`
+    note: str = ""  #: Free text
+    #: Values that the quantity may have as well, lowest and highest [unit]: four out of five lie between them. None if
+    #: nothing is known of its scatter.
     range: tuple[float, float] | None = None
 
     def as_entry(self) -> dict[str, Any]:
@@ -78,8 +65,6 @@ class Provenance:
 
 @dataclass(frozen=True)
 class _Number(Form):
-    """The number of an entry as it is written."""
-
     form = "a finite number, without its unit"
     whole: bool = False
 
@@ -94,8 +79,6 @@ class _Number(Form):
 
 @dataclass(frozen=True)
 class _Range(Form):
-    """The range of an entry."""
-
     form = "two numbers in the unit of the value, [lowest, highest], with the value between them"
 
     def read(self, value: Any, given: Given) -> tuple[float, float]:
@@ -209,7 +192,6 @@ class Record:
         source: Source,
         derived: frozenset[str] = frozenset(),
     ) -> None:
-        """Check SI values and fill the record; a quantity without provenance is the user's, in SI."""
         fields, kinds = fields_of(type(self)), dimensions(type(self))
         units = {key: kinds[key].si_unit for key in values if key in kinds}
         written = {key: (with_unit(values[key], unit), unit) for key, unit in units.items()}
@@ -229,7 +211,6 @@ class Record:
             raise together(problems)
 
     def _wide_ranges(self, source: Source) -> Iterator[InputError]:
-        """Yield ranges of values that go beyond the range of the quantity."""
         for key, origin in self._provenance:
             quantity = quantities(type(self))[key]
             for limit in origin.range or ():

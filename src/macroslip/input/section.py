@@ -35,8 +35,6 @@ class Field(NamedTuple):
 
 
 class _Section(NamedTuple):
-    """Fields and texts of a section class."""
-
     about: str
     fields: Fields
     in_file: Fields
@@ -108,7 +106,6 @@ def _fields(kind: type) -> Fields:
 
 
 def _kinds(annotation: Any) -> tuple[Any, ...]:
-    """The alternatives of an annotation."""
     kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
     return get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
 
@@ -140,7 +137,6 @@ def grouped(fields: Fields, groups: Mapping[str, tuple[str, tuple[str, ...]]]) -
 
 
 def _fill(made: Any, values: Mapping[str, Any], given: Given) -> None:
-    """Check the values of a section, and fill it."""
     known = _SECTIONS[type(made)]
     found, problems = read_keys(known.in_file if given.in_file else known.fields, values, given, known.gone)
     if problems:

@@ -81,7 +81,6 @@ def read_bladed(path: Path, *, speed_needed: bool = True) -> dict:
 
 
 def _groups(path: Path) -> list[_Group]:
-    """Groups with a time axis beside `path`."""
     stem = path.name[: -len(path.suffix)]
     headers = sorted(
         one

@@ -218,7 +218,6 @@ def _binary_size(path: Path) -> int:
 
 
 def _read_text(path: Path) -> tuple[list[str], list[str], NDArray]:
-    """Names, units and columns of all channels, the time among them."""
     content = path.read_bytes()
     if b"\0" in content[:1024]:
         raise InputError("not a text file", where=str(path), remedy="Name binary output .outb.")

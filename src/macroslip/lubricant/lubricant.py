@@ -134,7 +134,6 @@ class Lubricant(Record):
         source: Source,
         derived: frozenset[str] = frozenset(),
     ) -> None:
-        """Add values that follow from the figures of a data sheet, if these are positive numbers; then check all."""
         usable = {key: float(value) for key, value in values.items() if is_finite_number(value) and value > 0}
         try:
             found = derive(usable, provenance)

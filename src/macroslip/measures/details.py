@@ -24,8 +24,8 @@ import numpy as np
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.flash import flash_temperature, transient_flash
 from macroslip.contact.look_up import log_load, log_speed
-from macroslip.contact.patch import Chords, Patch, chord_stress_at, film_node, fine_power, patch_power
-from macroslip.contact.table import chords_for, patch_of
+from macroslip.contact.patch import Patch, chord_stress_at, film_node, fine_power, patch_of, patch_power
+from macroslip.contact.traction import ChordTable, chord_table
 from macroslip.measures.totals import END, RACEWAYS, Batch, loaded_contacts, orbit_at, write_end
 from macroslip.ring.orbit import angle_at
 from macroslip.roller.forces import LOWEST_SPEED, cage_traction
@@ -143,7 +143,7 @@ class Contact(NamedTuple):
     """A contact, as the functions below take it: its geometry, its oil's chords, whether these serve, and effusivity of steel."""
 
     patch: Patch
-    chords: Chords
+    chords: ChordTable
     chorded: bool
     roughness: float
     effusivity: float
@@ -155,7 +155,7 @@ def prepare(laws: RollerLaws) -> tuple[Contact, Contact, Contact]:
     def contact(one: ContactLaws) -> Contact:
         # Tables are made for one side; here the row's own tilt counts.
         patch = patch_of(one)._replace(spin_ratio=one.shape.spin_ratio)
-        return Contact(patch, chords_for(one), one.fluid is not None, one.interface.roughness, one.effusivity)
+        return Contact(patch, chord_table(one.fluid), one.fluid is not None, one.interface.roughness, one.effusivity)
 
     return contact(laws.inner), contact(laws.outer), contact(laws.cage)
 

@@ -181,14 +181,12 @@ class _History(NamedTuple):
 
 
 def _variable(values: object, units: str, long_name: str, *dims: str) -> tuple:
-    """A variable of a dataset, with its unit and name."""
     return dims, values, {"units": units, "long_name": long_name}
 
 
 def _history(
     bearing: Bearing, lubricant: Lubricant, loads: BearingLoads, roller_load: NDArray[np.float64], contamination: float
 ) -> _History:
-    """Check the input of `rate` and prepare what its parts share."""
     keys = ("dynamic_load_rating", "static_load_rating", "axial_factor_e", "axial_factor_y1", "axial_factor_y2",
             "axial_factor_y0")  # fmt: skip
     bearing.require(*keys, purpose="the rating")

@@ -122,7 +122,6 @@ class Macroslip:
         return damage(self._result)
 
     def _rows(self) -> list[list[str]]:
-        """Of each row its name, mean energy of a roller, lowest spin over pure rolling, and how many rollers failed."""
         return [
             [one["name"], number(one["energy"]), number(one["spin"], 3), f"{one['failed']} of {one['rollers']}"]
             for one in row_numbers(self._result)
@@ -160,7 +159,6 @@ class Plot:
         return axes
 
     def _row(self, row: str | None, first: str = "downwind") -> str:
-        """The row that is drawn: the one asked for, or `first` where the bearing has two."""
         return row or (first if first in self._result.row else str(self._result.row[0].item()))
 
     def energy(self, *, axes: Axes | None = None) -> Axes:

@@ -76,7 +76,6 @@ def _inner_raceway(bearing: Bearing, place: NDArray[np.float64]) -> NDArray[np.f
 
 
 def _roller(bearing: Bearing, side: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Outline of a roller: place along the shaft and distance from the axis [mm]."""
     contour, half = geometry.roller_contour_radius(bearing), 0.5 * bearing.roller_length
     along = np.linspace(-half, half, 101)
     radius = geometry.roller_radius(bearing) - contour + np.sqrt(contour**2 - along**2)

@@ -75,7 +75,6 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
 
 
 def _round(axes: PolarAxes, zero: str, quarters: Sequence[str], title: str) -> PolarAxes:
-    """Name the quarters of polar axes that look downwind, with the radial scale between two of them."""
     axes.set_theta_zero_location(zero)
     axes.set_theta_direction(-1)
     axes.set_xticks(np.radians(_QUARTERS[:4]), quarters)
@@ -450,7 +449,6 @@ def _values_above(axes: Axes, x: np.ndarray, y: np.ndarray, labels: Sequence[str
 def _heat_map(
     axes: Axes, values: np.ndarray, extent: tuple[float, ...], label: str, *, least: float, difference: bool = False
 ) -> None:
-    """Values from zero to the largest as colours, with a scale beside them; those of a difference to either side of zero."""
     most = max(float(np.nanmax(abs(values), initial=0.0)), least)
     image = axes.imshow(
         values,

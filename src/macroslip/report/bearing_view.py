@@ -115,6 +115,5 @@ def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
 
 
 def _opening(scene: xr.Dataset) -> int:
-    """Sample at which the view opens: a little before the largest power."""
     power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(axis=(0, 1))
     return max(0, int(np.argmax(power)) - power.size // 60)

@@ -124,7 +124,6 @@ def _leaves(value: Any, key: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list[str]:
-    """What restricts a comparison of results."""
     if not differ:
         return ["The results differ in nothing: they were computed from the same input."]
     apart = [what for start, what in _NOT_DESIGN.items() if any(key.startswith(start) for key in differ)]
@@ -146,7 +145,6 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
 
 
 def _numbers(result: xr.Dataset) -> dict[tuple[str, str], float]:
-    """Headline numbers of a result by quantity and unit."""
     hours = (result.attrs["window_end"] - result.attrs["window_start"]) / 3600.0
     energy = result.energy.sum("interface", skipna=False).mean("roller", skipna=False) / hours
     found = {(ENERGY, "J/h"): float(energy.sum(skipna=False))}
@@ -181,7 +179,6 @@ def _pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray | None:
 
 
 def _range(pieces: np.ndarray, of: float) -> float:
-    """Half of the 95 % range of the mean of differences, in per cent of a value."""
     from scipy.stats import t
 
     error = pieces.std(ddof=1) / np.sqrt(pieces.size)
@@ -235,7 +232,6 @@ def compare_designs(
 
 
 def _alike(parts: Mapping[str, xr.Dataset]) -> str:
-    """Names of designs whose runs have the same input; empty where there are none."""
     found: dict[frozenset[str], list[str]] = {}
     for name, part in parts.items():
         if "key" in part.coords and all(part.key.values.astype(str)):
@@ -244,7 +240,6 @@ def _alike(parts: Mapping[str, xr.Dataset]) -> str:
 
 
 def _year_numbers(one: xr.Dataset) -> dict[tuple[str, str], float]:
-    """Headline numbers of a year of one design by quantity and unit."""
     line = designs(one)[0].iloc[0]
     found = {(about, units): float(line[name]) for name, (_, units, about) in CRITERIA.items() if name in line}
     found = {(ENERGY, "J/year"): np.nan} | found
@@ -291,7 +286,6 @@ def _frame(values: Mapping[str, Mapping[tuple[str, str], float]], ranges: Mappin
 
 
 def _ranking(frame: pd.DataFrame) -> str:
-    """Which design dissipates least, or that the difference is smaller than what is not known."""
     lines = [dict(zip(frame.columns, line, strict=True)) for line in frame.itertuples(index=False)]
     lines = [one for one in lines if one["quantity"] == ENERGY]
     unknown = [one["design"] for one in lines if not np.isfinite(one["value"])]

@@ -73,7 +73,6 @@ def _maps(results: Mapping[str, xr.Dataset]) -> list[Picture]:
 
 
 def _plot_exceeded(axes: Axes, curves: Mapping[str, np.ndarray], label: str) -> Axes:
-    """Share of orbits above a value, of every design."""
     for k, (name, values) in enumerate(curves.items()):
         share = 100.0 * (np.arange(values.size) + 1.0) / values.size
         axes.plot(values, share, label=name, color=f"C{k % 10}", linestyle=("-", "--", ":", "-.")[k % 4])

@@ -135,7 +135,6 @@ def number(value: Any, digits: int = 4) -> str:
 
 
 def _as_json(value: Any) -> Markup:
-    """JSON that cannot end the HTML element around it."""
     from markupsafe import Markup
 
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)

@@ -90,7 +90,6 @@ def _input_tables(given: Mapping[str, Mapping[str, Any]], part: str) -> list[Tab
 
 
 def _entry(key: str, entry: Any) -> tuple[str, str, str, str]:
-    """A value of a bearing or lubricant with its origin."""
     if not isinstance(entry, dict):
         return key, str(entry), "", ""
     tag = str(entry.get("tag", ""))

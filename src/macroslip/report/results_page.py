@@ -80,7 +80,6 @@ def results_page(results: Mapping[str, xr.Dataset], *, title: str = "Slip of the
 
 
 def _check(name: str, dataset: xr.Dataset) -> None:
-    """Refuse a dataset that is no result."""
     missing = [one for one in ("energy", "status") if one not in dataset]
     missing += [one for one in ("row", "roller", "interface") if one not in dataset.dims]
     if missing:
@@ -89,7 +88,6 @@ def _check(name: str, dataset: xr.Dataset) -> None:
 
 
 def _subtitle(result: xr.Dataset) -> str:
-    """Bearing, loads, model, oil and window."""
     parts = [str(result.attrs.get("title", "")).rstrip(".")]
     if "window_end" in result.attrs:
         parts.append(f"{float(result.attrs['window_start']):.4g} s to {float(result.attrs['window_end']):.4g} s")
@@ -126,12 +124,10 @@ def result_opening(result: xr.Dataset, profile: Profile | None, no_traces: str =
 
 
 def _bars(plot: Callable[..., object], about: str, values: xr.DataArray, **options: Any) -> list[Picture]:
-    """A picture of values, or none where all are zero."""
     return [picture(plot, about, values, **options)] if np.nanmax(values.values, initial=0.0) > 0.0 else []
 
 
 def _sentences(result: xr.Dataset, *, short: bool) -> Markup:
-    """The main numbers of a result in sentences, or in one."""
     seconds = None
     if "window_end" in result.attrs:
         seconds = float(result.attrs["window_end"]) - float(result.attrs["window_start"])
@@ -231,7 +227,6 @@ def roller_sections(
 def _further_sections(
     result: xr.Dataset, results: Mapping[str, xr.Dataset], *, suffix: str, group: str
 ) -> list[Section]:
-    """Sections on surfaces, rating and coupled motion, where the result has them."""
     text, bodies = words(_TEMPLATE), {}
     if "surface_energy" in result:
         bodies["surface"] = _surface(result)
@@ -259,7 +254,6 @@ def _surface(result: xr.Dataset) -> Markup:
 
 
 def _damage(result: xr.Dataset) -> Markup:
-    """All criteria with what each is compared with, side by side, and the worn profiles."""
     found, missing = lines(result)
     shown = []
     if found:

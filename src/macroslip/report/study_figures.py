@@ -45,7 +45,6 @@ def _curves(values: xr.DataArray, shown: Sequence[int]) -> Iterator[tuple[xr.Dat
 
 
 def _rows(values: xr.DataArray, shown: Sequence[int]) -> str:
-    """Which line is which row, where colours are designs."""
     return "lines downwind, dashes upwind" if len(shown) > 1 and values.sizes["row"] > 1 else ""
 
 

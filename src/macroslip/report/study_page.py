@@ -163,7 +163,6 @@ def _without_folders(study: str) -> str:
 
 
 def _subtitle(study: xr.Dataset, title: str) -> str:
-    """Title of the study, if the page has another, and its numbers of runs, loads and parameters."""
     values = {name: np.unique(study[name].values) for name in _SEVERAL}
     parts = [f"{one.size} {_SEVERAL[name]}" if one.size > 1 else f"{name} {one[0]}" for name, one in values.items()]
     own = f"{study.attrs['title']}: " if study.attrs["title"] not in ("", title) else ""
@@ -171,7 +170,6 @@ def _subtitle(study: xr.Dataset, title: str) -> str:
 
 
 def _counts(study: xr.Dataset) -> dict[str, int]:
-    """How many runs ended how."""
     counts = {one: int((study.outcome.values == str(one)).sum()) for one in Outcome}
     return {
         "runs": study.sizes["case"],
@@ -182,7 +180,6 @@ def _counts(study: xr.Dataset) -> dict[str, int]:
 
 
 def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> str:
-    """Sentences that rank the designs of a study; empty for one design, or where they cannot be weighted."""
     try:
         return compare_designs(study, None, wind).attrs["ranking"]
     except InputError:
@@ -190,7 +187,6 @@ def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> str:
 
 
 def _first(ranking: str) -> str:
-    """The first of its sentences."""
     head, _, _ = ranking.partition(". ")
     return f"{head.rstrip('.')}." if head else ""
 
@@ -201,7 +197,6 @@ def _shown(name: str, value: float) -> str:
 
 
 def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
-    """Designs with their criteria, the least energy first."""
     columns = [name for name in _SHOWN if name in table]
     rows = [
         (
@@ -259,7 +254,6 @@ def situation(found: xr.Dataset, place: int) -> str:
 
 
 def _year(found: xr.Dataset, names: list[str]) -> Table:
-    """Hours, energies, powers, entries and wear of every bin of a year, design by design."""
     rows = []
     more = {
         "entries": ("entries under slip", 1.0),
@@ -306,7 +300,6 @@ def run_names(study: xr.Dataset) -> list[str]:
 
 
 def _extremes(study: xr.Dataset) -> dict[str, dict[str, Any]]:
-    """Row, run and value of the most extreme values of the summary."""
     names, found = run_names(study), {}
     for name in _EXTREMES:
         values = -study[name] if name == "lowest_spin_ratio" else study[name]
@@ -318,7 +311,6 @@ def _extremes(study: xr.Dataset) -> dict[str, dict[str, Any]]:
 
 
 def _plot_extremes(axes: Axes, study: xr.Dataset, order: list[int], name: str, label: str) -> Axes:
-    """The runs with the most extreme values, in the order of the study, with the numbers of their designs."""
     values = study[name].transpose("case", "row").values
     extreme = (-study[name].min("row") if name == "lowest_spin_ratio" else study[name].max("row")).values
     shown = np.sort(np.argsort(-np.nan_to_num(extreme, nan=-np.inf), kind="stable")[:_MOST_NAMES])
@@ -333,7 +325,6 @@ def _plot_extremes(axes: Axes, study: xr.Dataset, order: list[int], name: str, l
 
 
 def _surface(study: xr.Dataset, weights: Weights, years: float, bins: dict[str, Any]) -> Markup | str:
-    """Maps over a lifetime, weighted by wind speed, of the first design; nothing where the cases have none."""
     if "surface_energy" not in study:
         return ""
     text = words(_TEMPLATE)

@@ -212,7 +212,6 @@ def _share_scales(panels: Sequence[Axes]) -> None:
 
 
 def _svg(figure: Figure, axes: Axes, legend: str) -> str:
-    """The figure as a data URI, with a legend."""
     import matplotlib
 
     handles, labels = axes.get_legend_handles_labels()

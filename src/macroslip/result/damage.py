@@ -260,7 +260,6 @@ class _Rates:
 
 
 def _films(result: xr.Dataset) -> dict[str, Any]:
-    """Shares of loaded time and of passes in thin films, and with the ring the slower surface."""
     dims, found = ("row", "raceway"), {}
     for kind in ("time", "passes"):
         amounts = result[f"film_slip_{kind}"].transpose(*dims, "film_class", "slip_class").values
@@ -382,7 +381,6 @@ def _slip_profile(shape: Any, place: np.ndarray, pressed: np.ndarray, work: np.n
 
 
 def _answer(values: dict[str, float], own: Mapping[str, Threshold]) -> dict[str, Any]:
-    """Value, factor, reference and ratio of every criterion."""
     value = np.array([values.get(one.name, math.nan) for one in CRITERIA])
     reference = np.array([own[one.name].value if one.name in own else one.reference for one in CRITERIA])
     lowest = np.array([one.lowest for one in CRITERIA])

@@ -172,7 +172,6 @@ def status_flags() -> dict[str, Any]:
 
 
 def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict[str, Any]:
-    """Attributes of a result: its window [s], the full input, the version and the works cited, `method` last."""
     case = ready.case
     # What a reader of the result needs to make the same contacts.
     supplied = {"oil_gap": case.oil.oil_gap} if case.laws.asks_for_oil else {}
@@ -216,8 +215,6 @@ def _gathered(table: list[list[Measured]], name: str, of: str = "totals") -> np.
 
 
 def _window_values(table: list[list[Measured]]) -> dict[str, np.ndarray]:
-    """Energies, powers and shares of time in the window, and counts of the integrator, also of rollers that failed."""
-
     def outcome(name: str) -> np.ndarray:
         return np.array([[getattr(one.outcome, name) for one in line] for line in table])
 
@@ -247,7 +244,6 @@ def _window_values(table: list[list[Measured]]) -> dict[str, np.ndarray]:
 
 
 def _contact_details(table: list[list[Measured]]) -> dict[str, np.ndarray]:
-    """Where on contacts with microslip or asperities energy goes, how hot and how densely."""
     names = ("extreme", "entry_extreme", "quadrature", "station_energy", "entries")
     extreme, entry, quadrature, stations, entries = (_gathered(table, name, "details") for name in names)
     extreme[np.isinf(extreme)] = np.nan
@@ -267,7 +263,6 @@ def _contact_details(table: list[list[Measured]]) -> dict[str, np.ndarray]:
 
 
 def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: CageMeasures) -> dict[str, Any]:
-    """Pockets, cages, and books of angular momentum and energy, as variables."""
     data: dict[str, Any] = {}
     numbers, count = list(case.roller_numbers), case.bearing.rollers_per_row
 
@@ -335,7 +330,6 @@ def _cage_variables(case: Case, bearing: WholeBearing, outcome: Outcome, cages: 
 
 
 def _positions() -> tuple[str, np.ndarray, dict[str, str]]:
-    """Places on the orbit, 5° each."""
     places = np.radians(2.5 + 5.0 * np.arange(72))
     return "position", places, {"units": "rad", "long_name": "place on the orbit, from +X0"}
 

@@ -127,7 +127,6 @@ def prepare(case: Case) -> Prepared:
 
 
 def _orbit_edges(case: Case, motion: Motion, orbit_ratio: float, end: float) -> np.ndarray:
-    """Start of the window and the ends of the complete orbits in it [s]."""
     times = orbit_times(motion.time, motion.shaft_speed, orbit_ratio)
     if case.window.start is None:
         if case.loads.event:  # what happens in the first orbit belongs to it

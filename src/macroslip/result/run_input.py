@@ -69,7 +69,6 @@ def stored_settings(result: xr.Dataset) -> dict[str, Any]:
 
 @contextmanager
 def _complete() -> Iterator[None]:
-    """Refuse an input that lacks something."""
     try:
         yield
     except InputError:

@@ -142,7 +142,6 @@ def _finished(pending: set, progress: Callable | None, done: int, total: int):
 
 
 def _problem(ready: Prepared, roller: Roller) -> Problem:
-    """Numbers common to all rollers of a row."""
     integrator, motion = ready.case.integrator, ready.motion
     if isinstance(integrator, Radau):
         limits = radau_limits(
@@ -160,7 +159,6 @@ def _problem(ready: Prepared, roller: Roller) -> Problem:
 
 
 def _roller(problem: Problem, row: Row, start_angle: float, stop: threading.Event) -> Measured:
-    """Integrate and measure one roller."""
     outcome, measures = Outcome(), RollerMeasures(row, start_angle)
     for steps in steps_of(problem, start_angle, outcome):
         if stop.is_set():
@@ -199,7 +197,6 @@ def _whole_bearing(
 
 
 def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
-    """Integrate and measure the whole bearing."""
     case, motion = ready.case, ready.motion
     assembly, report = assembled(bearing, ready.box)
     count, names = case.bearing.rollers_per_row, row_names(case.bearing)

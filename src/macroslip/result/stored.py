@@ -60,7 +60,6 @@ def check_result(result: xr.Dataset, where: str) -> None:
 
 
 def _names(result: xr.Dataset) -> str:
-    """Names that are missing."""
     missing = [name for name in ("energy", "status") if name not in result.data_vars]
     missing += [name for name in ("row", "roller", "interface") if name not in result.dims]
     if "time" in result.dims:
@@ -70,7 +69,6 @@ def _names(result: xr.Dataset) -> str:
 
 
 def _kinds(result: xr.Dataset) -> str:
-    """Variables that are no numbers, or have wrong dimensions."""
     for name, (expected, _, _) in VARIABLES.items():
         if name not in result:
             continue
@@ -91,7 +89,6 @@ def _is_finite(value: Any) -> bool:
 
 
 def _labels(result: xr.Dataset) -> str:
-    """Coordinates with other labels than they can have."""
     for name, known in (("row", tuple(AXIAL_SIGNS)), ("interface", INTERFACES)):
         found = result[name].values.tolist()
         if not found or len(set(found)) != len(found) or not set(found) <= set(known):
@@ -106,7 +103,6 @@ def _labels(result: xr.Dataset) -> str:
 
 
 def _values(result: xr.Dataset) -> str:
-    """Outcomes that do not exist, and energies that no roller has."""
     status = result.status.values
     if not np.isin(status, [int(one) for one in Status]).all():
         return "status holds numbers without a meaning"
@@ -117,7 +113,6 @@ def _values(result: xr.Dataset) -> str:
 
 
 def _input(result: xr.Dataset) -> str:
-    """An input that cannot be read."""
     try:
         good = isinstance(json.loads(result.attrs.get("input", "{}")), dict)
     except (TypeError, ValueError, RecursionError):

@@ -26,33 +26,17 @@ _LONGEST_PUSH = 1e3
 
 
 class RingGeometry(NamedTuple):
-    """Geometry and stiffness of a bearing, for the balance.
+    """Geometry and stiffness of a bearing, for the balance."""
 
-    Attributes
-    ----------
-    cosine, sine : ndarray, shape (n,)
-        cos φ and sin φ of every roller of both rows at shaft angle zero.
-    axial : ndarray, shape (n,)
-        s sin α of every roller.
-    cos_contact_angle : float
-        cos α.
-    radial_play : float
-        Half the diametral clearance [m].
-    stiffness : float
-        K [N/m^1.5].
-    orbit_ratio : float
-        Ω/Ω_in [-].
-    second_x, second_y, third_x, third_y : float
-        c2 cos 2ψ, c2 sin 2ψ, c3 cos 3ψ and c3 sin 3ψ of the clearance's waves [m].
-    """
-
+    #: Shape (n,). cos φ and sin φ of every roller of both rows at shaft angle zero.
     cosine: np.ndarray
     sine: np.ndarray
-    axial: np.ndarray
-    cos_contact_angle: float
-    radial_play: float
-    stiffness: float
-    orbit_ratio: float
+    axial: np.ndarray  #: Shape (n,). s sin α of every roller
+    cos_contact_angle: float  #: cos α
+    radial_play: float  #: Half the diametral clearance [m]
+    stiffness: float  #: K [N/m^1.5]
+    orbit_ratio: float  #: Ω/Ω_in [-]
+    #: c2 cos 2ψ, c2 sin 2ψ, c3 cos 3ψ and c3 sin 3ψ of the clearance's waves [m].
     second_x: float = 0.0
     second_y: float = 0.0
     third_x: float = 0.0

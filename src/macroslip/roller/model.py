@@ -64,53 +64,28 @@ BODY = np.dtype(
 
 @dataclass(frozen=True)
 class RollerModel:
-    """One roller on its imposed orbit.
+    """One roller on its imposed orbit."""
 
-    Attributes
-    ----------
-    radius : float
-        r [m].
-    mobility : float
-        r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force.
-    stiffness : float
-        K of inner and outer contact in series [N/m^1.5].
-    cos_contact_angle, sin_contact_angle : float
-        Of the contact angle α [-]; the sine carries the row's axial sign s.
-    radial_play : float
-        Half the diametral clearance [m].
-    orbit_ratio : float
-        Ω/Ω_in = r~_in/(r~_in + r~_out) [-].
-    outer_radius : float
-        r~_out [m].
-    weight_in_plane, weight_along_axis : float
-        Roller weight's part in the bearing plane (along −Y0) and along +Z0 [N].
-    centrifugal : float
-        m r~ [kg m]; times Ω² gives the centrifugal force (18).
-    drag : float
-        ½ C_D ρ_eff 2 r l r~² [N s²]; times Ω² gives the drag (24).
-    second_x, second_y, third_x, third_y : float
-        Waves of the clearance, as in `macroslip.ring.balance.RingGeometry` [m].
-    laws : RollerLaws
-        Of the three contacts.
-    """
-
-    radius: float
-    mobility: float
-    stiffness: float
+    radius: float  #: r [m]
+    mobility: float  #: r²/I_z' [1/kg], acceleration of the contact's surface speed per tangential force
+    stiffness: float  #: K of inner and outer contact in series [N/m^1.5]
+    #: Of the contact angle α [-]; the sine carries the row's axial sign s.
     cos_contact_angle: float
     sin_contact_angle: float
-    radial_play: float
-    orbit_ratio: float
-    outer_radius: float
+    radial_play: float  #: Half the diametral clearance [m]
+    orbit_ratio: float  #: Ω/Ω_in = r~_in/(r~_in + r~_out) [-]
+    outer_radius: float  #: r~_out [m]
+    #: Roller weight's part in the bearing plane (along −Y0) and along +Z0 [N].
     weight_in_plane: float
     weight_along_axis: float
-    centrifugal: float
-    drag: float
+    centrifugal: float  #: m r~ [kg m]; times Ω² gives the centrifugal force (18)
+    drag: float  #: ½ C_D ρ_eff 2 r l r~² [N s²]; times Ω² gives the drag (24)
+    #: Waves of the clearance, as in `macroslip.ring.balance.RingGeometry` [m].
     second_x: float
     second_y: float
     third_x: float
     third_y: float
-    laws: RollerLaws
+    laws: RollerLaws  #: Of the three contacts
 
     @property
     def curved(self) -> bool:
@@ -277,7 +252,6 @@ def _write_contact(
 
 
 def _write_numbers(body: np.void, model: RollerModel, box: Box) -> None:
-    """Write what differs between rows, and numbers of the whole roller."""
     for name in _NUMBERS:
         body[name] = getattr(model, name)
     laws = model.laws

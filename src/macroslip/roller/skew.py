@@ -42,41 +42,24 @@ _ANGLES = np.concatenate([-_ANGLES[:0:-1], _ANGLES])
 
 
 class Equilibrium(NamedTuple):
-    """A roller in equilibrium but for the moment about the contact normal; arrays of one shape.
+    """A roller in equilibrium but for the moment about the contact normal; arrays of one shape."""
 
-    Attributes
-    ----------
-    slip : ndarray
-        Δu at the middle of the roller [m/s]; NaN where none was found.
-    tractions : ndarray, shape (2, ...)
-        Tractions of the raceways along z' [N].
-    tilt, shift : ndarray
-        θ [rad], positive about +x, and δ of the roller's middle along z' [m].
-    moment : ndarray
-        Net moment about +y' [N m], tractions and pressure of both raceways; positive turns the roller to positive skew.
-    moments : ndarray, shape (..., 2)
-        The same by raceway.
-    power, asperity_power : ndarray, shape (..., 2)
-        Frictional power of the raceways, and the asperities' part of it [W].
-    axial : ndarray
-        Axial force on the inner ring along z' [N], of friction and of the turned normal force.
-    push : ndarray
-        Force of the raceways on the roller along +x [N], of tractions and rolling resistance; a spar bears it, with weight and drag.
-    unbalanced : ndarray
-        Spin moment left over radius and load [-].
-    """
-
-    slip: np.ndarray
-    tractions: np.ndarray
+    slip: np.ndarray  #: Δu at the middle of the roller [m/s]; NaN where none was found
+    tractions: np.ndarray  #: Shape (2, ...). Tractions of the raceways along z' [N]
+    #: θ [rad], positive about +x, and δ of the roller's middle along z' [m].
     tilt: np.ndarray
     shift: np.ndarray
+    #: Net moment about +y' [N m], tractions and pressure of both raceways; positive turns the roller to positive skew.
     moment: np.ndarray
-    moments: np.ndarray
+    moments: np.ndarray  #: Shape (..., 2). The same by raceway
+    #: Shape (..., 2). Frictional power of the raceways, and the asperities' part of it [W].
     power: np.ndarray
     asperity_power: np.ndarray
-    axial: np.ndarray
+    axial: np.ndarray  #: Axial force on the inner ring along z' [N], of friction and of the turned normal force
+    #: Force of the raceways on the roller along +x [N], of tractions and rolling resistance; a spar bears it, with
+    #: weight and drag.
     push: np.ndarray
-    unbalanced: np.ndarray
+    unbalanced: np.ndarray  #: Spin moment left over radius and load [-]
 
 
 class Pair(NamedTuple):
@@ -213,18 +196,10 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
 
 
 class Rest(NamedTuple):
-    """A skew at which the moment about the contact normal vanishes.
+    """A skew at which the moment about the contact normal vanishes."""
 
-    Attributes
-    ----------
-    skew : float
-        ψ [rad].
-    stable : bool
-        Whether a roller beside it turns towards it.
-    """
-
-    skew: float
-    stable: bool
+    skew: float  #: ψ [rad]
+    stable: bool  #: Whether a roller beside it turns towards it
 
 
 def rests(pair: Pair, laws: RollerLaws, load: float, ring_speed: float, alignment: float = 0.0) -> list[Rest]:
@@ -252,21 +227,11 @@ def rests(pair: Pair, laws: RollerLaws, load: float, ring_speed: float, alignmen
 
 
 class Pocket(NamedTuple):
-    """How the cage holds a roller against skew, by the shape of its spars.
+    """How the cage holds a roller against skew, by the shape of its spars."""
 
-    Attributes
-    ----------
-    largest : float
-        Largest skew [rad].
-    arm : float
-        Moment of the two spars over the force of either, with the roller at its stop [m].
-    effective_radius : float
-        Moment by which one spar straightens the roller, over its force and the skew [m/rad].
-    """
-
-    largest: float
-    arm: float
-    effective_radius: float
+    largest: float  #: Largest skew [rad]
+    arm: float  #: Moment of the two spars over the force of either, with the roller at its stop [m]
+    effective_radius: float  #: Moment by which one spar straightens the roller, over its force and the skew [m/rad]
 
     def alignment(self, force: float) -> float:
         """Moment per skew of a spar that presses with `force` [N] on a slightly skewed roller [N m/rad].

@@ -51,23 +51,12 @@ class Load:
 
 @dataclass(frozen=True)
 class LoadList:
-    """The load histories of a study.
+    """The load histories of a study."""
 
-    Parameters
-    ----------
-    source : str
-        `file`, `bearing_file` or `bundled`: the key of a case file for such a name.
-    loads : sequence of Load
-    units : mapping of str to str
-        Units of the fields.
-    remarks : sequence of str
-        Notes for the user: files left out.
-    """
-
-    source: str
+    source: str  #: `file`, `bearing_file` or `bundled`: the key of a case file for such a name
     loads: Sequence[Load]
-    units: Mapping[str, str]
-    remarks: Sequence[str] = ()
+    units: Mapping[str, str]  #: Units of the fields
+    remarks: Sequence[str] = ()  #: Notes for the user: files left out
 
 
 class Pattern:

@@ -104,7 +104,6 @@ def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dat
 
 
 def _read(directory: Path) -> tuple[dict[str, Any], pd.DataFrame]:
-    """Manifest and runs of a study."""
     with reading(directory, REMEDY):
         manifest, _ = read_manifest(directory)
     with reading(directory / DATABASE, REMEDY):
@@ -157,8 +156,6 @@ def _of_results(directory: Path, runs: pd.DataFrame) -> tuple[dict[str, Any], di
 
 @dataclass(frozen=True)
 class _Shared:
-    """Properties common to all variables of a study."""
-
     opened: str
     directory: Path
     keys: np.ndarray

@@ -265,7 +265,6 @@ class Session:
             raise
 
     def _manifest(self) -> dict[str, Any]:
-        """Everything about a study that workers and readers need, as plain data."""
         study = self.study
         records = {f"{noun}s": getattr(study, f"{noun}s") for noun in RECORDS}
         return {
@@ -441,7 +440,6 @@ def study_at_balance(study: Study, directory: Path, compute: Callable[[Study, Pa
 
 
 def _mean_powers(study: Study, directory: Path, weights: dict[str, float]) -> dict[str, float]:
-    """Mean friction power [W] of each group of runs."""
     found: dict[str, float] = {}
     for run, power in zip(study.runs(), open_study(directory).friction_power.values.tolist(), strict=True):
         if not np.isfinite(power):

@@ -232,7 +232,6 @@ def read_runs(directory: Path) -> pd.DataFrame:
 
 
 def _line(row: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Texts and numbers of a run, from its row of both tables."""
     (key, outcome, reason), result = row[3:6], row[6:]
     numbers = result[5:-1]
     if outcome is not None:

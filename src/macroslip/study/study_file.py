@@ -443,7 +443,6 @@ def _base(mapping: Mapping[str, Any], source: Source, folder: Path) -> Case:
 
 
 def _heat(base: Case, parameters: Mapping[str, str] | None) -> Heat | None:
-    """How the bearing loses its heat, where the temperature is to balance."""
     if base.temperature != BALANCE:
         return None
     if TEMPERATURE in (parameters or {}):

@@ -141,7 +141,6 @@ def work_several(
 
 @functools.lru_cache(maxsize=2)
 def _setup(directory: str, expected: str) -> dict[str, Any]:
-    """Settings common to all runs of a study, from its manifest."""
     try:
         manifest, found = read_manifest(Path(directory))
     except InputError as error:
@@ -177,7 +176,6 @@ def _loads(session: str, source: str, path: str, cut: tuple[tuple[str, float], .
 def _computed(
     case: Case, options: Mapping[str, Any], threads: int | None, progress: Callable[[int, int], None] | None
 ) -> tuple[xr.Dataset, dict[str, float]]:
-    """Stored dataset of a case, and the numbers of its summary."""
     from macroslip.result.simulate import simulate
 
     started = time.perf_counter()
@@ -192,7 +190,6 @@ def _computed(
 
 
 def _failed_rollers(result: xr.Dataset) -> str:
-    """Which rollers failed, and how the first of them; empty if none did."""
     failed = [one for one in result.status.stack(one=("row", "roller")) if one != Status.COMPLETED]
     if not failed:
         return ""

@@ -168,8 +168,6 @@ class Processes:
 
 
 class _Seat:
-    """One process."""
-
     def __init__(self) -> None:
         before = set(multiprocessing.active_children())
         with _safe_start():
