@@ -180,7 +180,9 @@ def test_rollers_of_unlike_diameter_drift_and_then_push_each_other(run):
 
 def test_rollers_that_drop_faster_than_the_rings_creep_stay_in_the_tables():
     loads = BearingLoads.constant((0.0, -5e3, 0.0), 0.01, 3.0)
-    found = simulate(Case(loads=loads, laws=Laws.paper(), dynamics="whole-bearing", rating=False, contact_details=False))
+    found = simulate(
+        Case(loads=loads, laws=Laws.paper(), dynamics="whole-bearing", rating=False, contact_details=False)
+    )
     assert (found.status == 0).all()
     drop = found.book_body_work.max() + found.book_cage_weight_work.max()
     assert np.abs(found.energy_residual).max() < 5e-3 * drop
