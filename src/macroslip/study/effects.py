@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import Weights, described
+from macroslip.result.variables import described
+from macroslip.study.weights import Weights
 from macroslip.study.year import CRITERIA, LIVES, designs, year
 
 if TYPE_CHECKING:

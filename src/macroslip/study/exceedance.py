@@ -8,7 +8,8 @@ import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import YEAR, Weights, binned, described, weighted
+from macroslip.result.variables import described
+from macroslip.study.weights import YEAR, Weights, binned, weighted
 
 #: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
 THRESHOLDS = np.logspace(-9.0, 9.0, 721)

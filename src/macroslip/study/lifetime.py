@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import YEAR, Weights, binned, described, weighted
+from macroslip.result.variables import described
+from macroslip.study.weights import YEAR, Weights, binned, weighted
 from macroslip.study.year import year
 
 #: Variables over the places of the raceways in a result.
@@ -33,7 +34,6 @@ def lifetime_energy(
     ----------
     study : xarray.Dataset
         From `open_study`.
-    weights : Weibull, Given or Year
     years : float
         T [years of 365.25 days], above 0.
     field, width, by

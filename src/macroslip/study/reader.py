@@ -19,9 +19,9 @@ from xarray.core import indexing  # the documented interface for arrays of a bac
 
 from macroslip.bearing.geometry import ROWS
 from macroslip.files import MANIFEST, reading
+from macroslip.result.variables import described
 from macroslip.study.store import DATABASE, REMEDY, read_manifest, read_result, read_runs
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.weights import described
 
 #: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so samples are counted.
 _RAGGED = {"orbit": "orbit", "time": "sample"}

@@ -16,6 +16,7 @@ from macroslip.input.fields import IN_FILE, Form, Quantity, Text
 from macroslip.input.fields import Given as Given_
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import NUMBER
+from macroslip.result.variables import described
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,11 +27,6 @@ if TYPE_CHECKING:
 
 #: A year [s], of 365.25 days.
 YEAR = 365.25 * 86400.0
-
-
-def described(units: str, long_name: str) -> dict[str, str]:
-    """Attributes of a variable."""
-    return {"units": units, "long_name": long_name}
 
 
 _SCALE = Quantity("scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True)

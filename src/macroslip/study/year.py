@@ -10,7 +10,8 @@ import xarray as xr
 
 from macroslip.damage.friction_energy import ThrustTest
 from macroslip.loads.bundled import EVENTS
-from macroslip.study.weights import CHOICES, YEAR, Weights, binned, described, weighted
+from macroslip.result.variables import described
+from macroslip.study.weights import CHOICES, YEAR, Weights, binned, weighted
 
 if TYPE_CHECKING:
     import pandas as pd
