@@ -154,15 +154,12 @@ class MakersPage:
         if (self.bpfo is None) != (self.bpfi is None):
             what = "only one overrolling frequency is given"
             raise InputError(what, allowed="both bpfo and bpfi, or none", remedy="Add the other.")
-        if self.bpfo is not None and self.bpfi is not None:
-            self._check_frequencies(self.bpfo, self.bpfi)
-
-    @staticmethod
-    def _check_frequencies(bpfo: float, bpfi: float) -> None:
-        count = bpfo + bpfi
-        if abs(count - round(count)) > 0.05 or round(count) < 3 or not bpfo < bpfi:
+        if self.bpfo is None or self.bpfi is None:
+            return
+        count = self.bpfo + self.bpfi
+        if abs(count - round(count)) > 0.05 or round(count) < 3 or not self.bpfo < self.bpfi:
             raise InputError(
-                f"bpfo is {bpfo:g} and bpfi {bpfi:g} per turn of the shaft, together {count:g}",
+                f"bpfo is {self.bpfo:g} and bpfi {self.bpfi:g} per turn of the shaft, together {count:g}",
                 allowed="a sum that is the whole number of rollers in a row, within 0.05, and bpfo below bpfi",
                 remedy="Divide frequencies in hertz by the shaft's speed in turns per second.",
             )

@@ -280,9 +280,6 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
 
     Parameters
     ----------
-    laws : Laws
-    bearing : Bearing
-    lubricant : Lubricant
     speed : float
         Highest speed of the raceways [m/s]; nothing is tried for 0.
 

@@ -64,7 +64,6 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
     ----------
     key : str
         From `table_key`.
-    make : callable
     """
     return remembered(key, lambda: _from_disk_or_made(key, make))
 

@@ -296,7 +296,6 @@ def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
 
     Parameters
     ----------
-    fluid : Fluid
     pressure : array_like
         Largest pressure on the chord p1 [Pa], > 0.
     film_thickness : array_like
@@ -367,7 +366,6 @@ def local_stress(fluid: Fluid, pressure, log_film, log_slip):
 
     Parameters
     ----------
-    fluid : Fluid
     pressure : array_like
         p > 0 [Pa].
     log_film, log_slip : array_like

@@ -59,8 +59,6 @@ def ring_motion(
     ----------
     loads : BearingLoads or RollerLoads
         Load on the inner ring; or loads of the rollers, with which the ring is left in the middle.
-    bearing : Bearing
-    ring : RingGeometry
     highest_load : float
         Roller load [N] that must not be exceeded.
     more : ndarray, optional

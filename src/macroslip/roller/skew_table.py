@@ -81,7 +81,6 @@ def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
     ----------
     laws : RollerLaws
         Of the downwind row.
-    bearing : Bearing
     box : Box
         States that it holds; loads below 2 kN have the forces and powers of 2 kN in proportion to theirs.
 
