@@ -93,6 +93,8 @@ _STEEL = (
 class MakersPage:
     """Numbers that a maker publishes of a bearing, SI units.
 
+    Raises InputError if the values contradict each other. `Bearing` has their ranges.
+
     Parameters
     ----------
     bore, outside, width : float
@@ -113,11 +115,6 @@ class MakersPage:
         Of the bearing [kg].
     bpfo, bpfi : float | None
         Overrolling frequencies of outer and inner ring per turn of the shaft [-]; both or none.
-
-    Raises
-    ------
-    InputError
-        If the values contradict each other. `Bearing` has their ranges.
     """
 
     bore: float
@@ -175,6 +172,8 @@ class EstimatedBearing(NamedTuple):
 def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
+    Raises InputError if no bearing within the accepted proportions fits the page.
+
     Parameters
     ----------
     page : MakersPage
@@ -183,11 +182,6 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
         Of the bearing.
     seed : int
         Of the random numbers; the same page and seed give the same bearing.
-
-    Raises
-    ------
-    InputError
-        If no bearing within the accepted proportions fits the page.
 
     Notes
     -----

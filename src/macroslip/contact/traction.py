@@ -227,10 +227,7 @@ class Fluid(NamedTuple):
 def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
     """The sheared film of a lubricant under the chosen mechanisms.
 
-    Raises
-    ------
-    InputError
-        If its viscosity is too low for Roelands' law, or rises beyond all numbers with pressure.
+    Raises InputError if its viscosity is too low for Roelands' law, or rises beyond all numbers with pressure.
     """
     if laws.viscosity == "roelands":
         index = roelands_index(lubricant.viscosity, lubricant.pressure_viscosity)

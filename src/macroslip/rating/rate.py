@@ -44,17 +44,14 @@ def roller_load_history(
 ) -> tuple[BearingLoads, NDArray[np.float64]]:
     """Elastic load of every roller at every sample; it does not depend on the lubricant.
 
+    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
+
     Returns
     -------
     loads : BearingLoads
         The same loads, with samples in between where the shaft turns too far between two of them.
     roller_load : ndarray, shape (2, Z, n)
         Q [N] over row, roller and the samples of these loads.
-
-    Raises
-    ------
-    InputError
-        If a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
 
     Examples
     --------

@@ -94,6 +94,9 @@ def damage(
 ) -> xr.Dataset:
     """Criteria of damage of a result, each with its reference; none of them holds generally.
 
+    Raises InputError if the result keeps no details; if wear is asked for where no asperities were chosen; for a
+    criterion that does not exist, or numbers out of range.
+
     Parameters
     ----------
     result : xarray.Dataset
@@ -109,12 +112,6 @@ def damage(
     xarray.Dataset
         Rates per second over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`, and as
         coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
-
-    Raises
-    ------
-    InputError
-        If the result keeps no details; if wear is asked for where no asperities were chosen; for a criterion that does not
-        exist, or numbers out of range.
     """
     import xarray as xr
 

@@ -138,6 +138,8 @@ def roller_model(
 ) -> RollerModel:
     """Prepare a roller of one row.
 
+    Raises InputError for unknown laws, values the lubricant lacks, or curvatures that do not make a Hertz contact.
+
     Parameters
     ----------
     axial_sign : int
@@ -148,11 +150,6 @@ def roller_model(
         Whether weight and drag act on the roller.
     laws : Laws
         Mechanisms in the contacts.
-
-    Raises
-    ------
-    InputError
-        For unknown laws, values the lubricant lacks, or curvatures that do not make a Hertz contact.
 
     Notes
     -----

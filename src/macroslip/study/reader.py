@@ -81,6 +81,8 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
 def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dataset]]:
     """Yield the stored results of a study one by one, whole and with their attributes.
 
+    Raises InputError if the folder holds no study, or a stored result is gone or damaged.
+
     Parameters
     ----------
     directory : path
@@ -90,11 +92,6 @@ def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dat
     ------
     (int, xarray.Dataset)
         Number of the run, the `case` of `open_study`, and its result; runs without a result are left out.
-
-    Raises
-    ------
-    InputError
-        If the folder holds no study, or a stored result is gone or damaged.
     """
     directory = Path(directory).absolute()
     _, runs = _read(directory)

@@ -383,9 +383,9 @@ def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
 def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequence[str] = ()) -> Binning:
     """Sort the runs of a study into groups and bins.
 
-    A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group has
-    one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are named in
-    `by`.
+    A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group
+    has one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are
+    named in `by`. Raises InputError if there is no such label, or it is no number.
 
     Parameters
     ----------
@@ -397,11 +397,6 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
         Of a bin [unit of the field], above 0.
     by : sequence of str
         Further labels that separate groups: `turbulence`.
-
-    Raises
-    ------
-    InputError
-        If there is no such label, or it is no number.
     """
     import pandas as pd
 
