@@ -5,6 +5,19 @@ from __future__ import annotations
 from typing import ClassVar
 
 
+def safe_text(text: object, but: str = "") -> str:
+    r"""Text from a file or folder with its control characters, which could steer a terminal, as numbers, all `but` some.
+
+    Examples
+    --------
+    >>> safe_text("run\x1b[2J\n7.outb")
+    'run\\x1b[2J\\n7.outb'
+    """
+    return "".join(
+        one if one.isprintable() or one in but else one.encode("unicode_escape").decode() for one in str(text)
+    )
+
+
 def legible(text: str, longest: int) -> str:
     r"""Text from anywhere for a message: without letters that a terminal would act on, its middle cut out if it is long.
 
@@ -16,10 +29,7 @@ def legible(text: str, longest: int) -> str:
     if len(text) > longest:
         tail = longest // 4
         text = f"{text[: longest - tail - 2]} … {text[-tail + 1 :]}"
-    return "".join(
-        letter if letter.isprintable() or letter == "\n" else letter.encode("unicode_escape").decode()
-        for letter in text
-    )
+    return safe_text(text, "\n")
 
 
 class MacroslipError(Exception):

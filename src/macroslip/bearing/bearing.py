@@ -122,7 +122,7 @@ class Bearing(Record):
         if kind:
             return
         # Positions or shapes that contradict each other make all that is computed from them meaningless.
-        contradictions = [*_centres(self, source), *_shape(self, source)]
+        contradictions = list(_contradictions(self, source))
         yield from contradictions
         yield from _spacing(self, source)
         if not contradictions:
@@ -155,7 +155,7 @@ def _kind(bearing: Bearing, source: Source) -> Iterator[InputError]:
             )
 
 
-def _centres(bearing: Bearing, source: Source) -> Iterator[InputError]:
+def _contradictions(bearing: Bearing, source: Source) -> Iterator[InputError]:
     centre = bearing.outer_raceway_radius - bearing.roller_diameter / 2
     for key, expected, formula in (
         ("pitch_radius", centre * math.cos(bearing.contact_angle), "cos(contact_angle)"),
@@ -169,6 +169,14 @@ def _centres(bearing: Bearing, source: Source) -> Iterator[InputError]:
                 allowed=f"agreement within {SPHERE_TOLERANCE:.0%}",
                 remedy="Check pitch_radius, row_offset, outer_raceway_radius, roller_diameter and contact_angle.",
             )
+    slenderness = bearing.roller_length / bearing.roller_diameter
+    if not 0.5 <= slenderness <= 4:
+        yield InputError(
+            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} times roller_diameter",
+            where=source.where("roller_length", "value"),
+            allowed="0.5 to 4 times roller_diameter",
+            remedy="Check roller_length and roller_diameter.",
+        )
 
 
 def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
@@ -182,17 +190,6 @@ def _spacing(bearing: Bearing, source: Source) -> Iterator[InputError]:
             where=source.where("rollers_per_row", "value"),
             allowed=f"2 pitch_radius sin(180 deg/rollers_per_row) > roller_diameter, here at most {most} rollers",
             remedy="Check rollers_per_row, roller_diameter and pitch_radius; rollers_per_row counts one row only.",
-        )
-
-
-def _shape(bearing: Bearing, source: Source) -> Iterator[InputError]:
-    slenderness = bearing.roller_length / bearing.roller_diameter
-    if not 0.5 <= slenderness <= 4:
-        yield InputError(
-            f"roller_length is {bearing.written('roller_length')}, which is {slenderness:.3g} times roller_diameter",
-            where=source.where("roller_length", "value"),
-            allowed="0.5 to 4 times roller_diameter",
-            remedy="Check roller_length and roller_diameter.",
         )
 
 

@@ -93,6 +93,8 @@ _STEEL = (
 class MakersPage:
     """Numbers that a maker publishes of a bearing, SI units.
 
+    Raises InputError if the values contradict each other. `Bearing` has their ranges.
+
     Parameters
     ----------
     bore, outside, width : float
@@ -113,11 +115,6 @@ class MakersPage:
         Of the bearing [kg].
     bpfo, bpfi : float | None
         Overrolling frequencies of outer and inner ring per turn of the shaft [-]; both or none.
-
-    Raises
-    ------
-    InputError
-        If the values contradict each other. `Bearing` has their ranges.
     """
 
     bore: float
@@ -154,15 +151,12 @@ class MakersPage:
         if (self.bpfo is None) != (self.bpfi is None):
             what = "only one overrolling frequency is given"
             raise InputError(what, allowed="both bpfo and bpfi, or none", remedy="Add the other.")
-        if self.bpfo is not None and self.bpfi is not None:
-            self._check_frequencies(self.bpfo, self.bpfi)
-
-    @staticmethod
-    def _check_frequencies(bpfo: float, bpfi: float) -> None:
-        count = bpfo + bpfi
-        if abs(count - round(count)) > 0.05 or round(count) < 3 or not bpfo < bpfi:
+        if self.bpfo is None or self.bpfi is None:
+            return
+        count = self.bpfo + self.bpfi
+        if abs(count - round(count)) > 0.05 or round(count) < 3 or not self.bpfo < self.bpfi:
             raise InputError(
-                f"bpfo is {bpfo:g} and bpfi {bpfi:g} per turn of the shaft, together {count:g}",
+                f"bpfo is {self.bpfo:g} and bpfi {self.bpfi:g} per turn of the shaft, together {count:g}",
                 allowed="a sum that is the whole number of rollers in a row, within 0.05, and bpfo below bpfi",
                 remedy="Divide frequencies in hertz by the shaft's speed in turns per second.",
             )
@@ -178,6 +172,8 @@ class EstimatedBearing(NamedTuple):
 def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
+    Raises InputError if no bearing within the accepted proportions fits the page.
+
     Parameters
     ----------
     page : MakersPage
@@ -186,11 +182,6 @@ def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int 
         Of the bearing.
     seed : int
         Of the random numbers; the same page and seed give the same bearing.
-
-    Raises
-    ------
-    InputError
-        If no bearing within the accepted proportions fits the page.
 
     Notes
     -----

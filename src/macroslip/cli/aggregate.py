@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from macroslip.cli.printing import number, print_json, print_table
-from macroslip.errors import InputError
+from macroslip.errors import InputError, safe_text
 from macroslip.files import check_not_input, check_regular
 
 if TYPE_CHECKING:
@@ -97,8 +97,6 @@ def _weights(weibull: tuple[float, float] | None, probabilities: Path | None) ->
 
 
 def _lifetime(lifetime: pd.DataFrame, years: float) -> None:
-    from macroslip.study.loads_list import safe_text
-
     numbers = [name for name in lifetime if lifetime[name].dtype.kind == "f"]
     title = f"energy of a roller in {years:g} years, mean over the row"
     shown = lifetime

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -12,9 +12,6 @@ from macroslip.cli.failure import ROLLERS_FAILED, to_stderr
 from macroslip.cli.needs import FIGURES, require
 from macroslip.errors import InputError
 from macroslip.files import check_new_file, new_file
-
-if TYPE_CHECKING:
-    from macroslip.study.weights import Weibull
 
 PAGE = "report.html"
 _TITLE = "Slip of the rollers"
@@ -49,8 +46,9 @@ def report(
         if weibull:
             raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
         return compare(paths, output=output, title=title or "", force=force, quiet=quiet)
-    from macroslip.study.reader import is_study
-    from macroslip.study.store import CASES, parts
+    from macroslip.report.study_page import study_page
+    from macroslip.study.reader import is_study, open_study
+    from macroslip.study.store import CASES, Outcome, parts
     from macroslip.study.weights import Weibull
 
     output = output or (results if results.is_dir() else results.parent) / PAGE
@@ -64,11 +62,14 @@ def report(
             stored = (results / CASES).resolve() in output.resolve().parents
             inputs = [*parts(results), *([output] if stored else [])]
         check_new_file(output, force=force, inputs=inputs)
-    page, failed = (
-        _of_study(results, title, Weibull(scale=weibull[0], shape=weibull[1]) if weibull else None)
-        if of_study
-        else _of_results(results, title)
-    )
+    if of_study:
+        study = open_study(results)
+        number = int((study.outcome != str(Outcome.COMPLETED)).sum())
+        failed = f"{number} of {study.sizes['case']} runs failed or are missing" if number else ""
+        wind = Weibull(scale=weibull[0], shape=weibull[1]) if weibull else None
+        page = study_page(study, title=title or study.attrs["title"] or _TITLE, weights=wind)
+    else:
+        page, failed = _of_results(results, title)
     with new_file(output, force=force) as temporary:
         temporary.write_text(page, encoding="utf-8", errors="backslashreplace")
     if not quiet:
@@ -95,15 +96,3 @@ def _of_results(results: Path, title: str | None) -> tuple[str, str]:
         raise InputError(what, where=str(results), allowed=allowed, remedy=remedy) from error
     failed, rollers = rollers_failed(found.values())
     return page, f"{failed} of {rollers} rollers" if failed else ""
-
-
-def _of_study(results: Path, title: str | None, weights: Weibull | None) -> tuple[str, str]:
-    """The page on a study, and the number of failures in words."""
-    from macroslip.report.study_page import study_page
-    from macroslip.study.reader import open_study
-    from macroslip.study.store import Outcome
-
-    study = open_study(results)
-    failed = int((study.outcome != str(Outcome.COMPLETED)).sum())
-    page = study_page(study, title=title or study.attrs["title"] or _TITLE, weights=weights)
-    return page, f"{failed} of {study.sizes['case']} runs failed or are missing" if failed else ""

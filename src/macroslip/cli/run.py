@@ -52,6 +52,7 @@ def run(
 ) -> None:
     """Compute the slip of a case's rollers, as netCDF; of both main bearings as OUTPUT-front.nc and OUTPUT-rear.nc."""
     from macroslip.case.case_file import bearings_in, files_named_in
+    from macroslip.result.stored import to_netcdf
 
     inputs = [case, *(laws or ()), *files_named_in(case)]
     outputs = {
@@ -66,7 +67,10 @@ def run(
     told, failed = {}, False
     for name, path in outputs.items():
         dataset = _computed(case, name, threads, quiet)
-        _write(dataset, path, force)
+        # In memory first: the HDF5 library may bring the whole process down when the disk is full.
+        content = to_netcdf(dataset)
+        with new_file(path, force=force) as temporary:
+            temporary.write_bytes(content)
         told[name] = _numbers(dataset) | {"written": str(path)}
         if not (quiet or as_json):
             _summary(dataset, name, path)
@@ -93,15 +97,6 @@ def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.
     with command_progress(quiet=quiet) as report, _named(case, checked.loads.source):
         progress = report and (lambda done, total: report("rollers", done, total))
         return with_rating(simulate(checked, threads=threads, progress=progress), checked)
-
-
-def _write(dataset: xr.Dataset, path: Path, force: bool) -> None:
-    from macroslip.result.stored import to_netcdf
-
-    # In memory first: the HDF5 library may bring the whole process down when the disk is full.
-    content = to_netcdf(dataset)
-    with new_file(path, force=force) as temporary:
-        temporary.write_bytes(content)
 
 
 def with_motion(case: Case) -> Case:
@@ -189,20 +184,15 @@ def _print_rows(dataset: xr.Dataset) -> None:
     life = years(float(dataset.basic_life))
     modified = years(float(dataset.modified_reference_life.sel(load_along_roller="hertz")))
     below = number(100.0 * float(dataset.share_below_minimum_load))
+    loaded = ""
+    if "roller_load" in dataset:
+        shares = (100.0 * (dataset.roller_load > 0.0)).mean(("roller", "time"))
+        each = (f"{float(shares.sel(row=row)):.3g} % {row}" for row in dataset.row.values)
+        loaded = f"; rollers carry load {', '.join(each)}"
     typer.echo(
         f"beside slip: static safety {safety}, L10h {life}, modified reference life {modified}, largest pressure "
         f"{number(float(dataset.largest_pressure.max()) / 1e9)} GPa, kappa {kappa}, below the minimum load {below} % of the "
-        f"time{_loaded(dataset)}"
-    )
-
-
-def _loaded(dataset: xr.Dataset) -> str:
-    """How long rollers of a row carry load, beside the minimum load of the bearing as a whole."""
-    if "roller_load" not in dataset:
-        return ""
-    shares = (100.0 * (dataset.roller_load > 0.0)).mean(("roller", "time"))
-    return "; rollers carry load " + ", ".join(
-        f"{float(shares.sel(row=row)):.3g} % {row}" for row in dataset.row.values
+        f"time{loaded}"
     )
 
 

@@ -7,14 +7,14 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from macroslip.cli.failure import CASES_FAILED, INTERRUPTED, to_stderr
 from macroslip.cli.needs import SCHEDULER, require
 from macroslip.cli.printing import plain_console, print_json, print_table
-from macroslip.errors import InputError
+from macroslip.errors import InputError, safe_text
 
 if TYPE_CHECKING:
     from macroslip.study.run import Ended, Progress
@@ -77,7 +77,6 @@ def _dry_run(checked: Study, workers: int | None, threads: int | None, as_json: 
     from rich.filesize import decimal
 
     from macroslip.machine import usable_processors
-    from macroslip.study.loads_list import safe_text
     from macroslip.study.run import duration
     from macroslip.study.work import estimate_study
 
@@ -171,15 +170,13 @@ def _summary(ended: Ended, output: Path, as_json: bool) -> None:
 def _failures(ended: Ended, output: Path) -> None:
     from rich.table import Table
 
-    from macroslip.study.loads_list import safe_text
-
     shown = Table(box=None, padding=(0, 2, 0, 0))
     for heading in ("loads", "bearing, lubricant, model, parameters", "outcome", "reason"):
         shown.add_column(heading, overflow="fold")
     for labels, outcome, reason in ended.failures[:_LISTED]:
-        shown.add_row(
-            *(safe_text(text) for text in (labels["loads"], _others(labels), outcome, " ".join(reason.split())))
-        )
+        others = [str(labels[name]) for name in ("bearing", "lubricant", "model")]
+        others += [f"{name} {value}" for name, value in labels.items() if "." in name and name != "loads"]
+        shown.add_row(*map(safe_text, (labels["loads"], ", ".join(others), outcome, " ".join(reason.split()))))
     plain_console(stderr=True).print(shown)
     total = ended.progress.failed
     if total > _LISTED:
@@ -194,9 +191,3 @@ def _failures(ended: Ended, output: Path) -> None:
             else "Runs that failed are tried again by --resume."
         )
     )
-
-
-def _others(labels: dict[str, Any]) -> str:
-    choices = [str(labels[name]) for name in ("bearing", "lubricant", "model")]
-    parameters = [f"{name} {value}" for name, value in labels.items() if "." in name and name != "loads"]
-    return ", ".join(choices + parameters)

@@ -103,7 +103,6 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
     name : str
         `masjedi-khonsari` takes the ellipse as a line, w = 3Q/(4a), as films do; `film-ratio` alone depends on the film,
         and so on starvation.
-    interface : Interface
     load, entrainment_speed, film_thickness : array_like
         Q [N], u_e [m/s] and h [m], > 0.
 

@@ -93,6 +93,9 @@ def axis_ratio(curvature_ratio: float) -> float:
 def elliptical_contact(rolling_curvature: float, lateral_curvature: float, modulus: float) -> HertzContact:
     """Hertz contact from the two relative curvatures.
 
+    Raises InputError if a relative curvature is not positive: the bodies would conform and Hertz's theory does not
+    hold.
+
     Parameters
     ----------
     rolling_curvature, lateral_curvature : float
@@ -104,11 +107,6 @@ def elliptical_contact(rolling_curvature: float, lateral_curvature: float, modul
     Returns
     -------
     HertzContact
-
-    Raises
-    ------
-    InputError
-        If a relative curvature is not positive: the bodies would conform and Hertz's theory does not hold.
 
     Notes
     -----

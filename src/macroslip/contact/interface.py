@@ -79,8 +79,6 @@ def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, mi
 
     Parameters
     ----------
-    bearing : Bearing
-    interface : Interface
     axial_sign : int
         +1 for the downwind row, −1 for the upwind row.
     microslip : bool

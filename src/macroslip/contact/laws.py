@@ -117,7 +117,6 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     ----------
     laws : Laws
         Chosen mechanisms.
-    bearing : Bearing
     lubricant : Lubricant
         With `oil_gap`, from which on inlets are full.
     axial_sign : int

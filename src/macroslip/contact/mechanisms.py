@@ -215,10 +215,7 @@ def _word(value: Any) -> str:
 def check_lubricant(laws: Laws, lubricant: Lubricant) -> None:
     """Refuse a lubricant that lacks a value the chosen mechanisms need.
 
-    Raises
-    ------
-    InputError
-        Naming the values and the mechanisms.
+    Raises InputError naming the values and the mechanisms.
     """
     needed = {
         "limiting_shear": "limiting shear" if laws.rheology == "limiting-shear" else "",

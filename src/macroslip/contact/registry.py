@@ -138,10 +138,7 @@ class LawList:
     def add(self, law: Law) -> None:
         """Add a law. The module that registered a name may register it again, so that a law can be mended at a prompt.
 
-        Raises
-        ------
-        InputError
-            If the name belongs to another module's law, or means something else.
+        Raises InputError if the name belongs to another module's law, or means something else.
         """
         module = getattr(law.function, "__module__", None)
         owner = getattr(self._laws[law.name].function, "__module__", None) if law.name in self._laws else module
@@ -164,10 +161,7 @@ class LawList:
     def named(self, name: str) -> Law:
         """The law of this name.
 
-        Raises
-        ------
-        InputError
-            If there is none, with those that exist.
+        Raises InputError if there is none, with those that exist.
         """
         if name not in self._laws:
             what = f"there is no {self.kind} law '{name}'"
@@ -196,6 +190,8 @@ def register_film(
 ) -> None:
     """Make a film law usable by name.
 
+    Raises InputError if the name is taken by a law of another module.
+
     Parameters
     ----------
     name : str
@@ -211,11 +207,6 @@ def register_film(
     range_notes : callable, optional
         `range_notes(interface)`: a list of texts on numbers outside the range whatever load and speed.
 
-    Raises
-    ------
-    InputError
-        If the name is taken by a law of another module.
-
     Examples
     --------
     >>> register_film("square-root", lambda interface, load, speed: 1e-6 * np.sqrt(speed), reference="none")
@@ -227,6 +218,8 @@ def register_film(
 def register_traction(name: str, function: Callable, *, reference: str) -> None:
     """Make a traction law usable by name.
 
+    Raises InputError if the name is taken by a law of another module.
+
     Parameters
     ----------
     name : str
@@ -236,11 +229,6 @@ def register_traction(name: str, function: Callable, *, reference: str) -> None:
         zero; finite, above zero and without jumps, and in proportion to slip where that is small.
     reference : str
         Work to cite where the law was used.
-
-    Raises
-    ------
-    InputError
-        If the name is taken by a law of another module.
 
     Examples
     --------
@@ -277,19 +265,12 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
     """Refuse a law of the user's own that breaks its contract, with the state at which it does.
 
     It is tried over the states that a case can reach before the first step: a wrong law may give plausible numbers.
+    Raises InputError naming the law, the interface and the state; also if a law does not return.
 
     Parameters
     ----------
-    laws : Laws
-    bearing : Bearing
-    lubricant : Lubricant
     speed : float
         Highest speed of the raceways [m/s]; nothing is tried for 0.
-
-    Raises
-    ------
-    InputError
-        Naming the law, the interface and the state; also if a law does not return.
     """
     chosen = [FILM_LAWS.named(laws.film)]
     if laws.traction != MECHANISMS:

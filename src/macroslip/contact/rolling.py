@@ -237,7 +237,6 @@ def prepare_rolling(
     ----------
     name : str
         `none`, `inlet` (as published: the inlet alone) or `whole-film` (inlet and exit).
-    interface : Interface
     shape : GapShape
         Geometry of the gap.
     roller_radius : float
@@ -305,7 +304,6 @@ def light_contact(numbers: RollingNumbers, load, mean_speed):
 
     Parameters
     ----------
-    numbers : RollingNumbers
     load : array_like
         Q [N], > 0.
     mean_speed : array_like
@@ -397,7 +395,6 @@ def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):
 
     Parameters
     ----------
-    numbers : RollingNumbers
     load : array_like
         Q [N], ≥ 0, which the spar carries alone.
     mean_speed : array_like

@@ -128,7 +128,6 @@ def skewed_contact(laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: 
     ----------
     laws : ContactLaws
         Of the inner or outer raceway, with a sheared film.
-    bearing : Bearing
     axial_sign : int
         +1 for the downwind row, −1 for the upwind row.
     shear : callable, optional
@@ -173,7 +172,6 @@ def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt
 
     Parameters
     ----------
-    contact : SkewedContact
     load : array_like
         Q > 0 [N].
     ring_speed, slip : array_like

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.contact.laws import ContactLaws
+from macroslip.contact.laws import POCKET_GAP, ContactLaws
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
@@ -118,12 +118,10 @@ def write_plane(record: np.void, tables: Tables, values: Callable, lightest: flo
     Parameters
     ----------
     record : record of `PLANE`
-    tables : Tables
     values : callable
         `values(load [N], speed [m/s])`, arrays of one shape: up to four quantities.
     lightest, slowest : float
         Least load [N] and speed [m/s].
-    box : Box
     """
     load = axis(math.log(lightest), math.log(box.load), _PLANE_LOAD * box.fineness)
     speed = axis(math.log(slowest), math.log(2.0 * box.fastest), _PLANE_SPEED * box.fineness)
@@ -155,10 +153,10 @@ def oil_values(contact: ContactLaws) -> Callable:
     return values
 
 
-def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
+def cage_values(contact: ContactLaws) -> Callable:
     """Quantities of the plane of the cage, over ln Q and ln of the roller's surface speed.
 
-    Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `pocket_gap` [m]
+    Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `POCKET_GAP`
     sliding per slip and rolling resistance per mean speed.
     """
 
@@ -171,7 +169,7 @@ def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
             rough = power / (-pull * speed)
         if contact.rolling is None:
             return friction, rough
-        return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
+        return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, POCKET_GAP)
 
     return values
 
@@ -183,7 +181,6 @@ def tractions(
 
     Parameters
     ----------
-    contact : ContactLaws
     load, ring_speed, slip : ndarray
         Q > 0 [N], u2 and v [m/s], of one shape. The roller's axis is tilted to the positive side.
     """
@@ -299,9 +296,6 @@ def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: B
     Parameters
     ----------
     record : record of `TRACTION`
-    tables : Tables
-    contact : ContactLaws
-    box : Box
     """
     grid, key = _grid(contact, box), table_key("traction", *contact_parts(contact))
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))

@@ -64,7 +64,6 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
     ----------
     key : str
         From `table_key`.
-    make : callable
     """
     return remembered(key, lambda: _from_disk_or_made(key, make))
 
@@ -110,10 +109,7 @@ def _size(value: Any) -> int:
 def folder() -> Path:
     """Where tables are stored: in `macroslip` in the folder of NUMBA_CACHE_DIR, or else in the user's folder for caches.
 
-    Raises
-    ------
-    RuntimeError
-        If the user has no home folder.
+    Raises RuntimeError if the user has no home folder.
     """
     given = os.environ.get("NUMBA_CACHE_DIR")
     home = Path(given).absolute() / "macroslip" if given else user_cache_path("macroslip", appauthor=False)

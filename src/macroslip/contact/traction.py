@@ -227,10 +227,7 @@ class Fluid(NamedTuple):
 def prepare_fluid(laws: Laws, lubricant: Lubricant) -> Fluid:
     """The sheared film of a lubricant under the chosen mechanisms.
 
-    Raises
-    ------
-    InputError
-        If its viscosity is too low for Roelands' law, or rises beyond all numbers with pressure.
+    Raises InputError if its viscosity is too low for Roelands' law, or rises beyond all numbers with pressure.
     """
     if laws.viscosity == "roelands":
         index = roelands_index(lubricant.viscosity, lubricant.pressure_viscosity)
@@ -296,7 +293,6 @@ def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
 
     Parameters
     ----------
-    fluid : Fluid
     pressure : array_like
         Largest pressure on the chord p1 [Pa], > 0.
     film_thickness : array_like
@@ -367,7 +363,6 @@ def local_stress(fluid: Fluid, pressure, log_film, log_slip):
 
     Parameters
     ----------
-    fluid : Fluid
     pressure : array_like
         p > 0 [Pa].
     log_film, log_slip : array_like

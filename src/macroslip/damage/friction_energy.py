@@ -65,7 +65,6 @@ class ThrustTest:
         profile : "uniform" or "logarithmic"
             Load even along the roller; or that of ISO/TS 16281's profile, 0.00035 D ln 1/(1 − (2ζ/L)²), with its slices of
             35 948 N/mm per mm^(10/9) made linear at the mean load.
-        slices : int
 
         Examples
         --------

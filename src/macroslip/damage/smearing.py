@@ -23,7 +23,6 @@ def entries_beyond(largest: ArrayLike, entries: ArrayLike, limit: float) -> tupl
         Over (..., roller, orbit), the largest value of the entries, in the unit of `limit`; NaN without one.
     entries : array_like
         How many entries each of these orbits has.
-    limit : float
 
     Notes
     -----

@@ -153,10 +153,15 @@ def _read_sel(path: Path) -> _Output:
         if not (0 < scans * channels <= MOST_VALUES and 0.0 < duration < np.inf) or kind not in ("ASCII", "BINARY"):
             raise ValueError(f"{scans} scans of {channels} channels in {duration} s, format {kind}")
         rows = [line for line in lines[start + 2 :] if re.match(r"\s*\d+\s+\S", line)][:channels]
-        names, units, texts = zip(*(_channel_line(row) for row in rows), strict=True)
+        # Name, unit and description of a channel are in fixed columns.
+        columns = [(line[12:43].strip(), line[43:54].strip(), line[54:].strip()) for line in map(str.expandtabs, rows)]
+        names, units, texts = zip(*columns, strict=True)
         if len(rows) != channels:
             raise ValueError(f"{len(rows)} channels are listed, {channels} are announced")
-        scale = _scale(lines, channels) if kind == "BINARY" else None
+        numbers = [line.split()[0] for line in lines if re.fullmatch(r"\s*[-+]?\d\.\d+E[-+]\d+\s*", line)]
+        if kind == "BINARY" and len(numbers) < channels:
+            raise ValueError(f"{len(numbers)} scale factors for {channels} channels")
+        scale = np.array(numbers[-channels:], dtype=np.float64) if kind == "BINARY" else None
     except (StopIteration, ValueError, IndexError) as error:
         what = f"not readable as a list of channels of HAWC2 ({error or 'no line with Scans and Channels'})"
         raise InputError(what, where=str(path), remedy=_AGAIN) from error
@@ -198,19 +203,6 @@ def _announced_time(stamps: NDArray, duration: float, resolution: float, data: P
     if np.abs(stamps - even).max() > 2.0 * resolution:
         raise InputError("the samples of its time are not equally spaced", where=str(data), remedy=_AGAIN)
     return even
-
-
-def _channel_line(line: str) -> tuple[str, str, str]:
-    """Name, unit and description of a channel, which are in fixed columns."""
-    body = line.expandtabs()
-    return body[12:43].strip(), body[43:54].strip(), body[54:].strip()
-
-
-def _scale(lines: list[str], channels: int) -> NDArray:
-    numbers = [line.split()[0] for line in lines if re.fullmatch(r"\s*[-+]?\d\.\d+E[-+]\d+\s*", line)]
-    if len(numbers) < channels:
-        raise ValueError(f"{len(numbers)} scale factors for {channels} channels")
-    return np.array(numbers[-channels:], dtype=np.float64)
 
 
 def _read_gtsdf(path: Path) -> _Output:

@@ -30,8 +30,10 @@ def estimate_lubricant(
 ) -> Lubricant:
     """Estimate a lubricant at 35 degC from kinematic viscosities and base oil.
 
-    The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil family by Gold et al.,
-    for esters and polyglycols raised within its scatter by the friction of thrust bearings, and the Eyring stress 2 gamma/alpha at 1 GPa. Values that the family leaves open have the tag E and a range.
+    The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil family by Gold et
+    al., for esters and polyglycols raised within its scatter by the friction of thrust bearings, and the Eyring stress
+    2 gamma/alpha at 1 GPa. Values that the family leaves open have the tag E and a range. Raises InputError if there is
+    no such family, a viscosity is out of range, or it does not fall with temperature.
 
     Parameters
     ----------
@@ -41,11 +43,6 @@ def estimate_lubricant(
         A family of `macroslip.lubricant.base_oil.BASE_OILS`. For a grease, the family of its base oil.
     name : str
         Short name of the lubricant.
-
-    Raises
-    ------
-    InputError
-        If there is no such family, a viscosity is out of range, or it does not fall with temperature.
 
     Examples
     --------

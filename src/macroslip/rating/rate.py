@@ -44,17 +44,14 @@ def roller_load_history(
 ) -> tuple[BearingLoads, NDArray[np.float64]]:
     """Elastic load of every roller at every sample; it does not depend on the lubricant.
 
+    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
+
     Returns
     -------
     loads : BearingLoads
         The same loads, with samples in between where the shaft turns too far between two of them.
     roller_load : ndarray, shape (2, Z, n)
         Q [N] over row, roller and the samples of these loads.
-
-    Raises
-    ------
-    InputError
-        If a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
 
     Examples
     --------
@@ -249,23 +246,18 @@ def _iso281(history: _History) -> dict[str, tuple]:
     }
 
 
-def _ring_damages(history: _History) -> NDArray[np.float64]:
-    """Damage (Q_e/Q_c)^(9/2) over distribution, row, raceway and sample."""
+def _reference(history: _History) -> dict[str, tuple]:
     bearing = history.bearing
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.roller_diameter * cosine / (2.0 * bearing.pitch_radius)
     ratings = iso.ring_ratings(history.dynamic, len(ROWS), bearing.rollers_per_row, bearing.contact_angle, gamma)
     semi_axes = [raceway.hertz.semi_axis_across for raceway in interfaces(bearing, history.lubricant)]
-    found = np.empty((len(DISTRIBUTIONS), len(ROWS), len(RACEWAYS), history.loads.time.size))
+    # (Q_e/Q_c)^(9/2) over distribution, row, raceway and sample.
+    damages = np.empty((len(DISTRIBUTIONS), len(ROWS), len(RACEWAYS), history.loads.time.size))
     for row, load in enumerate(history.roller_load):
         for k, rating in enumerate(ratings):
             stationary = RACEWAYS[k] == "outer"
-            found[:, row, k] = iso.damage_series(load, semi_axes[k], bearing.roller_length, rating, stationary)
-    return found
-
-
-def _reference(history: _History) -> dict[str, tuple]:
-    damages = _ring_damages(history)
+            damages[:, row, k] = iso.damage_series(load, semi_axes[k], bearing.roller_length, rating, stationary)
 
     def hours(life: NDArray[np.float64]) -> NDArray[np.float64]:
         # Palmgren and Miner: the shares of life used by each load add up.

@@ -57,16 +57,14 @@ def read_results(path: Path) -> dict[str, xr.Dataset]:
     for file in files:
         check_regular(file, REMEDY)
     check_hdf5(files, REMEDY)
-    return {file.stem: _read(file) for file in files}
-
-
-def _read(file: Path) -> xr.Dataset:
-    try:
-        # Units of seconds are units, not times of day.
-        found = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
-    except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY) from None
-    check_result(found, str(file))
+    found = {}
+    for file in files:
+        try:
+            # Units of seconds are units, not times of day.
+            found[file.stem] = xr.load_dataset(file, engine="h5netcdf", decode_times=False)
+        except (OSError, ValueError, KeyError) as error:
+            raise InputError(f"the file cannot be read as netCDF ({error})", where=str(file), remedy=REMEDY) from None
+        check_result(found[file.stem], str(file))
     return found
 
 
@@ -89,7 +87,7 @@ class Macroslip:
         """
         import pandas as pd
 
-        result, found = self._result, {}
+        result, found, unknown = self._result, {}, xr.DataArray(float("nan"))
         for numbers in row_numbers(result):
             one = result.sel(row=numbers["name"])
             by_interface = one.energy.mean("roller", skipna=False)
@@ -99,15 +97,13 @@ class Macroslip:
                 "energy at the inner raceway [J]": by_interface.sel(interface="inner").item(),
                 "energy at the outer raceway [J]": by_interface.sel(interface="outer").item(),
                 "energy at the cage [J]": by_interface.sel(interface="cage").item(),
-                "rolling energy per roller [J]": one.rolling_energy.sum("interface")
-                .mean("roller", skipna=False)
-                .item(),
+                "rolling energy per roller [J]": float(
+                    one.rolling_energy.sum("interface").mean("roller", skipna=False)
+                ),
                 "highest peak power [W]": numbers["peak"],
                 "lowest spin / pure rolling [1]": numbers["spin"],
-                "largest flash temperature [K]": one["flash_temperature"].max().item()
-                if "flash_temperature" in one
-                else None,
-                "least film ratio [1]": one["min_film_ratio"].min().item() if "min_film_ratio" in one else None,
+                "largest flash temperature [K]": one.get("flash_temperature", unknown).max().item(),
+                "least film ratio [1]": one.get("min_film_ratio", unknown).min().item(),
                 "failed rollers [1]": numbers["failed"],
             }
         table = pd.DataFrame(found, dtype=float)

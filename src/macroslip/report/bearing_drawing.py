@@ -31,7 +31,8 @@ def draw_bearing(bearing: Bearing) -> Figure:
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_aspect("equal")
     axes.axis("off")
-    half = _half_width(bearing)
+    width = bearing.width if bearing.width is not None else 2.1 * geometry.envelope(bearing).farthest
+    half = 0.5 * _MILLI * width
     _rings(axes, bearing, half)
     for side in (-1, 1):
         axes.fill(*_roller(bearing, side), fc=ROLLER, ec="black", lw=1.0, zorder=3)
@@ -41,11 +42,6 @@ def draw_bearing(bearing: Bearing) -> Figure:
     axes.set(xlim=(-3.0 * half, 3.0 * half), ylim=(-0.08 * _outside(bearing), 1.2 * _outside(bearing)))
     axes.text(0, 1.14 * _outside(bearing), bearing.name, ha="center", va="center", fontsize=12)
     return figure
-
-
-def _half_width(bearing: Bearing) -> float:
-    width = bearing.width if bearing.width is not None else 2.1 * geometry.envelope(bearing).farthest
-    return 0.5 * _MILLI * width
 
 
 def _outside(bearing: Bearing) -> float:

@@ -56,8 +56,8 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
     """
     from matplotlib import colormaps
 
-    time = scene.time.values
-    quantities = []
+    time, quantities = scene.time.values, []
+    power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(axis=(0, 1))
     for name, heading, unit, factor, logarithmic in QUANTITIES:
         if name not in scene:
             continue
@@ -81,7 +81,8 @@ def scene_data(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         "start": float(time[0]),
         "step": float((time[-1] - time[0]) / (time.size - 1)) if time.size > 1 else 0.0,
         "count": int(time.size),
-        "first": _opening(scene),
+        # A little before the largest power.
+        "first": max(0, int(np.argmax(power)) - power.size // 60),
         "angle": np.round(scene.angle.values, 3).tolist(),
         "travelled": _text(scene.travelled.values.astype("<f4").tobytes()),
         "radii": {
@@ -112,8 +113,3 @@ def _pockets(scene: xr.Dataset, bearing: Bearing) -> dict[str, Any]:
         "lead": _text(scene.cage_lead.values.astype("<f4").tobytes()),
         "force": [name for name, *_ in QUANTITIES if name in scene].index("cage_force"),
     }
-
-
-def _opening(scene: xr.Dataset) -> int:
-    power = np.nan_to_num(scene.power.transpose("row", "roller", "time").values, nan=-1.0).max(axis=(0, 1))
-    return max(0, int(np.argmax(power)) - power.size // 60)

@@ -64,7 +64,10 @@ def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = 
     of the runs of a bin between two designs of a study. What the estimates among the inputs leave open is not in it.
     """
     names = [Path(one).stem if isinstance(one, (str, Path)) else f"result {k + 1}" for k, one in enumerate(results)]
-    opened = [_opened(one) for one in results]
+    opened = [
+        one if isinstance(one, xr.Dataset) else open_study(one) if is_study(Path(one)) else open_result(one)
+        for one in results
+    ]
     studies = [one for one in opened if "case" in one.dims]
     if len(studies) == 1 and len(opened) == 1:
         return compare_designs(opened[0], [by] if isinstance(by, str) else by)
@@ -82,12 +85,6 @@ def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = 
     return compare_results(dict(zip(unique, opened, strict=True)))
 
 
-def _opened(one: xr.Dataset | str | Path) -> xr.Dataset:
-    if not isinstance(one, (str, Path)):
-        return one
-    return open_study(one) if is_study(Path(one)) else open_result(one)
-
-
 def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     """Compare results by name; as `compare`."""
     inputs = {name: dict(_leaves(stored_settings(one))) for name, one in results.items()}
@@ -103,7 +100,8 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     for name, one in results.items():
         pieces = _pieces(results[first], one) if name != first else None
         if pieces is not None:
-            ranges[name] = _range(pieces, values[first][ENERGY, "J/h"])
+            variance = pieces.var(ddof=1) / pieces.size
+            ranges[name] = _half_range(variance, pieces.size - 1, values[first][ENERGY, "J/h"])
     frame = _frame(values, ranges)
     shown = {key: one for key, one in differ.items() if key != "loads.sha256"}
     frame.attrs = {"notes": _notes(results, differ), "inputs": shown, "ranking": _ranking(frame)}
@@ -178,11 +176,11 @@ def _pieces(first: xr.Dataset, other: xr.Dataset) -> np.ndarray | None:
     )
 
 
-def _range(pieces: np.ndarray, of: float) -> float:
+def _half_range(variance: float, freedom: int, of: float) -> float:
+    """Half of the 95 % range of a mean, in per cent of a value; NaN where nothing is known of its scatter."""
     from scipy.stats import t
 
-    error = pieces.std(ddof=1) / np.sqrt(pieces.size)
-    return float(100.0 * t.ppf(0.975, pieces.size - 1) * error / abs(of)) if of else np.nan
+    return float(100.0 * t.ppf(0.975, freedom) * np.sqrt(variance) / abs(of)) if freedom and of else np.nan
 
 
 def compare_designs(
@@ -259,14 +257,12 @@ def _paired(first: xr.Dataset, other: xr.Dataset) -> pd.Series:
 
 def _pooled_range(differences: pd.Series, place: Mapping[str, int], share: np.ndarray, total: float) -> float:
     """Half of the 95 % range of the difference of two years [%], by the scatter of differences in each bin."""
-    from scipy.stats import t
-
     variance, freedom = 0.0, 0
     for number, values in differences.groupby([place[str(name)] for name in differences.index]):
         if values.size > 1:
             variance += share[int(number)] ** 2 * float(values.var()) / values.size  # pyright: ignore[reportArgumentType]
             freedom += values.size - 1
-    return float(100.0 * t.ppf(0.975, freedom) * np.sqrt(variance) * YEAR / total) if freedom and total else np.nan
+    return _half_range(variance * YEAR**2, freedom, total)
 
 
 def _frame(values: Mapping[str, Mapping[tuple[str, str], float]], ranges: Mapping[str, float]) -> pd.DataFrame:

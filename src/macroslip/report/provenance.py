@@ -22,15 +22,22 @@ if TYPE_CHECKING:
 _DOI = re.compile(r"doi:\s*(10\.\S+?)[.;,)]?(?=\s|$)")
 
 
-def provenance_section(
-    datasets: Mapping[str, xr.Dataset], *, seconds: Mapping[str, float] | None = None, reused: tuple[str, ...] = ()
-) -> Section:
-    """The section on the origin of every number of a page, of results or studies by name.
-
-    With the wall time by stage [s], and the parts that an earlier run had computed, where they are known.
-    """
+def provenance_section(datasets: Mapping[str, xr.Dataset]) -> Section:
+    """The section on the origin of every number of a page, of results or studies by name."""
     given = {name: stored_settings(one) for name, one in datasets.items()}
-    tables = [_program(datasets, seconds, reused), _statuses(datasets)]
+    sources = sorted({one.attrs.get("source", "not given") for one in datasets.values()})
+    program = [("computed by", ", ".join(sources))]
+    program += [(f"this page: {key}", str(value)) for key, value in machine().items() if value is not None]
+    ends = [
+        (name, str(count), status.sentence)
+        for name, dataset in datasets.items()
+        for status in Status
+        if (count := int((dataset.status == status).sum()))
+    ]
+    tables = [
+        Table(("", ""), program, "Program and machine"),
+        Table(("", "integrations of rollers", "how they ended"), ends, "Status of the integrations"),
+    ]
     for part in ("bearing", "lubricant", ""):
         tables += _input_tables(given, part)
     if (loads := _loads(given)).rows:
@@ -45,27 +52,6 @@ def provenance_section(
 
 def _lines(datasets: Mapping[str, xr.Dataset], attribute: str) -> list[str]:
     return [line for one in datasets.values() for line in one.attrs.get(attribute, "").splitlines()]
-
-
-def _program(datasets: Mapping[str, xr.Dataset], seconds: Mapping[str, float] | None, reused: tuple[str, ...]) -> Table:
-    sources = sorted({one.attrs.get("source", "not given") for one in datasets.values()})
-    rows = [("computed by", ", ".join(sources))]
-    rows += [(f"this page: {key}", str(value)) for key, value in machine().items() if value is not None]
-    if seconds:
-        rows.append(("time taken", ", ".join(f"{stage} {value:.1f} s" for stage, value in seconds.items())))
-    if reused:
-        rows.append(("taken from an earlier run with the same inputs", ", ".join(reused)))
-    return Table(("", ""), rows, "Program and machine")
-
-
-def _statuses(datasets: Mapping[str, xr.Dataset]) -> Table:
-    counts = [
-        (name, int((dataset.status == status).sum()), status.sentence)
-        for name, dataset in datasets.items()
-        for status in Status
-    ]
-    rows = [(name, str(count), sentence) for name, count, sentence in counts if count]
-    return Table(("", "integrations of rollers", "how they ended"), rows, "Status of the integrations")
 
 
 def _input_tables(given: Mapping[str, Mapping[str, Any]], part: str) -> list[Table]:

@@ -51,6 +51,10 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
             orbits = orbits.max("interface")
         share = row.get("outside_film_range")
         raceways = None if share is None else share.sel(interface=share.interface.isin(["inner", "outer"]))
+        thin = np.array(np.nan)
+        if "film_slip_time" in row:
+            amounts = row.film_slip_time.transpose("raceway", "film_class", "slip_class").values
+            thin = share_below(amounts, FILM_EDGES, 3.0)
         found.append(
             {
                 "name": name,
@@ -65,7 +69,7 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
                 "loaded": 100.0 * float((row.roller_load > 0.0).mean()) if "roller_load" in row else None,
                 "outside": None if raceways is None else _known(100.0 * raceways.mean("roller").max()),
                 "outside_most": None if share is None else _known(100.0 * share.max()),
-                "mixed": _mixed(row.film_slip_time) if "film_slip_time" in row else None,
+                "mixed": 100.0 * float(np.nanmax(thin)) if np.isfinite(thin).any() else None,
                 "failed": int((row.status != 0).sum()),
                 "rollers": int(row.sizes["roller"]),
             }
@@ -75,13 +79,6 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
 
 def _known(value: xr.DataArray) -> float | None:
     return float(value) if bool(np.isfinite(value)) else None
-
-
-def _mixed(time: xr.DataArray) -> float | None:
-    """Share of loaded time with Λ below 3 [%], of the raceway with more."""
-    amounts = time.transpose("raceway", "film_class", "slip_class").values
-    shares = share_below(amounts, FILM_EDGES, 3.0)
-    return 100.0 * float(np.nanmax(shares)) if np.isfinite(shares).any() else None
 
 
 def largest_peak(result: xr.Dataset) -> dict[str, Any] | None:

@@ -143,7 +143,8 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None
     for name, label in _EXTREMES.items():
         if len(pictures) < 4 and name in extremes:
             pictures.append(picture(_plot_extremes, f"By run: {label}", base, order, name, label, **OPENING))
-    answer = text.answer(_counts(study), _first(ranking), told, list(extremes.values()), driver)
+    counts = {one.name: int((study.outcome.values == str(one)).sum()) for one in Outcome}
+    answer = text.answer(counts, ranking, told, list(extremes.values()), driver)
     opening = Opening(answer, pictures, table=_designs(table, names, _MOST_DESIGNS))
     return render(title, _subtitle(study, title), opening, found)
 
@@ -169,26 +170,11 @@ def _subtitle(study: xr.Dataset, title: str) -> str:
     return f"{own}{study.sizes['case']} runs, {', '.join(parts)}."
 
 
-def _counts(study: xr.Dataset) -> dict[str, int]:
-    counts = {one: int((study.outcome.values == str(one)).sum()) for one in Outcome}
-    return {
-        "runs": study.sizes["case"],
-        "completed": counts[Outcome.COMPLETED],
-        "failed": counts[Outcome.FAILED] + counts[Outcome.ROLLERS_FAILED],
-        "missing": counts[Outcome.MISSING],
-    }
-
-
 def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> str:
     try:
         return compare_designs(study, None, wind).attrs["ranking"]
     except InputError:
         return ""
-
-
-def _first(ranking: str) -> str:
-    head, _, _ = ranking.partition(". ")
-    return f"{head.rstrip('.')}." if head else ""
 
 
 def _shown(name: str, value: float) -> str:
@@ -212,7 +198,7 @@ def _designs(table: pd.DataFrame, names: list[str], most: int) -> Table:
 
 def _effects(
     study: xr.Dataset, weights: Weights | None, bins: dict[str, Any]
-) -> tuple[Markup | str, str, list[Picture]]:
+) -> tuple[Markup | str, Markup | str, list[Picture]]:
     """The section on the sample, the parameter that moves the energy most in a sentence, and pictures; empty without one."""
     if not sampled_parameters(study):
         return "", "", []
@@ -240,10 +226,8 @@ def _effects(
     if "energy" in found.quantity and bool(found.rank_correlation.sel(quantity="energy").notnull().any()):
         energy = found.sel(quantity="energy")
         first = energy.isel(parameter=int(np.nanargmax(np.abs(energy.rank_correlation.values))))
-        driver = (
-            f"Of the sampled values, {first.parameter.item()} moves the energy most: {100.0 * float(first.main_effect):+.2g} % "
-            f"from the lower to the upper half of its range (rank correlation {float(first.rank_correlation):.2f})."
-        )
+        numbers = 100.0 * float(first.main_effect), float(first.rank_correlation)
+        driver = words(_TEMPLATE).driver(first.parameter.item(), *numbers)
     return words(_TEMPLATE).effects(table, shown), driver, shown
 
 

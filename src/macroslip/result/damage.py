@@ -13,6 +13,7 @@ from macroslip.damage import friction_energy, micropitting, smearing, wear
 from macroslip.errors import InputError
 from macroslip.measures.details import FILM_EDGES, SLIP_EDGES, STATIONS
 from macroslip.result.run_input import RunInput, run_input, stored_settings
+from macroslip.result.variables import described
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -93,6 +94,9 @@ def damage(
 ) -> xr.Dataset:
     """Criteria of damage of a result, each with its reference; none of them holds generally.
 
+    Raises InputError if the result keeps no details; if wear is asked for where no asperities were chosen; for a
+    criterion that does not exist, or numbers out of range.
+
     Parameters
     ----------
     result : xarray.Dataset
@@ -108,12 +112,6 @@ def damage(
     xarray.Dataset
         Rates per second over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`, and as
         coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
-
-    Raises
-    ------
-    InputError
-        If the result keeps no details; if wear is asked for where no asperities were chosen; for a criterion that does not
-        exist, or numbers out of range.
     """
     import xarray as xr
 
@@ -128,9 +126,9 @@ def damage(
     coefficients = _coefficients(wear_coefficients, hardness)
     found, missing = _Rates(result, given), []
     data = {
-        "pass_rate": (("place",), found.pass_rates(), _about("1/s", "passes over a place that is loaded all round")),
-        "pressure_slip_rate": (_PROFILE, found.profile("surface_work"), _about("W/m2", "mean of p |v| over time, e_a")),
-        "friction_power": (_PROFILE, found.profile("surface_energy"), _about("W/m2", "frictional power per area, mean over time")),
+        "pass_rate": (("place",), found.pass_rates(), described("1/s", "passes over a place that is loaded all round")),
+        "pressure_slip_rate": (_PROFILE, found.profile("surface_work"), described("W/m2", "mean of p |v| over time, e_a")),
+        "friction_power": (_PROFILE, found.profile("surface_energy"), described("W/m2", "frictional power per area, mean over time")),
         **_films(result),
     }  # fmt: skip
     power = _largest(data["pressure_slip_rate"][1])
@@ -163,17 +161,17 @@ def damage(
     data |= _answer(values, own)
     coordinates = {
         "row": result.row, "place": list(PLACES), "raceway": result.raceway, "station": result.station,
-        "film_ratio": ("film_ratio", list(FILM_EDGES), _about("1", "upper limit of Lambda")),
-        "wear_coefficient": ("wear_coefficient", coefficients, _about("m2/N", "k")),
-        "depth": ("depth", list(wear.DEPTHS), _about("m", "depth of wear")),
-        "age": ("age", np.array(_AGES) * YEAR, _about("s", "time like this window")),
+        "film_ratio": ("film_ratio", list(FILM_EDGES), described("1", "upper limit of Lambda")),
+        "wear_coefficient": ("wear_coefficient", coefficients, described("m2/N", "k")),
+        "depth": ("depth", list(wear.DEPTHS), described("m", "depth of wear")),
+        "age": ("age", np.array(_AGES) * YEAR, described("s", "time like this window")),
         "criterion": known,
         **{
             name: ("criterion", [_told(one, own, name) for one in CRITERIA]) for name in ("title", "unit", "compared_with", "how_sure")
         },
-        "reference_power_low": ((), _FE8.range()[0], _about("W/m2", "e_a of the FE8 test, logarithmic profile")),
-        "reference_power_high": ((), _FE8.range()[1], _about("W/m2", "e_a of the FE8 test, even load")),
-        "rig_slide_roll_ratio": ((), smearing.RIG_SLIDE_ROLL_RATIO, _about("1", "onset of smearing on a rig")),
+        "reference_power_low": ((), _FE8.range()[0], described("W/m2", "e_a of the FE8 test, logarithmic profile")),
+        "reference_power_high": ((), _FE8.range()[1], described("W/m2", "e_a of the FE8 test, even load")),
+        "rig_slide_roll_ratio": ((), smearing.RIG_SLIDE_ROLL_RATIO, described("1", "onset of smearing on a rig")),
     }  # fmt: skip
     about = {
         "title": f"Criteria of damage: {result.attrs.get('title', '')}", "model": result.attrs.get("model", ""),
@@ -189,10 +187,6 @@ def _told(one: Criterion, own: Mapping[str, Threshold], what: str) -> str:
     if what == "compared_with" and one.name in own:
         return f"your threshold: {own[one.name].source}"
     return str(getattr(one, what))
-
-
-def _about(units: str, long_name: str) -> dict[str, str]:
-    return {"units": units, "long_name": long_name}
 
 
 def _largest(values: np.ndarray) -> float:
@@ -264,11 +258,11 @@ def _films(result: xr.Dataset) -> dict[str, Any]:
     for kind in ("time", "passes"):
         amounts = result[f"film_slip_{kind}"].transpose(*dims, "film_class", "slip_class").values
         shares = np.stack([micropitting.share_below(amounts, FILM_EDGES, one) for one in FILM_EDGES], axis=-1)
-        about = _about("1", f"share of {'loaded time' if kind == 'time' else 'passes'} with Lambda below film_ratio")
+        about = described("1", f"share of {'loaded time' if kind == 'time' else 'passes'} with Lambda below film_ratio")
         found[f"mixed_{kind}"] = ((*dims, "film_ratio"), shares, about)
         if kind == "time":
             thin = amounts[:, :, : FILM_EDGES.index(3.0) + 1].sum(axis=2)
-            about = _about("1", "of the time with Lambda below 3 the share with the ring the slower surface")
+            about = described("1", "of the time with Lambda below 3 the share with the ring the slower surface")
             found["slower_share"] = (dims, micropitting.slower_share(thin, SLIP_EDGES), about)
     return found
 
@@ -279,19 +273,19 @@ def _entries(result: xr.Dataset, rates: _Rates, own: Mapping[str, Threshold]) ->
     orbits = float((result.orbit_end - result.orbit_start).sum()) or math.nan
     count = result.entries.transpose("row", "roller", "orbit").values
     scale = rates.all_rollers / orbits
-    about = _about("1/s", "entries into the load zone of all rollers of a row")
+    about = described("1/s", "entries into the load zone of all rollers of a row")
     found["entry_rate"] = (("row",), np.nansum(count, axis=(1, 2)) * scale, about)
     for one in CRITERIA[:3]:
         values = result[one.name].transpose("row", "raceway", "roller", "orbit")
         largest = values.reduce(np.fmax.reduce, ("roller", "orbit")).values  # without a warning where none entered
-        found[one.name] = (dims, largest, _about(one.unit, str(result[one.name].attrs["long_name"]).split(",")[0]))
+        found[one.name] = (dims, largest, described(one.unit, str(result[one.name].attrs["long_name"]).split(",")[0]))
         limit = own[one.name].value if one.name in own else one.reference
         if math.isfinite(limit):
             beyond = smearing.entries_beyond(values.values, count[:, None], limit)
             for bound, number in zip(("least", "most"), beyond, strict=True):
-                about = _about("1/s", f"entries of all rollers beyond {limit:g} {one.unit}, at {bound}")
+                about = described("1/s", f"entries of all rollers beyond {limit:g} {one.unit}, at {bound}")
                 found[f"{one.name}_beyond_{bound}"] = (dims, number * scale, about)
-    about = _about("1", "least Lambda at entry")
+    about = described("1", "least Lambda at entry")
     found["entry_film_ratio"] = (
         dims,
         result.entry_film_ratio.reduce(np.fmin.reduce, ("roller", "orbit")).transpose(*dims).values,
@@ -305,7 +299,7 @@ def _wear(
 ) -> dict[str, Any]:
     """Work of asperities, time to depths, and worn profiles at the middle coefficient."""
     work = wear.worn_volume(1.0, rates.profile("surface_asperity_energy"), friction)
-    about = _about("W/m2", "asperities' pressure times slip, mean over time: depth of wear a second over k")
+    about = described("W/m2", "asperities' pressure times slip, mean over time: depth of wear a second over k")
     rows = given.models
     times = np.full((len(rows), len(PLACES), len(wear.DEPTHS)), math.inf)
     depth = np.zeros((len(rows), len(_AGES), len(PLACES), STATIONS))
@@ -324,10 +318,10 @@ def _wear(
         "asperity_work_rate": (_PROFILE, work, about),
         "wear_time": (
             ("row", "place", "depth", "wear_coefficient"), times[..., None] / np.array(coefficients),
-            _about("s", "time like this window until the deepest place has worn by depth"),
+            described("s", "time like this window until the deepest place has worn by depth"),
         ),
         "worn_depth": (
-            ("row", "place", "age", "station"), np.swapaxes(depth, 1, 2), _about("m", f"depth of wear at k = {middle:g} m2/N")
+            ("row", "place", "age", "station"), np.swapaxes(depth, 1, 2), described("m", f"depth of wear at k = {middle:g} m2/N")
         ),
     }  # fmt: skip
 
@@ -387,10 +381,10 @@ def _answer(values: dict[str, float], own: Mapping[str, Threshold]) -> dict[str,
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(lowest, reference / value, value / reference)
     return {
-        "value": (("criterion",), value, _about("see unit", "worst value of either row and any place")),
-        "factor": (("criterion",), [one.factor for one in CRITERIA], _about("1", "the value holds within this factor")),
-        "reference": (("criterion",), reference, _about("see unit", "what it is compared with; NaN where nothing could be traced")),
-        "ratio": (("criterion",), ratio, _about("1", "value over reference; of a time reference over value")),
+        "value": (("criterion",), value, described("see unit", "worst value of either row and any place")),
+        "factor": (("criterion",), [one.factor for one in CRITERIA], described("1", "the value holds within this factor")),
+        "reference": (("criterion",), reference, described("see unit", "what it is compared with; NaN where nothing could be traced")),
+        "ratio": (("criterion",), ratio, described("1", "value over reference; of a time reference over value")),
     }  # fmt: skip
 
 

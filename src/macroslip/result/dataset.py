@@ -158,17 +158,11 @@ def _dataset(
         for name, (dims, units, long_name) in VARIABLES.items()
         if name in values
     }
-    data["status"][-1].update(status_flags())
+    # Meanings of the numbers, in the form of the CF conventions.
+    meanings = " ".join(one.name.lower() for one in Status)
+    data["status"][-1].update(flag_values=np.array([int(one) for one in Status], dtype=np.int8), flag_meanings=meanings)
     known = roller_coordinates(case, ready.edges, curved=curved, raceways=curved or bool(extra))
     return xr.Dataset(data | extra, known | coordinates, attributes)
-
-
-def status_flags() -> dict[str, Any]:
-    """Meanings of the numbers of `status`, in the form of the CF conventions."""
-    return {
-        "flag_values": np.array([int(one) for one in Status], dtype=np.int8),
-        "flag_meanings": " ".join(one.name.lower() for one in Status),
-    }
 
 
 def _attributes(ready: Prepared, tables: TableReport, method: list[str]) -> dict[str, Any]:

@@ -41,7 +41,8 @@ def balance_temperature(
     Steady state: the whole friction of the bearing leaves it in proportion to its excess temperature. A large bearing
     takes hours to get there, so the mean power over a wind history counts, not that of a gust. Where friction falls
     with temperature, as in full films, there is one solution; where it rises again in mixed lubrication, this may be
-    one of several.
+    one of several. Raises InputError if conductance or ambient are no such numbers, the power is not a finite,
+    non-negative number, or the bearing is still heated at the highest temperature.
 
     Parameters
     ----------
@@ -58,12 +59,6 @@ def balance_temperature(
     -------
     float
         T [K], from `ambient` to `hottest`, to 1e-9 K, by Brent's method.
-
-    Raises
-    ------
-    InputError
-        If conductance or ambient are no such numbers, the power is not a finite, non-negative number, or the bearing is
-        still heated at the highest temperature.
 
     Examples
     --------

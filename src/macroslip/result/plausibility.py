@@ -34,7 +34,6 @@ def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearin
 
     Parameters
     ----------
-    loads : HubLoads, BearingLoads or RollerLoads
     bearing : Bearing, optional
         Its static load rating is what the rotor's weight is compared with.
 

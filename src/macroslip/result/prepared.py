@@ -63,18 +63,15 @@ class Prepared:
         rollers = self.case.bearing.rows * self.case.bearing.rollers_per_row
         return rollers * float(np.trapezoid(power, time)) / (self.end - start)
 
-    def _mean_elastic_load(self) -> float:
-        """Mean load with which the rings press a roller of either row [N], from some hundred samples."""
-        few = Motion(*(values[:: max(1, self.motion.time.size // 200)] for values in self.motion))
-        ring = ring_geometry(self.case.bearing, self.model)
-        return float(elastic_loads(self.case.ring_loads, ring, few).mean())
-
     def notes(self, tables: TableReport) -> dict[str, Any]:
         """Attributes on films out of range, on contacts cut off at the roller's ends, and on the tables in use."""
         case = self.case
+        # Of some hundred samples.
+        few = Motion(*(values[:: max(1, self.motion.time.size // 200)] for values in self.motion))
+        pressed = elastic_loads(case.ring_loads, ring_geometry(case.bearing, self.model), few)
         return {
             "film_range_notes": "\n".join(film_range_notes(case.laws.film, interfaces(case.bearing, case.oil))),
-            "mean_elastic_load": self._mean_elastic_load(),
+            "mean_elastic_load": float(pressed.mean()),
             "truncated_share": truncated_share(self.largest, truncation_load(case.bearing, case.oil)),
             "oil_supply_note": supply_note(case),
             "contact_evaluation": "tables",

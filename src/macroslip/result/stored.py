@@ -79,13 +79,10 @@ def _kinds(result: xr.Dataset) -> str:
         if result[name].dtype.kind not in "fiu":
             return f"{name} holds no numbers"
     for name in ("window_start", "window_end"):
-        if name in result.attrs and not (np.ndim(result.attrs[name]) == 0 and _is_finite(result.attrs[name])):
+        time = result.attrs.get(name, 0.0)
+        if not (np.ndim(time) == 0 and isinstance(time, (int, float, np.number)) and np.isfinite(time)):
             return f"the attribute {name} is no time"
     return ""
-
-
-def _is_finite(value: Any) -> bool:
-    return isinstance(value, (int, float, np.number)) and bool(np.isfinite(value))
 
 
 def _labels(result: xr.Dataset) -> str:

@@ -79,6 +79,15 @@ def coordinates(bearing: Bearing) -> dict[str, Any]:
     """Angles, areas of the places, and names of what energy is split by."""
     angle = (np.arange(SECTORS) + 0.5) * (2.0 * math.pi / SECTORS)
     about = {"units": "rad", "long_name": "angle on the raceway, outer: from +X0 to +Y0, inner: the same on the ring"}
+    # The radius of a place from the bearing's axis changes along the roller.
+    edges = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
+    middles, width = 0.5 * (edges[1:] + edges[:-1]), bearing.roller_length / STATIONS
+    radii = (geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing))
+    lean = math.sin(bearing.contact_angle)
+    areas = [
+        [(radius - AXIAL_SIGNS[row] * middles * lean) * (2.0 * math.pi / SECTORS) * width for radius in radii]
+        for row in row_names(bearing)
+    ]
     area = {"units": "m2", "long_name": "area of a place of the raceway"}
     return {
         "angle": ("angle", angle, about),
@@ -86,7 +95,7 @@ def coordinates(bearing: Bearing) -> dict[str, Any]:
         "film_regime": list(FILM_REGIMES),
         "film_class": _classes(FILM_EDGES),
         "slip_class": _classes(SLIP_EDGES),
-        "cell_area": (("row", "raceway", "station"), _areas(bearing), area),
+        "cell_area": (("row", "raceway", "station"), np.array(areas), area),
     }
 
 
@@ -96,20 +105,6 @@ def _classes(edges: tuple[float, ...]) -> list[str]:
         *(f"{a:g} to {b:g}" for a, b in itertools.pairwise(edges)),
         f"{edges[-1]:g} and above",
     ]
-
-
-def _areas(bearing: Bearing) -> np.ndarray:
-    """Area of a place [m²] over (row, raceway, station): its radius from the bearing's axis changes along the roller."""
-    edges = np.linspace(-0.5, 0.5, STATIONS + 1) * bearing.roller_length
-    middles, width = 0.5 * (edges[1:] + edges[:-1]), bearing.roller_length / STATIONS
-    radii = (geometry.inner_contact_radius(bearing), geometry.outer_contact_radius(bearing))
-    lean = math.sin(bearing.contact_angle)
-    return np.array(
-        [
-            [(radius - AXIAL_SIGNS[row] * middles * lean) * (2.0 * math.pi / SECTORS) * width for radius in radii]
-            for row in row_names(bearing)
-        ]
-    )
 
 
 def energy_density(result: xr.Dataset) -> xr.DataArray:

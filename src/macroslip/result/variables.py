@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from macroslip.result import skew, surface_maps
 
+
+def described(units: str, long_name: str) -> dict[str, str]:
+    """Attributes of a variable."""
+    return {"units": units, "long_name": long_name}
+
+
 #: Counts of an integrator.
 COUNTS = ("steps", "rejections", "force_evaluations")
 _ROLLERS = ("row", "roller")

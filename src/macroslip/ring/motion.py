@@ -55,12 +55,12 @@ def ring_motion(
 ) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
+    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did not converge.
+
     Parameters
     ----------
     loads : BearingLoads or RollerLoads
         Load on the inner ring; or loads of the rollers, with which the ring is left in the middle.
-    bearing : Bearing
-    ring : RingGeometry
     highest_load : float
         Roller load [N] that must not be exceeded.
     more : ndarray, optional
@@ -71,13 +71,6 @@ def ring_motion(
     motion : Motion
     largest : float
         Largest elastic roller load of the history [N].
-
-    Raises
-    ------
-    InputError
-        If a roller load exceeds `highest_load`.
-    MacroslipError
-        If a balance did not converge.
     """
     time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)

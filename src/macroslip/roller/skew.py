@@ -91,7 +91,6 @@ def placed(pair: Pair, load, axial) -> tuple[np.ndarray, np.ndarray, np.ndarray]
 
     Parameters
     ----------
-    pair : Pair
     load : ndarray
         Q [N].
     axial : ndarray, shape (2, ...)
@@ -122,7 +121,6 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
 
     Parameters
     ----------
-    pair : Pair
     laws : RollerLaws
         For rolling resistance.
     load : array_like
@@ -207,8 +205,6 @@ def rests(pair: Pair, laws: RollerLaws, load: float, ring_speed: float, alignmen
 
     Parameters
     ----------
-    pair : Pair
-    laws : RollerLaws
     load, ring_speed : float
         Q > 0 [N] and u2 ≠ 0 [m/s].
     alignment : float
@@ -254,7 +250,6 @@ def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = Non
 
     Parameters
     ----------
-    bearing : Bearing
     guidance : "conforming-pocket", "straight-bars", "guide-ring" or "none"
         A guide ring stands beside straight spars; without guidance a roller turns up to `LARGEST_SKEW`.
     gap : float

@@ -77,18 +77,14 @@ class Turned(NamedTuple):
 def skew_table(laws: RollerLaws, bearing: Bearing, box: Box) -> SkewTable:
     """The table of a bearing's rollers, made or from store.
 
+    Raises MacroslipError where no equilibrium was found.
+
     Parameters
     ----------
     laws : RollerLaws
         Of the downwind row.
-    bearing : Bearing
     box : Box
         States that it holds; loads below 2 kN have the forces and powers of 2 kN in proportion to theirs.
-
-    Raises
-    ------
-    MacroslipError
-        Where no equilibrium was found.
     """
     slowest = max(box.slowest, _SLOWEST * box.fastest) ** 0.25
     first = max(math.floor(slowest / _SPEED), 1)  # at rest there is no slip, and no equilibrium

@@ -50,9 +50,9 @@ STEP = np.dtype(
 BUFFER = 2**20
 
 
-def new_steps(rollers: int = 1, bytes_: int = BUFFER) -> np.ndarray:
-    """An empty buffer of steps, shape (steps, rollers); at least 16 steps."""
-    return np.zeros((max(bytes_ // (STEP.itemsize * rollers), 16), rollers), STEP)
+def new_steps() -> np.ndarray:
+    """An empty buffer of steps of one roller, shape (steps, 1)."""
+    return np.zeros((BUFFER // STEP.itemsize, 1), STEP)
 
 
 @jit_inline

@@ -46,13 +46,10 @@ def thrust(
 
     Parameters
     ----------
-    table : SkewTable
     guides : tuple of two Guide
         Of the downwind and the upwind row.
-    ring : RingGeometry
     model : RollerModel
         Of the downwind row.
-    motion : Motion
 
     Returns
     -------

@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import Weights, described
+from macroslip.result.variables import described
+from macroslip.study.weights import Weights
 from macroslip.study.year import CRITERIA, LIVES, designs, year
 
 if TYPE_CHECKING:
@@ -89,6 +90,8 @@ def effects(
 ) -> xr.Dataset:
     """How the criteria and lives of a year change with each sampled parameter.
 
+    Raises InputError if the study has no sample, or a label or a weight is wrong.
+
     Parameters
     ----------
     study, weights, field, width
@@ -101,11 +104,6 @@ def effects(
         half, in parts of the mean [1], its standard error `main_effect_error`, Spearman's `rank_correlation` and its
         `probability` by chance. Over (quantity, quantile): `range`, in the coordinate `units`. `points`: of the sample. Where
         bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean over the sample in each.
-
-    Raises
-    ------
-    InputError
-        If the study has no sample, or a label or a weight is wrong.
 
     Notes
     -----

@@ -8,7 +8,8 @@ import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import YEAR, Weights, binned, described, weighted
+from macroslip.result.variables import described
+from macroslip.study.weights import YEAR, Weights, binned, weighted
 
 #: Thresholds, 40 a decade: an energy [J] or power [W] is known to 6 %.
 THRESHOLDS = np.logspace(-9.0, 9.0, 721)
@@ -24,7 +25,8 @@ def exceedance(
     with the probability p_b of bin b, the number N_b(> x) of its orbits above x, over all runs, rollers of the row and
     complete orbits, and the time t_b that these took, over the same; of an event, the whole of its window.
 
-    Results are read one after the other and counted by classes, so that memory does not grow with the study.
+    Results are read one after the other and counted by classes, so that memory does not grow with the study. Raises
+    InputError if a label or a probability is wrong, or a stored result is damaged.
 
     Parameters
     ----------
@@ -38,11 +40,6 @@ def exceedance(
         energy (all interfaces) or peak power (largest at any interface) exceeds the threshold [J or W]. Over (group,
         row): `orbits` [1/year], all of them. NaN where a bin of some weight has no result. `runs` and `left_out` over
         (group, bin). Thresholds that all orbits exceed, and those that none does, are left out but for the nearest.
-
-    Raises
-    ------
-    InputError
-        If a label or a probability is wrong, or a stored result is damaged.
     """
     missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
     if missing:
@@ -109,17 +106,13 @@ def load_spectrum(
         n = T Σ_b p_b (1/N_b) Σ_{c in b} n_c / t_c
 
     as in `macroslip.study.lifetime.lifetime_energy`, with the cycles n_c and the length t_c of each load history.
+    Raises InputError if a label or a probability is wrong, or the study has not counted cycles.
 
     Returns
     -------
     xarray.Dataset
         Over (group, component, load_range): `cycles` [1]. NaN where a bin of some weight has no result. Ranges below
         the smallest and above the largest that occur are left out.
-
-    Raises
-    ------
-    InputError
-        If a label or a probability is wrong, or the study has not counted cycles.
     """
     if "load_cycles" not in study:
         remedy = "Set `cycles: true` in the study file and run it again."

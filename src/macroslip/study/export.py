@@ -94,11 +94,15 @@ def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> lis
     """Write tables, each to a file of its name in the folder, as `csv` or `parquet`; files of the same names are replaced."""
     import io
 
+    def harmless(value: Any) -> Any:
+        # A spreadsheet would take such text as a formula.
+        return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value
+
     written = []
     for name, frame in found.items():
         path = folder / f"{name}.{form}"
         if form == "csv":
-            content = frame.map(_harmless).to_csv(index=False, lineterminator="\n").encode()
+            content = frame.map(harmless).to_csv(index=False, lineterminator="\n").encode()
         else:
             buffer = io.BytesIO()
             frame.to_parquet(buffer, index=False)
@@ -106,8 +110,3 @@ def write_tables(found: dict[str, pd.DataFrame], folder: Path, form: str) -> lis
         write_durably(path, content)
         written.append(path)
     return written
-
-
-def _harmless(value: Any) -> Any:
-    """Text with an apostrophe in front where a spreadsheet would take it as a formula; else unchanged."""
-    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value

@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from macroslip.errors import InputError
-from macroslip.study.weights import YEAR, Weights, binned, described, weighted
+from macroslip.result.variables import described
+from macroslip.study.weights import YEAR, Weights, binned, weighted
 from macroslip.study.year import year
 
 #: Variables over the places of the raceways in a result.
@@ -26,14 +27,14 @@ def lifetime_energy(
         E = T Σ_b p_b P_b,    P_b = (1/N_b) Σ_{c in b} E_c / t_c
 
     with the lifetime T, the probability p_b of bin b, the energy E_c (`energy_mean`) of its N_b runs and the length t_c
-    of their windows. An event is a bin of its own, whose p_b is the share of time that its rate gives it, and wind speeds
-    share the rest. Time outside the bins contributes nothing; `covered` is the share of all time in the bins.
+    of their windows. An event is a bin of its own, whose p_b is the share of time that its rate gives it, and wind
+    speeds share the rest. Time outside the bins contributes nothing; `covered` is the share of all time in the bins.
+    Raises InputError if a label, a probability or the lifetime is wrong.
 
     Parameters
     ----------
     study : xarray.Dataset
         From `open_study`.
-    weights : Weibull, Given or Year
     years : float
         T [years of 365.25 days], above 0.
     field, width, by
@@ -45,11 +46,6 @@ def lifetime_energy(
         Over (group, row): `lifetime_energy` [J], NaN where a bin has no run. Over (group, bin, row): `power`
         [W], `bin_energy` [J], the bin's part of the sum. Over (group, bin): `runs`, those that were used, and `left_out`,
         those that failed or are missing. Over bin: `probability`; and `covered`, their sum.
-
-    Raises
-    ------
-    InputError
-        If a label, a probability or the lifetime is wrong.
 
     Examples
     --------
@@ -115,6 +111,8 @@ def worst(
 ) -> xr.Dataset:
     """The runs and rows with the largest values of a variable of the summary.
 
+    Raises InputError if there is no such variable.
+
     Parameters
     ----------
     study : xarray.Dataset
@@ -131,11 +129,6 @@ def worst(
     xarray.Dataset
         The variables of the summary and all labels, over `rank` from 1; `row` is a coordinate of it. Runs without a
         value are left out.
-
-    Raises
-    ------
-    InputError
-        If there is no such variable.
     """
     names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
     if variable not in names:
@@ -157,7 +150,8 @@ def weighted_maps(
 ) -> xr.Dataset:  # fmt: skip
     """Frictional energy at the places of the raceways over a lifetime, and the largest power per area of all cases.
 
-    As `lifetime_energy`, at every place and for every sign of slip and film regime.
+    As `lifetime_energy`, at every place and for every sign of slip and film regime. Raises InputError if a label, a
+    probability or the lifetime is wrong, or the study has no maps.
 
     Returns
     -------
@@ -165,11 +159,6 @@ def weighted_maps(
         `surface_energy` [J] and `surface_power_density` [W/m²] over group and their dimensions in a result, and
         `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete run. In which place the inner ring
         is when a case begins is by chance, so its map is spread evenly over the angle.
-
-    Raises
-    ------
-    InputError
-        If a label, a probability or the lifetime is wrong, or the study has no maps.
     """
     if "surface_energy" not in study:
         raise InputError(

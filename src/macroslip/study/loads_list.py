@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from macroslip.errors import InputError
+from macroslip.errors import InputError, safe_text
 from macroslip.files import check_regular
 from macroslip.loads.bundled import bundled_cases, bundled_labels
 
@@ -28,17 +28,6 @@ _KINDS: dict[str, tuple[str, Callable[[str], Any]]] = {
 _FIELD = re.compile(r"\{([A-Za-z_][A-Za-z0-9_]*)(?::([^{}]*))?\}")
 _WILDCARDS = {"**/": r"(?:[^/]+/)*", "*": r"[^/]*", "?": r"[^/]"}
 _PIECES = re.compile(r"\*\*/|\*|\?|\{[^{}]*\}|[^*?{]+|\{")
-
-
-def safe_text(text: object) -> str:
-    r"""A name from a file or folder with its control characters, which could steer a terminal, as numbers.
-
-    Examples
-    --------
-    >>> safe_text("run\x1b[2J\n7.outb")
-    'run\\x1b[2J\\n7.outb'
-    """
-    return "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in str(text))
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,9 @@ from xarray.core import indexing  # the documented interface for arrays of a bac
 
 from macroslip.bearing.geometry import ROWS
 from macroslip.files import MANIFEST, reading
+from macroslip.result.variables import described
 from macroslip.study.store import DATABASE, REMEDY, read_manifest, read_result, read_runs
 from macroslip.study.summary import CASE_VARIABLES, ROW_VARIABLES
-from macroslip.study.weights import described
 
 #: Dimensions along which results differ in length; shorter ones end in NaN. Times differ, so samples are counted.
 _RAGGED = {"orbit": "orbit", "time": "sample"}
@@ -81,6 +81,8 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
 def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dataset]]:
     """Yield the stored results of a study one by one, whole and with their attributes.
 
+    Raises InputError if the folder holds no study, or a stored result is gone or damaged.
+
     Parameters
     ----------
     directory : path
@@ -90,11 +92,6 @@ def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dat
     ------
     (int, xarray.Dataset)
         Number of the run, the `case` of `open_study`, and its result; runs without a result are left out.
-
-    Raises
-    ------
-    InputError
-        If the folder holds no study, or a stored result is gone or damaged.
     """
     directory = Path(directory).absolute()
     _, runs = _read(directory)

@@ -19,12 +19,11 @@ import numpy as np
 import macroslip
 from macroslip.bearing.geometry import ROWS
 from macroslip.case.case import WHOLE_BEARING
-from macroslip.errors import InputError, MacroslipError
+from macroslip.errors import InputError, MacroslipError, safe_text
 from macroslip.files import LOG, make_folder
 from macroslip.machine import usable_processors
 from macroslip.result.heat_balance import next_temperature
 from macroslip.study import store
-from macroslip.study.loads_list import safe_text
 from macroslip.study.reader import open_study
 from macroslip.study.settings import RECORDS
 from macroslip.study.store import BALANCE_RUNS, CASES, Database, Outcome

@@ -60,25 +60,12 @@ _BATCH = 20_000
 
 
 class Outcome(StrEnum):
-    """State of one run, with the sentence that is shown to the user.
+    """State of one run."""
 
-    Examples
-    --------
-    >>> Outcome.COMPLETED.sentence
-    'computed and stored'
-    """
-
-    COMPLETED = "completed", "computed and stored"
-    ROLLERS_FAILED = "rollers failed", "computed and stored, but the integration of some rollers failed"
-    FAILED = "failed", "not computed, for the reason given; tried again by every --resume"
-    MISSING = "missing", "not computed yet"
-
-    def __new__(cls, value: str, sentence: str):
-        """Make a member that carries its sentence."""
-        member = str.__new__(cls, value)
-        member._value_ = value
-        member.sentence = sentence
-        return member
+    COMPLETED = "completed"  #: Computed and stored
+    ROLLERS_FAILED = "rollers failed"  #: Computed and stored, but the integration of some rollers failed
+    FAILED = "failed"  #: Not computed, for the reason given; tried again by every --resume
+    MISSING = "missing"  #: Not computed yet
 
     @property
     def stored(self) -> bool:
@@ -102,23 +89,20 @@ class Database:
             found = self._db.execute("PRAGMA quick_check(1)").fetchone()[0]
             if found != "ok":
                 raise sqlite3.DatabaseError(found)
-            self._make_results()
+            # Results of a version with other numbers have other keys, so that they are never asked for again.
+            columns = [row[1] for row in self._db.execute("PRAGMA table_info(results)")]
+            with self._transaction():
+                if columns != _COLUMNS:
+                    self._db.execute("DROP TABLE IF EXISTS results")
+                    numbers = ", ".join(f'"{name}" REAL' for name in NUMBERS)
+                    texts = "key TEXT PRIMARY KEY, outcome TEXT, reason TEXT, detail TEXT, layout TEXT"
+                    self._db.execute(f"CREATE TABLE results ({texts}, {numbers}, crc INTEGER)")
         except sqlite3.OperationalError:  # a full disk, or no right to write
             self.close()
             raise
         except sqlite3.DatabaseError as error:
             self.close()
             raise InputError(f"the database is damaged ({error})", where=str(path), remedy=_DAMAGED) from None
-
-    def _make_results(self) -> None:
-        # Results of a version with other numbers have other keys, so that they are never asked for again.
-        columns = [row[1] for row in self._db.execute("PRAGMA table_info(results)")]
-        with self._transaction():
-            if columns != _COLUMNS:
-                self._db.execute("DROP TABLE IF EXISTS results")
-                numbers = ", ".join(f'"{name}" REAL' for name in NUMBERS)
-                texts = "key TEXT PRIMARY KEY, outcome TEXT, reason TEXT, detail TEXT, layout TEXT"
-                self._db.execute(f"CREATE TABLE results ({texts}, {numbers}, crc INTEGER)")
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
@@ -186,13 +170,9 @@ class Database:
                     values = [float(entry["values"][name]) + 0.0 for name in NUMBERS]
                     row = (*map(str, texts), *(None if value != value else value for value in values))
                     self._db.execute(f"INSERT OR REPLACE INTO results VALUES (?{places})", (*row, _crc(*row)))
-                failed = (
-                    (str(entry["outcome"]), entry["reason"]) if entry.get("outcome") == Outcome.FAILED else (None,) * 2
-                )
-                self._db.execute(
-                    "UPDATE runs SET key = ?, outcome = ?, reason = ? WHERE run = ?",
-                    (entry.get("key"), *failed, entry["run"]),
-                )
+                ended = entry if entry.get("outcome") == Outcome.FAILED else {}
+                changed = (entry.get("key"), ended.get("outcome"), ended.get("reason"), entry["run"])
+                self._db.execute("UPDATE runs SET key = ?, outcome = ?, reason = ? WHERE run = ?", changed)
 
 
 def _crc(*values: Any) -> int:

@@ -370,15 +370,6 @@ def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> S
     return _study(content, Source(), Path(folder))
 
 
-def _check_kind(bearing: Any) -> None:
-    if bearing.rows == 1:
-        raise InputError(
-            f"{bearing.name} is a cylindrical roller bearing, and studies compare rows of spherical ones",
-            allowed="double-row spherical roller bearings",
-            remedy="Compute cases of it one by one with macroslip run.",
-        )
-
-
 def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
     place = Place(source)
     values, problems = read_fields(StudyFile, data, place)
@@ -401,7 +392,10 @@ def _study(data: Mapping[str, Any], source: Source, folder: Path) -> Study:
         if f"{noun}s" in values
     }
     for bearing in [*(records.get("bearing") or {}).values(), *([base.bearing] if base else [])]:
-        attempt("bearings", lambda bearing=bearing: _check_kind(bearing))
+        if bearing.rows == 1:
+            what = f"{bearing.name} is a cylindrical roller bearing, and studies compare rows of spherical ones"
+            remedy = "Compute cases of it one by one with macroslip run."
+            problems.append(place.inside("bearings").problem(what, "double-row spherical roller bearings", remedy))
     variations, models = values.get("variations", Variations()), values.get("models") or {"base": []}
     sample = attempt("variations", lambda: _sample(variations.sample, base, records))
     parameters = attempt("variations", lambda: _parameters(variations, sample, models))

@@ -16,6 +16,7 @@ from macroslip.input.fields import IN_FILE, Form, Quantity, Text
 from macroslip.input.fields import Given as Given_
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import NUMBER
+from macroslip.result.variables import described
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,11 +27,6 @@ if TYPE_CHECKING:
 
 #: A year [s], of 365.25 days.
 YEAR = 365.25 * 86400.0
-
-
-def described(units: str, long_name: str) -> dict[str, str]:
-    """Attributes of a variable."""
-    return {"units": units, "long_name": long_name}
 
 
 _SCALE = Quantity("scale of the Weibull distribution, in the unit of the field", NUMBER, 0.0, above=True)
@@ -387,9 +383,9 @@ def weighted(values: np.ndarray, probability: np.ndarray) -> np.ndarray:
 def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequence[str] = ()) -> Binning:
     """Sort the runs of a study into groups and bins.
 
-    A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group has
-    one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are named in
-    `by`.
+    A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group
+    has one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are
+    named in `by`. Raises InputError if there is no such label, or it is no number.
 
     Parameters
     ----------
@@ -401,11 +397,6 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
         Of a bin [unit of the field], above 0.
     by : sequence of str
         Further labels that separate groups: `turbulence`.
-
-    Raises
-    ------
-    InputError
-        If there is no such label, or it is no number.
     """
     import pandas as pd
 

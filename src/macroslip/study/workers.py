@@ -160,7 +160,8 @@ class Processes:
 
     def _another(self, seat: _Seat) -> _Seat:
         # Without a main guard a process ends by itself as it starts; whoever kills one leaves a signal instead.
-        if not seat.has_started() and seat.has_ended_itself():
+        started = seat.ready.done() and not seat.ready.cancelled() and seat.ready.exception() is None
+        if not started and seat.has_ended_itself():
             raise MacroslipError(_NO_GUARD) from None
         self._note("a worker process has died; another takes over")
         seat.pool.shutdown(wait=False)
@@ -172,11 +173,8 @@ class _Seat:
         before = set(multiprocessing.active_children())
         with _safe_start():
             self.pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), _end_with_parent)
-            self._ready = self.pool.submit(os.getpid)  # starts the process
+            self.ready = self.pool.submit(os.getpid)  # starts the process
         self._process = next(iter(set(multiprocessing.active_children()) - before), None)
-
-    def has_started(self) -> bool:
-        return self._ready.done() and not self._ready.cancelled() and self._ready.exception() is None
 
     def has_ended_itself(self) -> bool:
         """Whether the process, which has died, is known to have left by a failure of its own and not by a signal."""

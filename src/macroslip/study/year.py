@@ -10,7 +10,8 @@ import xarray as xr
 
 from macroslip.damage.friction_energy import ThrustTest
 from macroslip.loads.bundled import EVENTS
-from macroslip.study.weights import CHOICES, YEAR, Weights, binned, described, weighted
+from macroslip.result.variables import described
+from macroslip.study.weights import CHOICES, YEAR, Weights, binned, weighted
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -32,8 +33,9 @@ def year(
 ) -> xr.Dataset:
     """What a year does to each design of a study; without weights all cases count alike, in one bin.
 
-    Lives accumulate by the rule of Palmgren and Miner, 1/L = Σ p_b/L_b, and ranges of damage-equivalent loads, which are
-    at 1 Hz, by S = (Σ p_b S_b^m)^(1/m), both with p_b as share of the time that the cases cover.
+    Lives accumulate by the rule of Palmgren and Miner, 1/L = Σ p_b/L_b, and ranges of damage-equivalent loads, which
+    are at 1 Hz, by S = (Σ p_b S_b^m)^(1/m), both with p_b as share of the time that the cases cover. Raises InputError
+    if a label or a weight is wrong.
 
     Parameters
     ----------
@@ -50,11 +52,6 @@ def year(
         (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the scatter of runs that share
         a bin; NaN where no bin has two. Over group: the lives [h] and damage-equivalent loads [N]; NaN where a bin of some
         weight has none. `covered` [1].
-
-    Raises
-    ------
-    InputError
-        If a label or a weight is wrong.
 
     Examples
     --------
