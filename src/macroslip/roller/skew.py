@@ -261,7 +261,7 @@ class Pocket(NamedTuple):
     arm : float
         Moment of the two spars over the force of either, with the roller at its stop [m].
     effective_radius : float
-        Moment by which one spar straightens the roller, over its force and the skew [m/rad].
+        Moment by which one spar straightens the roller, over its force and the skew [m/rad], until it touches the roller's end.
     """
 
     largest: float
