@@ -39,7 +39,7 @@ def test_the_table_gives_what_the_equilibrium_gives(table):
     reach = LAWS.inner.interface.hertz.semi_axis_across * np.cbrt(load)
     assert (remains < 1e-5 * np.abs(inner_moment)).all()
     # What pulls either way is .04 Q: a rest is where two moments of that size are equal.
-    left = exact.moment - push * guide.effective_radius * skew - held
+    left = exact.moment - push * np.clip(guide.effective_radius * skew, -0.5 * guide.arm, 0.5 * guide.arm) - held
     assert (np.abs(left) < 1e-3 * 0.04 * load * reach).all()
     assert (np.abs(inner_moment - exact.moments[:, 0]) < 1e-3 * 0.04 * load * reach).all()
     assert (np.abs(np.stack([inner, outer], 1) - exact.power + straight.power) < 0.01 * exact.power).all()
@@ -101,3 +101,19 @@ def test_a_spar_that_presses_harder_leaves_less_skew(table):
     assert angles == sorted(angles, reverse=True)
     assert angles[0] == pytest.approx(SPAR.largest, rel=1e-12)
     assert angles[-1] < 0.2 * angles[0]
+
+
+def test_spars_touch_no_farther_than_the_roller_s_ends(table):
+    """A spar straightens by its force times half the length at most; less than that leaves the roller to both spars."""
+    guide = guide_of(SPAR, 1)
+    reach = 0.5 * BEARING.roller_length * (1.0 - 0.5 * BEARING.roller_diameter / BEARING.outer_raceway_radius)
+    farthest = reach / SPAR.effective_radius
+    moment = turned(table, held(farthest), 1e4, -0.4, 0.0).held
+    pressed = turned(table, guide, 1e4, -0.4, 1.05 * moment / reach)
+    assert pressed.held == 0.0 and 0.8 * farthest < pressed.skew < farthest
+    push = 0.95 * moment / reach
+    stopped = turned(table, guide, 1e4, -0.4, push)
+    far = stopped.held / guide.arm
+    near = far + push
+    assert stopped.skew == pytest.approx(SPAR.largest, rel=1e-12) and far > 0.0
+    assert (near + far) * reach == pytest.approx(stopped.inner_moment + stopped.outer_moment, rel=1e-9)

@@ -16,7 +16,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from macroslip.bearing import geometry
 from macroslip.contact.rolling import light_contact
@@ -36,9 +35,6 @@ _ITERATIONS, _DAMPED = 80, 20
 _STEP = 1e-6
 #: Skew up to which states are computed [rad]: an unguided roller beyond it is lost.
 LARGEST_SKEW = 0.06
-#: Angles between which rests are looked for, denser where a law of shear turns its traction [rad].
-_ANGLES = 2e-4 * np.sinh(np.linspace(0.0, np.arcsinh(LARGEST_SKEW / 2e-4), 25))
-_ANGLES = np.concatenate([-_ANGLES[:0:-1], _ANGLES])
 
 
 class Equilibrium(NamedTuple):
@@ -193,52 +189,13 @@ def equilibrium(pair: Pair, laws: RollerLaws, load, ring_speed, skew, start: Equ
     )  # fmt: skip
 
 
-class Rest(NamedTuple):
-    """A skew at which the moment about the contact normal vanishes."""
-
-    skew: float  #: ψ [rad]
-    stable: bool  #: Whether a roller beside it turns towards it
-
-
-def rests(pair: Pair, laws: RollerLaws, load: float, ring_speed: float, alignment: float = 0.0) -> list[Rest]:
-    """All skews up to `LARGEST_SKEW` at which a roller may rest, in rising order.
-
-    Parameters
-    ----------
-    load, ring_speed : float
-        Q > 0 [N] and u2 ≠ 0 [m/s].
-    alignment : float
-        Moment per skew by which a pressing spar straightens the roller [N m/rad], see `Pocket.alignment`.
-    """
-
-    def moment(skew):
-        return equilibrium(pair, laws, load, ring_speed, skew).moment - alignment * skew
-
-    moments = moment(_ANGLES)
-    changes = np.flatnonzero(moments[:-1] * moments[1:] < 0.0)
-    return [
-        Rest(brentq(lambda one: float(moment(one)), *_ANGLES[n : n + 2], xtol=1e-7), bool(moments[n] > 0.0))
-        for n in changes
-    ]
-
-
 class Pocket(NamedTuple):
     """How the cage holds a roller against skew, by the shape of its spars."""
 
     largest: float  #: Largest skew [rad]
     arm: float  #: Moment of the two spars over the force of either, with the roller at its stop [m]
-    effective_radius: float  #: Moment by which one spar straightens the roller, over its force and the skew [m/rad]
-
-    def alignment(self, force: float) -> float:
-        """Moment per skew of a spar that presses with `force` [N] on a slightly skewed roller [N m/rad].
-
-        Examples
-        --------
-        >>> from macroslip import Bearing
-        >>> round(pocket(Bearing.read("skf-240-600-bc"), "straight-bars", 0.5e-3).alignment(30.0), 3)
-        11.148
-        """
-        return abs(force) * self.effective_radius
+    #: Moment by which one spar straightens the roller, over its force and the skew [m/rad], until it touches the roller's end.
+    effective_radius: float
 
 
 def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = None) -> Pocket:

@@ -158,6 +158,12 @@ def raceway_push(table, load, ring_speed):
     return -math.copysign(load, ring_speed) * _at(table, 1, place, column, 0.0)[2]
 
 
+@jit_inline
+def _arm(guide, place):
+    """Moment by which a spar straightens a roller over its force [m], at a coordinate of skew: it touches no farther than the end."""
+    return min(guide.effective_radius * _SCALE * math.sinh(place), 0.5 * guide.arm)
+
+
 @jit
 def turned(table, guide, load, ring_speed, push):
     """The rest of a roller under the elastic load Q > 0 [N] at u2 [m/s], on which a spar presses with `push` [N].
@@ -176,7 +182,7 @@ def turned(table, guide, load, ring_speed, push):
     i, t, _ = cell_of(table.load, math.log(load))
     k, s, _ = cell_of(table.speed, math.sqrt(math.sqrt(size)))
     row, column, heavy = (i, t), (k, s), load ** (4.0 / 3.0)
-    align = guide.effective_radius * abs(push) / heavy * _SCALE
+    press = abs(push) / heavy
     first = _at(table, 0, row, column, 0.0)
     way = math.copysign(1.0, first[0])
     end = math.asinh(guide.largest / _SCALE)
@@ -184,13 +190,13 @@ def turned(table, guide, load, ring_speed, push):
     while beyond > 0.0 and high < end:
         low, excess = high, beyond
         high = min(low + 1.0 / table.skew.per_spacing, end)
-        beyond = way * _at(table, 0, row, column, way * high)[0] - align * math.sinh(high)
+        beyond = way * _at(table, 0, row, column, way * high)[0] - press * _arm(guide, high)
     place = high
     if beyond <= 0.0 and high > 0.0:
         # Regula falsi, which halves the value at an end that stays (Illinois).
         side, place = 0, low + (high - low) * excess / (excess - beyond)
         for _ in range(_ITERATIONS):
-            left = way * _at(table, 0, row, column, way * place)[0] - align * math.sinh(place)
+            left = way * _at(table, 0, row, column, way * place)[0] - press * _arm(guide, place)
             if left > 0.0:
                 low, excess, beyond, side = place, left, 0.5 * beyond if side > 0 else beyond, 1
             else:
@@ -200,7 +206,7 @@ def turned(table, guide, load, ring_speed, push):
     other = _at(table, 1, row, column, way * place)
     change = _at(table, 2, row, column, way * place)
     angle = way * _SCALE * math.sinh(place)
-    rest = heavy * (value[0] - way * align * math.sinh(place))
+    rest = heavy * (value[0] - way * press * _arm(guide, place))
     held, left = (rest, 0.0) if beyond > 0.0 else (0.0, abs(rest))
     # Straight, nothing is added, not even by rounding.
     tilt, shift, slip, power, axial = 0.0, 0.0, 0.0, 0.0, 0.0

@@ -198,6 +198,8 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     scale = float(np.abs(motion.shaft_speed).max()) * bearing["orbit_ratio"] * bearing["outer_radius"]
     scale = max(float(scale), tuning.LEAST_SPEED)
     dry = bearing["pocket"]["film"] == 0.0
+    if not body["microslip"]:
+        tolerance *= tuning.GRIPPED
     limits = np.zeros(1, LIMITS)
     limits["allowed_speed"] = tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
     limits["power"], limits["force"] = tuning.POWER_SHARE * tolerance, tuning.FORCE_SHARE * tolerance
