@@ -242,7 +242,7 @@ def test_the_moment_rises_up_to_rising_slip(ring):
 def test_planes_are_their_laws(name):
     laws = prepare(FULL if name != "film" else Laws.paper().but(asperities="film-ratio"), BEARING, OIL, 1)
     law = laws.cage if name == "cage" else laws.outer
-    values = {"film": film_values, "oil": oil_values}[name](law) if name != "cage" else cage_values(law)
+    values = {"film": film_values, "oil": oil_values}[name](law) if name != "cage" else cage_values(law, POCKET_GAP)
     record, tables = np.zeros(1, PLANE), Tables()
     write_plane(record[0], tables, values, 1e-4, 1e-4 * RUNNING.fastest, RUNNING)
     random = np.random.default_rng(3)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.contact.laws import POCKET_GAP, ContactLaws
+from macroslip.contact.laws import ContactLaws
 from macroslip.contact.look_up import REST_SPEED
 from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.rolling import light_contact, pocket_contact
@@ -153,10 +153,10 @@ def oil_values(contact: ContactLaws) -> Callable:
     return values
 
 
-def cage_values(contact: ContactLaws) -> Callable:
+def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
     """Quantities of the plane of the cage, over ln Q and ln of the roller's surface speed.
 
-    Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `POCKET_GAP`
+    Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `pocket_gap` [m]
     sliding per slip and rolling resistance per mean speed.
     """
 
@@ -169,7 +169,7 @@ def cage_values(contact: ContactLaws) -> Callable:
             rough = power / (-pull * speed)
         if contact.rolling is None:
             return friction, rough
-        return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, POCKET_GAP)
+        return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
 
     return values
 

@@ -12,7 +12,7 @@ from macroslip.bearing import geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, initial_angles, row_names
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
-from macroslip.contact.laws import ContactLaws, RollerLaws, prepare
+from macroslip.contact.laws import POCKET_GAP, ContactLaws, RollerLaws, prepare
 from macroslip.contact.look_up import PLANE, REST_SPEED, TRACTION
 from macroslip.contact.mechanisms import Laws
 from macroslip.contact.table import (
@@ -192,16 +192,18 @@ def body_force(model: RollerModel, shaft_speed: float) -> float:
     return weight + model.centrifugal * (model.orbit_ratio * shaft_speed) ** 2
 
 
-def with_tables(models: dict[str, RollerModel], box: Box) -> tuple[dict[str, Roller], TableReport]:
+def with_tables(
+    models: dict[str, RollerModel], box: Box, pocket_gap: float = POCKET_GAP
+) -> tuple[dict[str, Roller], TableReport]:
     """The rollers of both rows with the tables of their contacts, which hold the states of the box, made or from store.
 
-    Takes the models by row, of the same bearing, oil and laws.
+    Takes the models by row, of the same bearing, oil and laws, and the largest gap between a roller and its spar [m].
     """
     tables, found, errors = Tables(), {}, []
     first = np.zeros(1, BODY)
     model = next(iter(models.values()))
     for name in ("inner", "outer", "cage"):
-        errors += _write_contact(first[0][name], tables, getattr(model.laws, name), box)
+        errors += _write_contact(first[0][name], tables, getattr(model.laws, name), box, pocket_gap)
     flat = tables.flat()
     for row, one in models.items():
         body = first.copy()
@@ -215,7 +217,9 @@ def with_tables(models: dict[str, RollerModel], box: Box) -> tuple[dict[str, Rol
     return found, TableReport(typical, worst, flat.nbytes, seconds)
 
 
-def _write_contact(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> list[TableErrors]:
+def _write_contact(
+    record: np.void, tables: Tables, contact: ContactLaws, box: Box, pocket_gap: float
+) -> list[TableErrors]:
     """Write the tables and numbers of one contact; the errors of its traction's table, if it has one."""
     errors = []
     record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
@@ -227,7 +231,7 @@ def _write_contact(record: np.void, tables: Tables, contact: ContactLaws, box: B
     elif contact.name != "cage":
         errors.append(write_traction(record["traction"], tables, contact, box))
     if contact.name == "cage":
-        write_plane(record["oil"], tables, cage_values(contact), _LIGHTEST, slowest, box)
+        write_plane(record["oil"], tables, cage_values(contact, pocket_gap), _LIGHTEST, slowest, box)
     elif contact.rolling is not None:
         write_plane(record["oil"], tables, oil_values(contact), _LIGHTEST, slowest, box)
         # Beside its shear the inclined pressure pushes by −2 R/r of it.
