@@ -179,9 +179,9 @@ def _book_peaks(step, totals, orbit):
         # The power before the step may be the peak of an orbit that has just begun.
         for interface in range(3):
             peak[interface] = max(peak[interface], step.power_before[interface])
-    if step.sampled == 0:
-        for k in range(step.stages):
-            _follow(samples, peak, step.time[k], step.power[k])
+    # Between the stages of a sampled step its samples count; they leave out what is not resolved, the end among it.
+    for k in range(step.stages - 1 if step.sampled else 0, step.stages):
+        _follow(samples, peak, step.time[k], step.power[k])
 
 
 @jit
