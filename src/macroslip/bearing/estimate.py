@@ -17,19 +17,16 @@ drawing**.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from macroslip.bearing.bearing import Bearing
 from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit
 from macroslip.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
 
 SAMPLES = 20_000
 

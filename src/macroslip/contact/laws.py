@@ -4,28 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.constants import FLOODED_GAP, MECHANISMS
 from macroslip.contact import asperities, film, rolling, traction
 from macroslip.contact.closed_form import BarusCrook, barus_crook_traction, prepare_barus_crook
 from macroslip.contact.flash import effusivity
 from macroslip.contact.gap import GapShape
 from macroslip.contact.interface import ContactShape, Interface, contact_shape, interfaces
-from macroslip.contact.mechanisms import check_lubricant
+from macroslip.contact.mechanisms import Laws, check_lubricant
 from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
 from macroslip.contact.rolling import RollingNumbers, prepare_rolling
 from macroslip.contact.starvation import film_factor, inlet_at_gap
 from macroslip.contact.traction import Fluid, chord_table, prepare_fluid
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.contact.mechanisms import Laws
-    from macroslip.lubricant import Lubricant
+from macroslip.lubricant import Lubricant
 
 #: Entrainment speed below which a film is that at this speed [m/s].
 LOWEST_ENTRAINMENT_SPEED = 1e-6

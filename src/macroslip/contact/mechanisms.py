@@ -8,16 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import fields, replace
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag
 from macroslip.input.messages import unknown_name
 from macroslip.input.section import input_section
-
-if TYPE_CHECKING:
-    from macroslip.lubricant import Lubricant
+from macroslip.lubricant import Lubricant
 
 _OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
 

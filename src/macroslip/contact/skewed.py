@@ -21,19 +21,16 @@ Traction has the direction of slip, and its stress is that of the shear law at |
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.contact.asperities import FULL_SLIP
 from macroslip.contact.interface import common_contour_radius
+from macroslip.contact.laws import ContactLaws
 from macroslip.contact.patch import graded_rule
 from macroslip.contact.traction import Fluid, local_stress
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.contact.laws import ContactLaws
 
 #: Stress [Pa] of a film over pressure [Pa], film thickness [m] and slip [m/s], arrays above zero.
 Shear = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]

@@ -21,19 +21,17 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import map_coordinates
 
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.spline import axis, spline_coefficients
 from macroslip.contact.table_store import stored, table_key
 from macroslip.errors import InputError
+from macroslip.lubricant import Lubricant
 from macroslip.lubricant.temperature import ROELANDS_PRESSURE, roelands_index
-
-if TYPE_CHECKING:
-    from macroslip.contact.mechanisms import Laws
-    from macroslip.lubricant import Lubricant
 
 NEWTONIAN, LIMITING_SHEAR, EYRING = 0, 1, 2
 #: Numbers of the rheologies by the names that case files use.

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from macroslip.measures.roller import Wanted
 from macroslip.whole.books import Books
-
-if TYPE_CHECKING:
-    from macroslip.measures.roller import Wanted
-    from macroslip.whole.model import WholeBearing
-    from macroslip.whole.sdirk import Part
+from macroslip.whole.model import WholeBearing
+from macroslip.whole.sdirk import Part
 
 #: Sides of a pocket: the spars ahead and behind.
 SIDES = ("front", "rear")

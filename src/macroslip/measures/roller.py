@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from macroslip.contact.laws import RollerLaws
 from macroslip.measures.details import SECTORS, Details, Looker, prepare
 from macroslip.measures.skew import Skewing, SkewMeasures
 from macroslip.measures.totals import (
@@ -19,12 +19,8 @@ from macroslip.measures.totals import (
     loaded_contacts,
     new_totals,
 )
-from macroslip.ring.orbit import angle_at
-
-if TYPE_CHECKING:
-    from macroslip.contact.laws import RollerLaws
-    from macroslip.ring.orbit import Motion
-    from macroslip.roller.model import Roller, RollerModel
+from macroslip.ring.orbit import Motion, angle_at
+from macroslip.roller.model import Roller, RollerModel
 
 
 @dataclass(frozen=True)

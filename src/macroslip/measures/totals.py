@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.laws import ContactLaws, RollerLaws
 from macroslip.roller.forces import LOWEST_SPEED
-
-if TYPE_CHECKING:
-    from macroslip.contact.laws import ContactLaws, RollerLaws
 
 #: Meaning of `Totals.mechanism_energy` by position: what makes surfaces slide.
 MECHANISMS = ("sliding", "curvature", "contact angle")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.bearing.load_ratings import fatigue_load_limit
 from macroslip.contact.interface import highest_load, interfaces
@@ -15,17 +17,11 @@ from macroslip.contact.mechanisms import Laws
 from macroslip.contact.registry import FILM_LAWS
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, RollerLoads
+from macroslip.lubricant import Lubricant
 from macroslip.rating import iso
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.ring.motion import elastic_loads, ring_motion
 from macroslip.roller.model import ring_geometry, roller_model
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from numpy.typing import NDArray
-
-    from macroslip.bearing import Bearing
-    from macroslip.lubricant import Lubricant
 
 RACEWAYS = ("inner", "outer")
 FILM_LAW = "masjedi-khonsari"
@@ -121,8 +117,6 @@ def rate(
     >>> round(float(rating.static_safety), 2), f"{float(rating.basic_life):.3g} {rating.basic_life.units}"
     (40.75, '2.21e+07 h')
     """
-    import xarray as xr
-
     history = _history(bearing, lubricant, loads, roller_load, contamination)
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
              _spectra(history, wohler_exponents))  # fmt: skip

@@ -5,9 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from macroslip.errors import InputError
@@ -20,9 +21,6 @@ from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
 from macroslip.study.weights import YEAR, Given, Weibull, binned, weights_in_use
 from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, designs, year
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 #: Pieces of a history whose differences are taken as independent of each other, at most.
 _PIECES = 10
@@ -266,8 +264,6 @@ def _pooled_range(differences: pd.Series, place: Mapping[str, int], share: np.nd
 
 
 def _frame(values: Mapping[str, Mapping[tuple[str, str], float]], ranges: Mapping[str, float]) -> pd.DataFrame:
-    import pandas as pd
-
     first = next(iter(values))
     shared = [key for key in values[first] if all(key in one for one in values.values())]
     rows = []

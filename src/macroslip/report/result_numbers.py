@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from macroslip.constants import HOURS_A_YEAR
 from macroslip.damage.micropitting import share_below
@@ -15,9 +16,6 @@ from macroslip.report.page import Table, number
 from macroslip.report.style import years
 from macroslip.result.run_input import stored_settings
 from macroslip.study.summary import RATING_VARIABLES
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Keys of a case in which a result on imposed orbits may differ from the coupled one it is compared with.
 _OWN_KEYS = ("dynamics", "cage", "traces", "rollers")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from macroslip.bearing import geometry
 from macroslip.damage import friction_energy, micropitting, smearing, wear
@@ -14,9 +15,6 @@ from macroslip.errors import InputError
 from macroslip.measures.details import FILM_EDGES, SLIP_EDGES, STATIONS
 from macroslip.result.run_input import RunInput, run_input, stored_settings
 from macroslip.result.variables import described
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 PLACES = ("inner", "outer", "roller")
 YEAR = 365.25 * 86400.0
@@ -113,8 +111,6 @@ def damage(
         Rates per second over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`, and as
         coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
     """
-    import xarray as xr
-
     if "surface_work" not in result:
         raise InputError(_NO_DETAILS, allowed="results of contacts with microslip or asperities")
     own, known = dict(thresholds or {}), [one.name for one in CRITERIA]

@@ -5,22 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.linalg import expm
 from scipy.optimize import root_scalar
 
+from macroslip.bearing import Bearing
+from macroslip.case.case import Case
+from macroslip.case.parts import Heat
 from macroslip.errors import InputError
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from numpy.typing import NDArray
-
-    from macroslip.bearing import Bearing
-    from macroslip.case.case import Case
-    from macroslip.case.parts import Heat
 
 #: Of bearing steel: thermal expansion [1/K], from 20 to 100 degC, and specific heat [J/(kg K)].
 EXPANSION, SPECIFIC_HEAT = 11.9e-6, 460.0

@@ -6,9 +6,9 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from macroslip.bearing.geometry import initial_angles, row_names
 from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
@@ -27,9 +27,6 @@ from macroslip.roller.model import Roller, TableReport, with_tables
 from macroslip.whole import sdirk
 from macroslip.whole.model import whole_bearing
 from macroslip.whole.model import with_tables as assembled
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Times that tables are made larger for a roller whose state leaves them.
 _ENLARGED = 4

@@ -7,19 +7,15 @@ Loads of rollers that are given take the place of the balance; every roller then
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from macroslip.bearing import Bearing
 from macroslip.compiled import jit
 from macroslip.errors import InputError, MacroslipError
-from macroslip.loads import RollerLoads
+from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.ring.balance import RingGeometry, balance_series, radial_clearance, roller_loads
 from macroslip.ring.orbit import Motion, shaft_angle, travel
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.loads import BearingLoads
 
 #: Largest part of a roller pitch turned between samples of the ring balance; loads sampled more coarsely get samples
 #: in between, because the ring moves with every roller that passes.

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, initial_angles, row_names
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
@@ -25,12 +25,9 @@ from macroslip.contact.table import (
     write_plane,
     write_traction,
 )
+from macroslip.lubricant import Lubricant
 from macroslip.ring.balance import RingGeometry
 from macroslip.roller.forces import is_faded
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.lubricant import Lubricant
 
 #: Least load of planes [N], and least speed of oil's as part of the fastest.
 _LIGHTEST, _SLOWEST = 1e-4, 1e-4

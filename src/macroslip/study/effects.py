@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from macroslip.errors import InputError
 from macroslip.result.variables import described
 from macroslip.study.weights import Weights
 from macroslip.study.year import CRITERIA, LIVES, designs, year
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 #: Quantiles of a quantity over the sample, and points below which nothing is said.
 QUANTILES = (0.05, 0.5, 0.95)

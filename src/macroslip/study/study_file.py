@@ -10,9 +10,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from macroslip.case.case import BALANCE, Case
+from macroslip.case.parts import Heat
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Form, Text, Texts
 from macroslip.input.files import Place, Source, parse, read_text
@@ -24,9 +25,6 @@ from macroslip.result.variables import VARIABLES
 from macroslip.study.loads_list import Load, LoadList, load_list
 from macroslip.study.settings import CUT_KEYS, RECORDS, Sample, Setting, template
 from macroslip.study.weights import Weighting
-
-if TYPE_CHECKING:
-    from macroslip.case.parts import Heat
 
 LOAD_SOURCES = ("files", "table", "bundled")
 KINDS = ("hub", "main-bearing")

@@ -7,9 +7,12 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
+import pandas as pd
+import xarray as xr
+from numpy.typing import ArrayLike
 
 from macroslip.errors import InputError
 from macroslip.input.fields import IN_FILE, Form, Quantity, Text
@@ -17,13 +20,7 @@ from macroslip.input.fields import Given as Given_
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import NUMBER
 from macroslip.result.variables import described
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
-    from numpy.typing import ArrayLike
-
-    from macroslip.study.loads_list import Load
+from macroslip.study.loads_list import Load
 
 #: A year [s], of 365.25 days.
 YEAR = 365.25 * 86400.0
@@ -398,8 +395,6 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
     by : sequence of str
         Further labels that separate groups: `turbulence`.
     """
-    import pandas as pd
-
     labels = [str(name) for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
     for name in (*([field] if field else []), *by):
         if name not in labels:

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from macroslip.damage.friction_energy import ThrustTest
 from macroslip.loads.bundled import EVENTS
 from macroslip.result.variables import described
 from macroslip.study.weights import CHOICES, YEAR, Weights, binned, weighted
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 #: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
 LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
@@ -155,8 +153,6 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     list of str
         What was left out, and why.
     """
-    import pandas as pd
-
     labels = {str(name): one.values for name, one in found.coords.items() if one.dims == ("group",)}
     table, told = pd.DataFrame(labels, index=range(found.sizes["group"])), []
     missing = []
