@@ -169,16 +169,8 @@ class EstimatedBearing(NamedTuple):
 def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
-    Raises InputError if no bearing within the accepted proportions fits the page.
-
-    Parameters
-    ----------
-    page : MakersPage
-        Numbers that the maker publishes.
-    name, title : str
-        Of the bearing.
-    seed : int
-        Of the random numbers; the same page and seed give the same bearing.
+    Raises InputError if no bearing within the accepted proportions fits the page. The same page and `seed` of the
+    random numbers give the same bearing.
 
     Notes
     -----

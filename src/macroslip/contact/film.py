@@ -65,7 +65,7 @@ def line_groups(interface: Interface) -> LineGroups:
 
 
 def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
-    """Dimensionless central film thickness H = h/R of a rough line contact.
+    """Dimensionless central film thickness H = h/R [-] of a rough line contact.
 
     H = 2.691 W^−0.135 U^0.705 G^0.556 (1 + 0.2 σ^1.222 V^0.223 W^−0.229 U^−0.748 G^−0.842)
 
@@ -81,11 +81,6 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
         σ = σ_rms/R, range 0 to 5e-5.
     hardness : array_like
         V = v/E', range 0.005 to 0.03.
-
-    Returns
-    -------
-    ndarray
-        H [-].
 
     Notes
     -----
@@ -142,19 +137,10 @@ def moes_thickness(load, material):
     N = {(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(−7/2) + H_EP^(−7/2))^(−2s/7)}^(1/s), s = (7 + 8 exp(−2 H_EI/H_RI))/5,
     H_RI = 3/M, H_EI = 2.621 M^(−1/5), H_RP = 1.287 L^(2/3), H_EP = 1.311 M^(−1/8) L^(3/4)
 
-    Parameters
-    ----------
-    load : array_like
-        M = W (2U)^(−½), > 0, with W = w/(E'R) and U = η0 u_e/(E'R).
-    material : array_like
-        L = G (2U)^¼, ≥ 0, with G = α_p E'.
-
-    Returns
-    -------
-    ndarray
-        N [-]: the film where the pressure is highest, which is the film that the volume flow fills. In a rigid contact
-        it is 1.226 times the smallest film, in an elastic one the film of the flat middle. In these terms 3/M and
-        1.287 L^(2/3) are exact limits of Reynolds' equation, to the digits given.
+    N [-] is the film where the pressure is highest, which is the film that the volume flow fills. In a rigid contact it
+    is 1.226 times the smallest film, in an elastic one the film of the flat middle. In these terms 3/M and 1.287
+    L^(2/3) are exact limits of Reynolds' equation, to the digits given. M = W (2U)^(−½) > 0 and L = G (2U)^¼ ≥ 0, with
+    W = w/(E'R), U = η0 u_e/(E'R) and G = α_p E'.
 
     Notes
     -----
@@ -285,20 +271,10 @@ def masjedi_khonsari_moes_in_range(interface: Interface, load, entrainment_speed
 
 
 def inlet_heating_factor(loading):
-    """Film thickness over isothermal film thickness in pure rolling, φ_T = 1/(1 + 0.1 L^0.64).
+    """Film thickness over isothermal film thickness in pure rolling, φ_T = 1/(1 + 0.1 L^0.64) [-], above 0 and at most 1.
 
-    Oil that the narrowing inlet turns back is sheared, warms up and thins.
-
-    Parameters
-    ----------
-    loading : array_like
-        Thermal loading parameter L = η0 β u_e²/k, ≥ 0, with β the temperature coefficient of viscosity and k the
-        conductivity of the oil.
-
-    Returns
-    -------
-    ndarray
-        φ_T [-], above 0, at most 1.
+    Oil that the narrowing inlet turns back is sheared, warms up and thins. The thermal loading parameter is L = η0 β
+    u_e²/k ≥ 0, with β the temperature coefficient of viscosity and k the conductivity of the oil.
 
     Notes
     -----

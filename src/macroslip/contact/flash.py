@@ -34,14 +34,7 @@ PEAK = 1.1115483780654022
 def effusivity(thermal_conductivity, density, specific_heat):
     """Thermal effusivity of a material, ε = √(k ρ c) [J/(m² K √s)].
 
-    Parameters
-    ----------
-    thermal_conductivity : float
-        k [W/(m K)], positive.
-    density : float
-        ρ [kg/m³], positive.
-    specific_heat : float
-        c [J/(kg K)], positive.
+    From k [W/(m K)], ρ [kg/m³] and c [J/(kg K)], all positive.
 
     References
     ----------
@@ -60,6 +53,10 @@ def effusivity(thermal_conductivity, density, specific_heat):
 def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2):
     """Largest rise of surface temperature in a band of friction, C P'/[(ε1 √|u1| + ε2 √|u2|) √(2b)] [K].
 
+    The rise is above the temperature with which the surfaces enter the contact, at 0.652 b behind its middle. It is
+    zero without power, and infinite if both surfaces are at rest: an endless band on a half-space then never becomes
+    steady.
+
     Parameters
     ----------
     power_per_length : array_like
@@ -70,12 +67,6 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
         Speeds of the surfaces relative to the contact [m/s], any sign; not their slip.
     effusivity_1, effusivity_2 : array_like
         Thermal effusivities ε = √(k ρ c) [J/(m² K √s)], > 0, see `effusivity`.
-
-    Returns
-    -------
-    ndarray
-        Rise above the temperature with which the surfaces enter the contact [K], at 0.652 b behind its middle. Zero
-        without power. Infinite if both surfaces are at rest: an endless band on a half-space then never becomes steady.
 
     Notes
     -----

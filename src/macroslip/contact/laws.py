@@ -107,16 +107,8 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     """The laws of the contacts of a roller.
 
     Raises InputError for a law that does not exist, values the lubricant lacks, or curvatures that do not make a Hertz
-    contact.
-
-    Parameters
-    ----------
-    laws : Laws
-        Chosen mechanisms.
-    lubricant : Lubricant
-        With `oil_gap`, from which on inlets are full.
-    axial_sign : int
-        +1 for the downwind row, −1 for the upwind row.
+    contact. The lubricant has its `oil_gap`, from which on inlets are full; `axial_sign` is +1 for the downwind row and
+    −1 for the upwind row.
 
     Examples
     --------

@@ -34,6 +34,8 @@ def _names(module: str, holder: str, *first: str) -> Callable[[], list[str]]:
 class Laws:
     """Mechanisms in the contacts of a roller. The defaults are the paper's model.
 
+    Raises InputError for a choice that does not exist, or one that a law of one's own makes void.
+
     Parameters
     ----------
     film : str
@@ -62,11 +64,6 @@ class Laws:
     traction : str
         "mechanisms": built from the choices above. Otherwise the name of a registered traction law, which replaces
         viscosity, rheology, heating and microslip.
-
-    Raises
-    ------
-    InputError
-        For a choice that does not exist, or one that a law of one's own makes void.
 
     Examples
     --------
@@ -147,13 +144,7 @@ class Laws:
 
     @classmethod
     def named(cls, name: str) -> Laws:
-        """The set called `name`: paper or physical.
-
-        Raises
-        ------
-        InputError
-            For any other name.
-        """
+        """The set called `name`, paper or physical; InputError for any other name."""
         if name not in PRESETS:
             problem = unknown_name(name, list(PRESETS))
             raise InputError(problem.what, where="laws.model", allowed=problem.allowed, remedy=problem.remedy)

@@ -122,12 +122,7 @@ _UNITS = {"film": "m", "traction": "N"}
 class LawList:
     """Names of the laws of one kind.
 
-    Parameters
-    ----------
-    kind : str
-        `film` or `traction`, the key in case files.
-    reserved : tuple of str
-        Names that mean something else under that key.
+    `kind` is `film` or `traction`, the key in case files; `reserved` are names that mean something else under that key.
     """
 
     def __init__(self, kind: str, reserved: tuple[str, ...] = ()):
@@ -265,12 +260,8 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
     """Refuse a law of the user's own that breaks its contract, with the state at which it does.
 
     It is tried over the states that a case can reach before the first step: a wrong law may give plausible numbers.
-    Raises InputError naming the law, the interface and the state; also if a law does not return.
-
-    Parameters
-    ----------
-    speed : float
-        Highest speed of the raceways [m/s]; nothing is tried for 0.
+    Raises InputError naming the law, the interface and the state; also if a law does not return. `speed` is the highest
+    of the raceways [m/s]; nothing is tried for 0.
     """
     chosen = [FILM_LAWS.named(laws.film)]
     if laws.traction != MECHANISMS:

@@ -199,19 +199,10 @@ def spline_value(typingctx, table, start, strides, places):
 
 @intrinsic
 def splines_in_square(typingctx, table, start, stride, t, u):
-    """Four splines Σ w_m(t) w_n(u) c[start + m stride + 4 n + channel] and their derivatives by t and u.
+    """Four splines Σ w_m(t) w_n(u) c[start + m stride + 4 n + channel] and their derivatives by t and u, as three tuples.
 
-    Parameters
-    ----------
-    table : ndarray of float64, 1 dimension
-    start, stride : int
-        Number of the cell's first coefficient, and of numbers from one node of the first axis to the next.
-    t, u : float
-        Places in the cell, from 0 to 1.
-
-    Returns
-    -------
-    tuple of 4 float, three times
+    `start` is the number of the cell's first coefficient in the flat `table`, `stride` how many numbers lie from one
+    node of the first axis to the next; t and u are places in the cell, from 0 to 1.
     """
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
@@ -237,6 +228,8 @@ def splines_in_square(typingctx, table, start, stride, t, u):
 def splines_in_cube(typingctx, table, start, strides, places):
     """Four splines Σ w_m(t) w_q(s) w_n(u) c[…] over three axes and their derivatives by t, s and u.
 
+    They come as four tuples. Values that are not used cost nothing: they are not compiled.
+
     Parameters
     ----------
     table : ndarray of float64, 1 dimension
@@ -246,11 +239,6 @@ def splines_in_cube(typingctx, table, start, strides, places):
         Numbers from one node to the next, along the first and the second axis; four along the third.
     places : tuple of 3 float
         t, s and u in the cell, from 0 to 1.
-
-    Returns
-    -------
-    tuple of 4 float, four times
-        Values that are not used cost nothing: they are not compiled.
     """
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:

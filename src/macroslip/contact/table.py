@@ -115,13 +115,8 @@ class Tables:
 def write_plane(record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box) -> None:
     """Make a plane over ln Q and ln u and write where it stands.
 
-    Parameters
-    ----------
-    record : record of `PLANE`
-    values : callable
-        `values(load [N], speed [m/s])`, arrays of one shape: up to four quantities.
-    lightest, slowest : float
-        Least load [N] and speed [m/s].
+    Of up to four quantities `values(load [N], speed [m/s])`, on arrays of one shape, from the least load [N] and speed
+    [m/s] on; `record` is one of `PLANE`.
     """
     load = axis(math.log(lightest), math.log(box.load), _PLANE_LOAD * box.fineness)
     speed = axis(math.log(slowest), math.log(2.0 * box.fastest), _PLANE_SPEED * box.fineness)
@@ -179,10 +174,7 @@ def tractions(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Traction of a contact by its laws: pull and lag [N], skew moment [N m] and power of asperities [W].
 
-    Parameters
-    ----------
-    load, ring_speed, slip : ndarray
-        Q > 0 [N], u2 and v [m/s], of one shape. The roller's axis is tilted to the positive side.
+    At Q > 0 [N], u2 and v [m/s], of one shape. The roller's axis is tilted to the positive side.
     """
     entrainment = np.maximum(np.abs(ring_speed - 0.5 * slip), REST_SPEED)
     film = contact.film_thickness(load, entrainment)
@@ -291,12 +283,7 @@ class _Made(NamedTuple):
 
 
 def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> TableErrors:
-    """Make the table of a raceway's traction, or find it in store, and write where it stands.
-
-    Parameters
-    ----------
-    record : record of `TRACTION`
-    """
+    """Make the table of a raceway's traction, or find it in store, and write where it stands into a record of `TRACTION`."""
     grid, key = _grid(contact, box), table_key("traction", *contact_parts(contact))
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
     record["start"], record["rising"] = tables.add(made.coefficients), tables.add(made.rising)

@@ -70,15 +70,8 @@ _BOUNDS, _SPACING, _LARGEST_ERROR = ((-14.0, 8.0), (-22.0, 8.0)), 0.1, 1e-6
 def limited_stress(rheology: int, viscous_stress, characteristic_stress):
     """Shear stress τ [Pa] of a film whose Newtonian stress would be τ* = η γ̇.
 
-    Parameters
-    ----------
-    rheology : int
-        `NEWTONIAN`: τ = τ*. `LIMITING_SHEAR` (Bair and Winer): τ = τ_L [1 − exp(−τ*/τ_L)]. `EYRING`:
-        τ = τ_E asinh(τ*/τ_E).
-    viscous_stress : array_like
-        τ* ≥ 0 [Pa].
-    characteristic_stress : array_like
-        τ_L or τ_E > 0 [Pa].
+    `NEWTONIAN`: τ = τ*. `LIMITING_SHEAR` (Bair and Winer): τ = τ_L [1 − exp(−τ*/τ_L)]. `EYRING`: τ = τ_E asinh(τ*/τ_E).
+    Of τ* ≥ 0, and τ_L or τ_E > 0 [Pa].
 
     References
     ----------
@@ -289,14 +282,7 @@ _COSINES, _WEIGHTS = chord_rule(18)
 def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
     """Mean stress q [Pa] along a chord by quadrature.
 
-    Parameters
-    ----------
-    pressure : array_like
-        Largest pressure on the chord p1 [Pa], > 0.
-    film_thickness : array_like
-        h [m].
-    slip : array_like
-        |Δu| [m/s].
+    At the largest pressure on the chord p1 > 0 [Pa], h [m] and |Δu| [m/s].
 
     Notes
     -----
@@ -359,12 +345,7 @@ def _log_local_stress(rheology: int, viscous: np.ndarray, heat: np.ndarray) -> n
 def local_stress(fluid: Fluid, pressure, log_film, log_slip):
     """Stress τ [Pa] at places of a film, from the table that all oils share, or where that is not good, solved for.
 
-    Parameters
-    ----------
-    pressure : array_like
-        p > 0 [Pa].
-    log_film, log_slip : array_like
-        Logarithms of h [m] and |Δu| [m/s].
+    At p > 0 [Pa], and the logarithms of h [m] and |Δu| [m/s].
 
     Examples
     --------

@@ -23,16 +23,8 @@ def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float)
     """Volume k E/µ_b [m³] that wears where asperities dissipate E, or with E per area the depth [m].
 
     Asperities dissipate µ_b p |v| of the area that they carry, so E/µ_b is their pressure times slip over time and area. Where
-    slip is too slow for them to slide, they dissipate and wear less.
-
-    Parameters
-    ----------
-    coefficient : float
-        k [m²/N], dimensionless coefficient over hardness.
-    asperity_energy : array_like
-        E [J] or [J/m²].
-    friction : float
-        Boundary friction µ_b [-], > 0.
+    slip is too slow for them to slide, they dissipate and wear less. k [m²/N] is the dimensionless coefficient over
+    hardness, µ_b > 0 the boundary friction [-], and E in J or J/m².
 
     References
     ----------
@@ -122,12 +114,8 @@ class Worn(NamedTuple):
 def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DEPTHS[-1]) -> Worn:
     """Wear of both raceways and the roller, with the pressure found anew after every `STEP` of the deepest slice.
 
-    Parameters
-    ----------
-    contacts : tuple of Pressed
-        With the inner and the outer raceway. The roller wears in both, and its worn profile counts in both.
-    width, deepest : float
-        Of a slice, and depth at which every body that wears is done [m].
+    The roller wears in both contacts, and its worn profile counts in both. `width` is that of a slice, `deepest` the
+    depth at which every body that wears is done [m].
 
     Notes
     -----

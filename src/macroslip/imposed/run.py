@@ -87,18 +87,8 @@ def fixed_step(
 def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator[np.ndarray]:
     """Integrate one roller from pure rolling on.
 
-    Parameters
-    ----------
-    problem : Problem
-    start_angle : float
-        Position φ at the first sample [rad].
-    outcome : Outcome
-        Filled when the last buffer has been given.
-
-    Yields
-    ------
-    ndarray of `STEP`, shape (n, 1)
-        Steps that follow one another, in a buffer that the next ones overwrite.
+    Yields steps that follow one another, arrays of `STEP` of shape (n, 1), in a buffer that the next ones overwrite.
+    The first sample has the roller at φ = `start_angle` [rad]; `outcome` is filled when the last buffer has been given.
     """
     motion, limits, body = problem.motion, problem.limits[0], problem.roller.body[0]
     tables = problem.roller.tables

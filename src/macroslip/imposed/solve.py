@@ -228,6 +228,8 @@ def _accept(path, work, end, rows):
 def integrate(path, stops, classes, work, steps):
     """Integrate the slip of one roller, until its history ends or the buffer is full.
 
+    Gives a `Status`, UNDER_WAY where the buffer is full, and the number of rows that were written.
+
     Parameters
     ----------
     path : Path
@@ -240,13 +242,6 @@ def integrate(path, stops, classes, work, steps):
         Zeros but for the slip at the first sample; then as the last call left it.
     steps : ndarray of `STEP`, shape (m,)
         Filled from the start.
-
-    Returns
-    -------
-    status : int
-        A `Status`; UNDER_WAY where the buffer is full.
-    count : int
-        Rows that were written.
     """
     time, speed, angle, displacement = path.motion
     motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]

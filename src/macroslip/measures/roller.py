@@ -47,11 +47,7 @@ class Row:
 class RollerMeasures:
     """Measures of one roller.
 
-    Parameters
-    ----------
-    row : Row
-    start_angle : float
-        Position φ at the first sample [rad].
+    The roller is at φ = `start_angle` at the first sample [rad].
     """
 
     def __init__(self, row: Row, start_angle: float):

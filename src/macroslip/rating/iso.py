@@ -141,17 +141,9 @@ def life_modification(viscosity_ratio: float, contamination: float, load_ratio: 
     """Life modification factor a_ISO [-] of radial roller bearings.
 
     a_ISO = 0.1 [1 - (1.5859 - A/kappa^B) (e_C C_u/P)^0.4]^-9.185, at most 50, with (A, B) = (1.3993, 0.054381) for
-    kappa below 0.4, (1.2348, 0.19087) to 1, and (1.2348, 0.071739) to 4.
-
-    Parameters
-    ----------
-    viscosity_ratio : float
-        kappa = nu/nu1 [-], at least 0.1; above 4 the value at 4 holds. Below 0.1, or NaN, the standard defines no
-        factor, and it is NaN.
-    contamination : float
-        e_C [-], 0 (very severe) to 1 (extreme cleanliness).
-    load_ratio : array_like
-        C_u/P [-], not negative.
+    kappa below 0.4, (1.2348, 0.19087) to 1, and (1.2348, 0.071739) to 4. kappa = nu/nu1 [-] is at least 0.1; above 4
+    the value at 4 holds. Below 0.1, or NaN, the standard defines no factor, and it is NaN. e_C [-] is 0 (very severe)
+    to 1 (extreme cleanliness), C_u/P [-] not negative.
 
     References
     ----------
@@ -218,7 +210,8 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of one at rest. Along
     the roller it is the mean over laminae, on each of which a load Q_j counts that spread over the whole length would
     give what it bears per length: Hertz' ellipse, or what lies within the roller's ends, carrying all. The mean is the
-    standard's sum with q_c = Q_c (1/n)^(7/9).
+    standard's sum with q_c = Q_c (1/n)^(7/9). It has the shape (2, n): with the load along the roller of Hertz, and
+    with load spread evenly and the factor 0.83 kept, which is what ISO 281 assumes of every bearing.
 
     Parameters
     ----------
@@ -230,12 +223,6 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
         Q_c of the ring [N], without the division by `REDUCTION`.
     stationary : bool
         Whether the ring is at rest relative to the load.
-
-    Returns
-    -------
-    ndarray, shape (2, n)
-        With the load along the roller of Hertz, and with load spread evenly and the factor 0.83 kept, which is what
-        ISO 281 assumes of every bearing.
 
     Notes
     -----

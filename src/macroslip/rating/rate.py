@@ -40,14 +40,9 @@ def roller_load_history(
 ) -> tuple[BearingLoads, NDArray[np.float64]]:
     """Elastic load of every roller at every sample; it does not depend on the lubricant.
 
-    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
-
-    Returns
-    -------
-    loads : BearingLoads
-        The same loads, with samples in between where the shaft turns too far between two of them.
-    roller_load : ndarray, shape (2, Z, n)
-        Q [N] over row, roller and the samples of these loads.
+    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends. Gives
+    the same loads, with samples in between where the shaft turns too far between two of them, and Q [N] over row,
+    roller and these samples, shape (2, Z, n).
 
     Examples
     --------
@@ -86,6 +81,9 @@ def rate(
 ) -> xr.Dataset:
     """Rate a bearing: static safety, rating lives, pressures, film, minimum load and load spectra.
 
+    Variables have `units` and `long_name`. Lives are hours at the history's mean speed, as if it repeated for ever;
+    they weigh loads by revolutions. NaN where the shaft does not turn or the standard defines no value.
+
     Parameters
     ----------
     bearing : Bearing
@@ -100,12 +98,6 @@ def rate(
         e_C of ISO 281 [-], above 0 and at most 1.
     wohler_exponents : tuple of float
         Slopes m for which damage-equivalent loads are given [-].
-
-    Returns
-    -------
-    xarray.Dataset
-        Variables with `units` and `long_name`. Lives are hours at the history's mean speed, as if it repeated for ever;
-        they weigh loads by revolutions. NaN where the shaft does not turn or the standard defines no value.
 
     Examples
     --------

@@ -72,17 +72,8 @@ _TEMPLATE = "study.html"
 def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None = None, years: float = 20.0) -> str:
     """A page on a study.
 
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    title : str
-        Heading of the page.
-    weights : Weibull or Given, optional
-        How likely each wind speed is; that of the study file by default. Without any, designs are ranked over all cases
-        alike, and lifetime and exceedance are those of `CLASS_ONE`.
-    years : float
-        The lifetime [years].
+    `weights` says how likely each wind speed is, the study file by default. Without any, designs are ranked over all
+    cases alike, and lifetime and exceedance are those of `CLASS_ONE`. `years` is the lifetime.
 
     Returns
     -------

@@ -95,6 +95,9 @@ def damage(
     Raises InputError if the result keeps no details; if wear is asked for where no asperities were chosen; for a
     criterion that does not exist, or numbers out of range.
 
+    Rates per second are over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`,
+    and as coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
+
     Parameters
     ----------
     result : xarray.Dataset
@@ -104,12 +107,6 @@ def damage(
         over it.
     thresholds : mapping, optional
         Your own thresholds by the name of the criterion, each with its source, in place of a reference.
-
-    Returns
-    -------
-    xarray.Dataset
-        Rates per second over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`, and as
-        coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
     """
     if "surface_work" not in result:
         raise InputError(_NO_DETAILS, allowed="results of contacts with microslip or asperities")

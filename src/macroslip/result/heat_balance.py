@@ -32,13 +32,13 @@ _BALANCE = "temperature: balance"
 def balance_temperature(
     power: Callable[[float], float], conductance: float, ambient: float, hottest: float = HOTTEST
 ) -> float:
-    """Temperature T of the heat balance power(T) = conductance (T - ambient).
+    """Temperature T [K] of the heat balance power(T) = conductance (T - ambient), to 1e-9 K, by Brent's method.
 
     Steady state: the whole friction of the bearing leaves it in proportion to its excess temperature. A large bearing
     takes hours to get there, so the mean power over a wind history counts, not that of a gust. Where friction falls
     with temperature, as in full films, there is one solution; where it rises again in mixed lubrication, this may be
     one of several. Raises InputError if conductance or ambient are no such numbers, the power is not a finite,
-    non-negative number, or the bearing is still heated at the highest temperature.
+    non-negative number, or the bearing is still heated at the highest temperature. T lies from `ambient` to `hottest`.
 
     Parameters
     ----------
@@ -50,11 +50,6 @@ def balance_temperature(
         turbine.
     ambient, hottest : float
         Temperature of the surroundings, and the highest that is accepted [K].
-
-    Returns
-    -------
-    float
-        T [K], from `ambient` to `hottest`, to 1e-9 K, by Brent's method.
 
     Examples
     --------
@@ -194,25 +189,12 @@ def rings_at_balance(heat: Heat, temperature: float) -> tuple[float, float]:
 def ring_temperatures(
     heat: Heat, power: float, time: Sequence[float], start: tuple[float, float]
 ) -> NDArray[np.float64]:
-    """Temperatures of inner and outer ring over time under a constant friction power; exact.
+    """Temperatures T_i and T_o of inner and outer ring over time under a constant friction power [K], shape (n, 2); exact.
 
         m_i c dT_i/dt = P/2 − G_r (T_i − T_o),   m_o c dT_o/dt = P/2 + G_r (T_i − T_o) − G (T_o − T_ambient)
 
-    Parameters
-    ----------
-    heat : Heat
-        With masses and ring conductance; InputError without.
-    power : float
-        Friction power of the bearing P [W]; 0 gives a cooling curve.
-    time : sequence of float
-        n times since the start [s]; infinite for the steady state.
-    start : tuple of float
-        Temperatures at the start, inner and outer [K].
-
-    Returns
-    -------
-    ndarray, shape (n, 2)
-        T_i and T_o [K].
+    `heat` has the masses and the ring conductance, InputError without; `power` is P [W], 0 for a cooling curve; `time`
+    n times since the start [s], infinite for the steady state; `start` both temperatures then, inner and outer [K].
 
     Examples
     --------

@@ -165,6 +165,8 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
 def balance(ring, shaft_angle, force, displacement):
     """Ring displacement that carries a load, found from the given start and written in its place.
 
+    Gives the unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver converged.
+
     Parameters
     ----------
     ring : RingGeometry
@@ -174,11 +176,6 @@ def balance(ring, shaft_angle, force, displacement):
         Load on the inner ring in the bearing frame [N].
     displacement : ndarray, shape (3,)
         Start, overwritten by the solution [m].
-
-    Returns
-    -------
-    float
-        Unbalanced force |Σ Q n − F| that is left [N]. It is at most 1e-10 |F| + 1e-7 N where the solver converged.
     """
     turn_cosine = math.cos(ring.orbit_ratio * shaft_angle)
     turn_sine = math.sin(ring.orbit_ratio * shaft_angle)

@@ -51,22 +51,10 @@ def ring_motion(
 ) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
-    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did not converge.
-
-    Parameters
-    ----------
-    loads : BearingLoads or RollerLoads
-        Load on the inner ring; or loads of the rollers, with which the ring is left in the middle.
-    highest_load : float
-        Roller load [N] that must not be exceeded.
-    more : ndarray, optional
-        Force on the ring beside its load at the samples of its motion [N], shape (n, 3).
-
-    Returns
-    -------
-    motion : Motion
-    largest : float
-        Largest elastic roller load of the history [N].
+    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did not converge. Gives
+    the motion, and the largest elastic load of a roller in the history [N]. With loads of the rollers the ring is left
+    in the middle. No roller load may exceed `highest_load` [N]; `more` is a force on the ring beside its load at the
+    samples of its motion [N], shape (n, 3).
     """
     time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)

@@ -189,15 +189,8 @@ def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
 def station(body, tables, start_angle, now, found):
     """Write loads on a roller and speed of the rings past it.
 
-    Parameters
-    ----------
-    body, tables
-        The roller.
-    start_angle : float
-        Roller position φ at the first sample [rad].
-    now : Instant
-        The ring's motion.
-    found : record of `STATION`
+    The roller is at φ = `start_angle` at the first sample [rad]; `now` is the ring's motion, `found` a record of
+    `STATION`.
 
     Notes
     -----
@@ -262,12 +255,7 @@ _NO_TRACTION = Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @jit_inline
 def raceway_traction(law, tables, closed_form, load, ln_load, ring_speed, slip):
-    """Traction of a raceway contact with Q > 0 [N] at u2 and v [m/s].
-
-    Returns
-    -------
-    Traction
-    """
+    """Traction of a raceway contact with Q > 0 [N] at u2 and v [m/s]."""
     if not closed_form:
         if ring_speed == 0.0 and slip == 0.0:
             # At rest nothing pulls, while tables end at a ring that creeps.
@@ -311,11 +299,8 @@ def raceway_oil(law, tables, load, ln_load, mean, ln_mean, slip):
 def cage_traction(body, tables, load, ln_load, surface_speed, ln_surface):
     """Traction of the cage's contact under a load > 0 [N], without the oil of the pocket.
 
-    Returns
-    -------
-    tuple of 4 float
-        Force in the spin equation [N], its derivatives by the roller's slip [N s/m] and by load [-], and the power of
-        asperities [W].
+    Gives the force in the spin equation [N], its derivatives by the roller's slip [N s/m] and by load [-], and the
+    power of asperities [W].
     """
     law = body.cage
     # Slip at the cage is −u1, and v slows the roller's surface.
@@ -337,12 +322,7 @@ def cage_traction(body, tables, load, ln_load, surface_speed, ln_surface):
 
 @jit_inline
 def cage_contact(body, tables, load, surface_speed, ln_surface):
-    """Contact with the cage under |F_n,cage| [N], from the speed of the roller's surface u2 − v [m/s] and its logarithm.
-
-    Returns
-    -------
-    Cage
-    """
+    """Contact with the cage under |F_n,cage| [N], from the speed of the roller's surface u2 − v [m/s] and its logarithm."""
     law = body.cage
     if load <= 0.0 and not body.oily:
         return Cage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -372,14 +352,7 @@ def cage_contact(body, tables, load, surface_speed, ln_surface):
 def slip_forces(body, tables, at, slip, found):
     """Write the forces of the raceways and the cage for the raceway slip v = Δu_in = Δu_out.
 
-    Parameters
-    ----------
-    body, tables
-        The roller.
-    at : record of `STATION`
-    slip : float
-        v [m/s].
-    found : record of `FORCES`
+    The slip v is in m/s; `at` is a record of `STATION`, `found` one of `FORCES`.
 
     Notes
     -----

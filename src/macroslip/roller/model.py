@@ -136,17 +136,8 @@ def roller_model(
     """Prepare a roller of one row.
 
     Raises InputError for unknown laws, values the lubricant lacks, or curvatures that do not make a Hertz contact.
-
-    Parameters
-    ----------
-    axial_sign : int
-        +1 for the downwind row, −1 for the upwind row.
-    tilt : float
-        Shaft tilt [rad]; the hub end is up, so that weight has a part along +Z0.
-    gravity, drag : bool
-        Whether weight and drag act on the roller.
-    laws : Laws
-        Mechanisms in the contacts.
+    `axial_sign` is +1 for the downwind and −1 for the upwind row, `tilt` that of the shaft [rad]: the hub end is up, so
+    that weight has a part along +Z0.
 
     Notes
     -----

@@ -323,17 +323,13 @@ _OF_A_CASE = Case.__annotations__.keys() - StudyFile.__annotations__.keys()
 def read_study(path: str | PathLike[str]) -> Study:
     """Read a study file.
 
-    Bearings and lubricants are read here and now; load files are listed, but not opened.
+    Bearings and lubricants are read here and now; load files are listed, but not opened. Raises InputError if the file
+    cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
 
     Parameters
     ----------
     path : path
         YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
     """
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
@@ -349,14 +345,8 @@ def read_study(path: str | PathLike[str]) -> Study:
 def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> Study:
     """A study from the content of a study file as plain data.
 
-    Raises InputError as `read_study`, without file and line.
-
-    Parameters
-    ----------
-    content : mapping
-        As `yaml` would read it.
-    folder : path
-        Where relative paths start.
+    Raises InputError as `read_study`, without file and line. The content is as `yaml` would read it; relative paths
+    start at `folder`.
 
     Examples
     --------

@@ -182,11 +182,8 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     Cycles of the axial load move load from one row of rollers to the other and back, and a row that is unloaded is a row
     that slips; cycles of the radial load load housing, shaft and ring seats.
 
-    Returns
-    -------
-    xarray.Dataset
-        `load_cycles` over (component, load_range): cycles in the whole history, which is taken as repeating, so that
-        every cycle closes. `load_range` is the geometric middle of a class [N].
+    `load_cycles` over (component, load_range) are those of the whole history, which is taken as repeating, so that
+    every cycle closes; `load_range` is the geometric middle of a class [N].
 
     Notes
     -----

@@ -347,14 +347,8 @@ class Binning(Bins):
     def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Mean of the values of each run in each cell, over runs without NaN; numbers of these and of the others.
 
-        Values are taken one run after the other, so that a large study need not fit into memory.
-
-        Returns
-        -------
-        ndarray, shape (groups, bins, ...)
-            Means; NaN in a cell without runs.
-        ndarray, ndarray, shape (groups, bins)
-            Number of runs in the mean, and of runs left out.
+        Values are taken one run after the other, so that a large study need not fit into memory. Means have the shape
+        (groups, bins, ...), NaN in a cell without runs, and both numbers (groups, bins).
         """
         shape = len(self.groups), self.centres.size
         used, left_out = np.zeros(shape), np.zeros(shape)
@@ -382,18 +376,9 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
 
     A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group
     has one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are
-    named in `by`. Raises InputError if there is no such label, or it is no number.
-
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    field : str or None
-        Label to sort by, a number: `wind_speed`. None: one bin holds all runs.
-    width : float
-        Of a bin [unit of the field], above 0.
-    by : sequence of str
-        Further labels that separate groups: `turbulence`.
+    named in `by`. Raises InputError if there is no such label, or it is no number. `field` is the label to sort by, a
+    number, or None: then one bin holds all runs. `width` is that of a bin [unit of the field], above 0, and `by` names
+    further labels that separate groups: `turbulence`.
     """
     labels = [str(name) for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
     for name in (*([field] if field else []), *by):

@@ -73,6 +73,10 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
 
     Raises StoreError if the result cannot be stored: the disk is full, for example.
 
+    The record is for the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `layout`,
+    `values`; and `program`, by which the study verifies that a worker runs the same version. With `found` true nothing
+    was computed: a result of that key is there, and the database decides whether it is sound.
+
     Parameters
     ----------
     task : dict
@@ -81,13 +85,6 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
         compute even if a result is there.
     progress : callable, optional
         As for `macroslip.simulate`; an exception in it ends the run.
-
-    Returns
-    -------
-    dict
-        For the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `layout`, `values`; and
-        `program`, by which the study verifies that a worker runs the same version. With `found` true nothing was
-        computed: a result of that key is there, and the database decides whether it is sound.
     """
     started = time.perf_counter()
     record: dict[str, Any] = {"run": task["run"], "program": program()}

@@ -35,21 +35,14 @@ def year(
     are at 1 Hz, by S = (Σ p_b S_b^m)^(1/m), both with p_b as share of the time that the cases cover. Raises InputError
     if a label or a weight is wrong.
 
-    Parameters
-    ----------
-    study, weights, field, width, by
-        As in `macroslip.study.lifetime.lifetime_energy`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (group, bin): `runs` in the means and `left_out`, those that failed or are missing. Over bin: `hours` of a year
-        [h]. Over (group, bin, row): `energy` of a mean roller in a year [J], `per_hour` [J], `peak` and `entry_slip`, the
-        largest power [W] and slide-roll ratio at an entry [1] of any run, and the sums of `SUMS`, as far as the results
-        kept what they need; worst places of different bins are added, so `wear` and `pressure_slip` are upper bounds. Over
-        (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the scatter of runs that share
-        a bin; NaN where no bin has two. Over group: the lives [h] and damage-equivalent loads [N]; NaN where a bin of some
-        weight has none. `covered` [1].
+    Over (group, bin) there are `runs` in the means and `left_out`, those that failed or are missing; over bin `hours`
+    of a year [h]. Over (group, bin, row): `energy` of a mean roller in a year [J], `per_hour` [J], `peak` and
+    `entry_slip`, the largest power [W] and slide-roll ratio at an entry [1] of any run, and the sums of `SUMS`, as far
+    as the results kept what they need; worst places of different bins are added, so `wear` and `pressure_slip` are
+    upper bounds. Over (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the scatter
+    of runs that share a bin; NaN where no bin has two. Over group: the lives [h] and damage-equivalent loads [N]; NaN
+    where a bin of some weight has none. `covered` [1]. Arguments are those of
+    `macroslip.study.lifetime.lifetime_energy`.
 
     Examples
     --------
@@ -137,21 +130,11 @@ CRITERIA = {
 
 
 def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
-    """The designs of a year side by side, the least energy first; and sentences on what is not known.
+    """The designs side by side, of `year`, the least energy first; and sentences on what is not known.
 
-    Parameters
-    ----------
-    found : xarray.Dataset
-        From `year`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A line a group, with its number as index: its labels, the columns of `CRITERIA` and the lives [h]. Energy and entries
-        are of both rows, the others of the worse one. NaN where something is not known; a criterion that no run has is left
-        out.
-    list of str
-        What was left out, and why.
+    The table has a line a group, with its number as index: its labels, the columns of `CRITERIA` and the lives [h].
+    Energy and entries are of both rows, the others of the worse one. NaN where something is not known; a criterion that
+    no run has is left out.
     """
     labels = {str(name): one.values for name, one in found.coords.items() if one.dims == ("group",)}
     table, told = pd.DataFrame(labels, index=range(found.sizes["group"])), []
