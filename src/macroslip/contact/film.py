@@ -121,14 +121,12 @@ def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
 def masjedi_khonsari_notes(interface: Interface) -> list[str]:
     """The groups that load and speed do not change, where they are outside `RANGES`."""
     found = line_groups(interface)._asdict()
-    outside = [name for name in ("material", "roughness", "hardness") if not _within(found[name], RANGES[name])]
+    groups = [(name, found[name], *RANGES[name]) for name in ("material", "roughness", "hardness")]
     return [
-        f"the {name} group {found[name]:.4g} is outside {RANGES[name][0]:g} to {RANGES[name][1]:g}" for name in outside
+        f"the {name} group {value:.4g} is outside {low:g} to {high:g}"
+        for name, value, low, high in groups
+        if not low <= value <= high
     ]
-
-
-def _within(value: float, limits: tuple[float, float]) -> bool:
-    return limits[0] <= value <= limits[1]
 
 
 def moes_thickness(load, material):
@@ -142,13 +140,9 @@ def moes_thickness(load, material):
     L^(2/3) are exact limits of Reynolds' equation, to the digits given. M = W (2U)^(−½) > 0 and L = G (2U)^¼ ≥ 0, with
     W = w/(E'R), U = η0 u_e/(E'R) and G = α_p E'.
 
-    Notes
-    -----
     Smooth surfaces, flooded inlet, isothermal, Barus' law, incompressible. Within 5 % of full numerical solutions of
     that problem for M = 0.05 to 20 at L = 0 and 4, M = 0.05 to 2 at L = 8, and M = 0.05 to 1 at L = 15.
 
-    References
-    ----------
     Moes, Lubrication and Beyond, lecture notes, University of Twente (2000). The coefficients are those also given by
     Gelinck and Schipper, Tribol. Int. 33 (2000) 175, doi:10.1016/S0301-679X(00)00024-4.
 
@@ -276,13 +270,9 @@ def inlet_heating_factor(loading):
     Oil that the narrowing inlet turns back is sheared, warms up and thins. The thermal loading parameter is L = η0 β
     u_e²/k ≥ 0, with β the temperature coefficient of viscosity and k the conductivity of the oil.
 
-    Notes
-    -----
     A fit for line contacts of oils, quoted from the literature from memory (tag R); slip, which heats the inlet more,
     is left out, as is the small effect of load. Flooded inlet: in a starved one less oil turns back.
 
-    References
-    ----------
     The effect: Greenwood and Kauzlarich, J. Lubr. Technol. 95 (1973) 417, doi:10.1115/1.3451844.
 
     Examples

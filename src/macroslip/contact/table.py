@@ -59,16 +59,10 @@ class Box(NamedTuple):
 def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float, falling: float = 0.0) -> Box:
     """The box of a case, rounded outward so that cases alike share their tables.
 
-    Parameters
-    ----------
-    ring_speeds : ndarray
-        u2 at all load samples, between which it is linear [m/s].
-    highest_load : float
-        Largest load of a roller, with weight and centrifugal force [N].
-    tolerance : float
-        Of the integrator: the error of a spline goes with the fourth power of the distance between its nodes.
-    falling : float
-        Speed that a roller reaches by itself, however slow the rings are [m/s].
+    u2 [m/s] is linear between all load samples, at which it is given; `highest_load` is the largest load of a roller,
+    with weight and centrifugal force [N], `tolerance` that of the integrator: the error of a spline goes with the
+    fourth power of the distance between its nodes. `falling` is the speed that a roller reaches by itself, however slow
+    the rings are [m/s].
 
     Examples
     --------
@@ -128,45 +122,33 @@ def write_plane(record: np.void, tables: Tables, values: Callable, lightest: flo
     record["load"], record["speed"] = tuple(load), tuple(speed)
 
 
-def film_values(contact: ContactLaws) -> Callable:
+def film_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of a contact's film: ln h and the asperities' share of the load."""
-
-    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
-        film = contact.film_thickness(load, speed)
-        return np.log(film), contact.asperity_share(load, speed, film)
-
-    return values
+    film = contact.film_thickness(load, speed)
+    return np.log(film), contact.asperity_share(load, speed, film)
 
 
-def oil_values(contact: ContactLaws) -> Callable:
+def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of a raceway's oil: sliding per slip, rolling resistance and ln of the volume flow's film."""
-
-    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
-        conductance, resistance, film = light_contact(contact.rolling, load, speed)
-        return conductance, resistance, np.log(film)
-
-    return values
+    conductance, resistance, film = light_contact(contact.rolling, load, speed)
+    return conductance, resistance, np.log(film)
 
 
-def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
+def cage_values(contact: ContactLaws, pocket_gap: float, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of the cage, over ln Q and ln of the roller's surface speed.
 
     Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `pocket_gap` [m]
     sliding per slip and rolling resistance per mean speed.
     """
-
-    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
-        none = np.zeros_like(load)
-        friction, rough = none, none
-        if contact.closed_form is None:
-            pull, _, _, power = tractions(contact, load, none, -speed)
-            friction = -pull / speed
-            rough = power / (-pull * speed)
-        if contact.rolling is None:
-            return friction, rough
-        return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
-
-    return values
+    none = np.zeros_like(load)
+    friction, rough = none, none
+    if contact.closed_form is None:
+        pull, _, _, power = tractions(contact, load, none, -speed)
+        friction = -pull / speed
+        rough = power / (-pull * speed)
+    if contact.rolling is None:
+        return friction, rough
+    return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
 
 
 def tractions(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -139,8 +140,6 @@ def roller_model(
     `axial_sign` is +1 for the downwind and −1 for the upwind row, `tilt` that of the shaft [rad]: the hub end is up, so
     that weight has a part along +Z0.
 
-    Notes
-    -----
     The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
     """
     radius = geometry.roller_radius(bearing)
@@ -213,15 +212,15 @@ def _write_contact(
     record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
     slowest = _SLOWEST * box.fastest
     if contact.closed_form is not None:
-        write_plane(record["film"], tables, film_values(contact), _LIGHTEST, REST_SPEED, box)
+        write_plane(record["film"], tables, partial(film_values, contact), _LIGHTEST, REST_SPEED, box)
         for name in ("conductance", "pressure_exponent", "heating"):
             record[name] = getattr(contact.closed_form, name)
     elif contact.name != "cage":
         errors.append(write_traction(record["traction"], tables, contact, box))
     if contact.name == "cage":
-        write_plane(record["oil"], tables, cage_values(contact, pocket_gap), _LIGHTEST, slowest, box)
+        write_plane(record["oil"], tables, partial(cage_values, contact, pocket_gap), _LIGHTEST, slowest, box)
     elif contact.rolling is not None:
-        write_plane(record["oil"], tables, oil_values(contact), _LIGHTEST, slowest, box)
+        write_plane(record["oil"], tables, partial(oil_values, contact), _LIGHTEST, slowest, box)
         # Beside its shear the inclined pressure pushes by −2 R/r of it.
         record["push"] = 1.0 - 2.0 * contact.rolling.share_1
     return errors
