@@ -188,8 +188,6 @@ def book(steps, j, totals, states):
 
     `steps` has the shape (n, rollers); `states`, shape (n,), is filled with the states at the ends of the steps.
 
-    Notes
-    -----
     Of the load that films carry beside that of the rings the lighter one of the two raceways' counts, which the roller's body
     force does not load.
     """
