@@ -65,17 +65,18 @@ class Criterion(NamedTuple):
 
 
 _FE8 = friction_energy.ThrustTest()
-_REFERENCE_POWER = sum(_FE8.range()) / 2.0
+#: e_a [W/m²] of the FE8 test, mean of its range: what friction energy is compared with.
+REFERENCE_POWER = sum(_FE8.range()) / 2.0
 _IDLE = "oil at idle rollers"
 CRITERIA = (
     Criterion("entry_slide_roll_ratio", "smearing: slide-roll ratio at entry", "1", smearing.RIG_SLIDE_ROLL_RATIO,
               "rig, light load, Evans 2013", 3.0, _IDLE),
     Criterion("entry_power_density", "smearing: power density at entry", "W/m2", math.nan, "", 3.0, _IDLE),
     Criterion("entry_flash_temperature", "smearing: flash temperature at entry", "K", math.nan, "", 3.0, _IDLE),
-    Criterion("friction_energy_rate", "friction energy: e_a, mean of p |v|", "W/m2", _REFERENCE_POWER,
+    Criterion("friction_energy_rate", "friction energy: e_a, mean of p |v|", "W/m2", REFERENCE_POWER,
               "FE8 test 81212", 1.3, "crown of washers"),
     Criterion("friction_energy_year", "friction energy: p |v| of such a year", "J/m2",
-              _FE8.duration * _REFERENCE_POWER, "FE8 test 81212, 20 h", 1.3, "crown of washers"),
+              _FE8.duration * REFERENCE_POWER, "FE8 test 81212, 20 h", 1.3, "crown of washers"),
     Criterion("mixed_time", "micropitting: loaded time with Λ < 1", "1", math.nan, "", 3.0, "roughness, oil supply"),
     Criterion("slower_time", "micropitting: ring slower, Λ < 3", "1", math.nan, "", 1.5, "profile of slip"),
     Criterion("wear_time", "wear: time to 10 µm at the middle k", "year", DESIGN_LIFE, "design life, IEC 61400",

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from macroslip.damage.friction_energy import ThrustTest
 from macroslip.loads.bundled import EVENTS
+from macroslip.result.damage import REFERENCE_POWER
 from macroslip.result.variables import described
 from macroslip.study.weights import CHOICES, YEAR, Weights, binned, weighted
 
@@ -48,7 +48,6 @@ def year(
     --------
     Half a year with a life of 10 000 h and half with 30 000 h, both on the way to failure:
 
-    >>> import xarray as xr
     >>> from macroslip.study.weights import Given
     >>> two = {name: ("case", ["-", "-"]) for name in ("bearing", "lubricant", "model")}
     >>> rows = {"energy_mean": (("case", "row"), [[600.0], [1200.0]]), "basic_life": ("case", [1e4, 3e4])}
@@ -140,7 +139,7 @@ def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
     table, told = pd.DataFrame(labels, index=range(found.sizes["group"])), []
     missing = []
     seconds = float(found.covered) * YEAR
-    scale = {"mixed_time": 1.0 / seconds, "pressure_slip": 1.0 / (seconds * reference_power())}
+    scale = {"mixed_time": 1.0 / seconds, "pressure_slip": 1.0 / (seconds * REFERENCE_POWER)}
     for name, (how, _, about) in CRITERIA.items():
         known = found[name].where(found.hours > 0.0) if name in found else None
         if known is None or not bool(known.notnull().any()):
@@ -176,7 +175,6 @@ def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str
 
     Examples
     --------
-    >>> import xarray as xr
     >>> tilts = ("group", [4.0, 5.0], {"units": "deg"})
     >>> design_names(xr.Dataset(coords={"bearing": ("group", ["A", "A"]), "drivetrain.tilt": tilts}))
     ['tilt 4 deg', 'tilt 5 deg']
@@ -194,23 +192,11 @@ def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str
     return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [""] * found.sizes["group"]
 
 
-def reference_power() -> float:
-    """e_a [W/m²] of the FE8 test, mean of its range: what friction energy is compared with.
-
-    Examples
-    --------
-    >>> f"{reference_power():.3g} W/m²"
-    '4.75e+06 W/m²'
-    """
-    return sum(ThrustTest().range()) / 2.0
-
-
 def coverage(found: xr.Dataset) -> str:
     """What share of a year the cases of `year` cover, as a sentence.
 
     Examples
     --------
-    >>> import xarray as xr
     >>> coverage(xr.Dataset({"hours": ("bin", [4000.0, 66.0, 0.0])}, {"event": ("bin", ["", "start-8", "idle-6"])}))
     'The cases cover 46 % of a year: 4000 h of wind speeds and 66 h of events, whose supervisor is assumed; idle-6 counts nothing.'
     """
