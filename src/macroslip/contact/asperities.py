@@ -41,8 +41,6 @@ def load_ratio(load, speed, material, roughness, hardness):
     The share [-] may exceed 1 far below the range of U, and is 0 where the surfaces are smooth. W, U, G, σ and V are
     those of `macroslip.contact.film.masjedi_khonsari_thickness`, with the same ranges, all > 0, but σ ≥ 0.
 
-    References
-    ----------
     Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514.
 
     Examples
@@ -64,12 +62,8 @@ def film_ratio_share(film_ratio):
     It is 1 at Λ = 0, 10 % at Λ = 0.99, 1 % at 2.03, 0.1 % at 3.08 [-]. Λ = h/σ_rms is ≥ 0, with σ_rms the composite RMS
     roughness.
 
-    Notes
-    -----
     A fit to measured surfaces of rolling bearings (tag V).
 
-    References
-    ----------
     Wingertszahn et al., Lubricants 11 (2023) 369, doi:10.3390/lubricants11090369.
 
     Examples
@@ -86,8 +80,6 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
     `masjedi-khonsari` takes the ellipse as a line, w = 3Q/(4a), as films do; `film-ratio` alone depends on the film,
     and so on starvation. Load Q [N], entrainment speed u_e [m/s] and film thickness h [m] are > 0.
 
-    Notes
-    -----
     The load ratio is used outside its range too: it is small where the film is thick, so a cage contact has none
     (1e-6), and it is clamped to 1 where it exceeds that, at 20 kN on the base bearing's raceways below a third of the
     lowest U of its range.

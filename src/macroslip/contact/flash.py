@@ -36,8 +36,6 @@ def effusivity(thermal_conductivity, density, specific_heat):
 
     From k [W/(m K)], ρ [kg/m³] and c [J/(kg K)], all positive.
 
-    References
-    ----------
     Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.9, where k ρ c appears under the root.
 
     Examples
@@ -115,23 +113,13 @@ _NODES, _WEIGHTS = (
 def transient_flash(time, power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2):
     """Largest rise of surface temperature [K] while a band of friction changes in strength and width, from cold.
 
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        Rising [s]; the band is not there before the first, and the rise after the last is not looked for.
-    power_per_length, half_width, speed_1, speed_2 : ndarray, shape (n,)
-        As of `flash_temperature`, at these times; linear between them.
-    effusivity_1, effusivity_2 : float
-        As of `flash_temperature`.
+    The n times rise [s]; the band is not there before the first, and the rise after the last is not looked for. The
+    others are those of `flash_temperature`, powers, widths and speeds at these times, linear between them.
 
-    Notes
-    -----
     Heat goes into the depth only, ΔT = 1/(√π ε) ∫ q(s)/√(t − s) ds along the way of a point of surface 2 through the band,
     with the share of the heat that it would take from a steady one. The rise is below that of the largest power in a
     steady band, and reaches it where power lasts longer than the passage.
 
-    References
-    ----------
     Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.9.
 
     Examples

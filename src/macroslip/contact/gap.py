@@ -54,8 +54,6 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
     pressure ends with zero slope at t_e, which follows from t_i by Martin's equation. The factors on Q, F_R and ∫dx/h
     hold at a given h0 and are at most 1 [-]. S is > 1, and infinite where flooded.
 
-    Notes
-    -----
     Resistance suffers first: at S = 10 it halves, while shear keeps 85 % and load 82 %.
 
     Examples

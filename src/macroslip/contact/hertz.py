@@ -35,8 +35,6 @@ def effective_modulus(modulus_1: float, poisson_1: float, modulus_2: float, pois
 
     Of Young's moduli [Pa], > 0, and Poisson's ratios, 0 to 0.5.
 
-    References
-    ----------
     Johnson, Contact Mechanics (1985), section 4.2, where E* = E'/2.
 
     Examples
@@ -53,8 +51,6 @@ def axis_ratio(curvature_ratio: float) -> float:
     It is the root of A/B = R_D(0, (b/a)², 1)/R_D(0, 1, (b/a)²). A/B is the smaller over the larger relative curvature
     of the two principal planes, 0 < A/B ≤ 1.
 
-    References
-    ----------
     Johnson, Contact Mechanics (1985), eq. (4.26a, b), in Carlson's form (DLMF 19.25.1).
 
     Examples

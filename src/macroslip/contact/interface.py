@@ -80,8 +80,6 @@ def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, mi
     `axial_sign` is +1 for the downwind row and −1 for the upwind row; `microslip` says whether slip varies along the
     roller.
 
-    Notes
-    -----
     The sign of ζ is that of the roller's axis z'. With z' = z cos α − y sin α (s = +1) the ring's surface at the station ζ
     is ζ sin α nearer to the bearing axis, which gives v the term +s (Ω_in − Ω) sin α ζ; ζ counted the other way round
     turns its sign, and that of the skew moment, and nothing else.

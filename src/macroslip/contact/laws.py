@@ -112,7 +112,6 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
 
     Examples
     --------
-    >>> from macroslip import Bearing, Laws, Lubricant
     >>> found = prepare(Laws.paper(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1)
     >>> height = found.inner.film_thickness(2e4, 0.4)
     >>> float(round(1e6 * height, 3)), float(round(found.inner.uniform_traction(2e4, height, 1e-4), 2))

@@ -135,8 +135,6 @@ class Laws:
         Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils keeps rising with the
         shear rate and reaches no limit; that of polyglycols does, so for them `rheology` is to be "limiting-shear".
 
-        References
-        ----------
         Vengudusamy, Enekes and Spallek, Friction (2019), doi:10.1007/s40544-019-0267-5; Jacod, Venner and Lugt,
         J. Tribol. 123 (2001) 248, doi:10.1115/1.1308021.
         """

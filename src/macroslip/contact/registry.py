@@ -213,17 +213,8 @@ def register_film(
 def register_traction(name: str, function: Callable, *, reference: str) -> None:
     """Make a traction law usable by name.
 
-    Raises InputError if the name is taken by a law of another module.
-
-    Parameters
-    ----------
-    name : str
-        Name in case files.
-    function : callable
-        `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, with arrays of one shape and slip above
-        zero; finite, above zero and without jumps, and in proportion to slip where that is small.
-    reference : str
-        Work to cite where the law was used.
+    As `register_film`, with `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, arrays of one shape
+    and slip above zero; finite, above zero and without jumps, and in proportion to slip where that is small.
 
     Examples
     --------

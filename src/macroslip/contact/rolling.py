@@ -32,16 +32,7 @@ import numpy as np
 from scipy.special import expit
 
 from macroslip.contact.film import joined, log_moes, thermal_loading
-from macroslip.contact.gap import (
-    FLOW,
-    ROLLING,
-    ROLLING_AT_GAP,
-    Gap,
-    GapShape,
-    film_at_gap,
-    film_at_load,
-    prepare_gap,
-)
+from macroslip.contact.gap import FLOW, ROLLING, ROLLING_AT_GAP, Gap, GapShape, film_at_gap, film_at_load, prepare_gap
 from macroslip.contact.interface import Interface
 from macroslip.contact.starvation import inlet_at_gap, rigid_rolling_factor
 from macroslip.errors import InputError
@@ -68,8 +59,6 @@ def starvation_factor(inlet):
 
     S is the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite where flooded.
 
-    References
-    ----------
     Biboulet and Houpert, Proc. IMechE J 224 (2010) 777. Coefficients as later works quote them.
 
     Examples
@@ -119,8 +108,6 @@ def inlet_heating_of_rolling(loading):
 
     L_T = η0 β u²/k ≥ 0 is the thermal loading parameter.
 
-    References
-    ----------
     Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 353. Coefficients as later works quote them.
 
     Examples

@@ -20,8 +20,6 @@ def entries_beyond(largest: ArrayLike, entries: ArrayLike, limit: float) -> tupl
     `largest` has over (..., roller, orbit) the largest value of the entries, in the unit of `limit`, NaN without one;
     `entries` how many entries each of these orbits has.
 
-    Notes
-    -----
     One, or all, of the entries in an orbit whose largest is beyond. They differ where rollers enter several times in an orbit.
 
     Examples

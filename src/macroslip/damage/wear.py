@@ -26,8 +26,6 @@ def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float)
     slip is too slow for them to slide, they dissipate and wear less. k [m²/N] is the dimensionless coefficient over
     hardness, µ_b > 0 the boundary friction [-], and E in J or J/m².
 
-    References
-    ----------
     Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448. Each of the two surfaces wears by k.
 
     Examples
@@ -46,8 +44,6 @@ def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> 
     Of the gap of each slice where the roller just touches [m], its contour and what has worn; the sum of the slices'
     loads, not negative [N], from which δ follows; c [Pa]; and the width of a slice [m].
 
-    Notes
-    -----
     Neighbours do not hold each other, as they do in a half-space: a groove narrower than the contact is long loses its load a
     little too fast. With c of `hertz_slices` the unworn contour carries Hertz' load per length.
 
@@ -117,8 +113,6 @@ def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DE
     The roller wears in both contacts, and its worn profile counts in both. `width` is that of a slice, `deepest` the
     depth at which every body that wears is done [m].
 
-    Notes
-    -----
     dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves the lines of pure rolling, it
     does not follow.
 

@@ -49,18 +49,8 @@ def radau_limits(
 ) -> np.ndarray:
     """Bounds of the Radau integrator that hold for all rollers of a case.
 
-    Parameters
-    ----------
-    roller : Roller
-        Of either row.
-    motion : Motion
-    tolerance : float
-        Relative tolerance of slip and energy.
-    max_steps : int
-    heaviest : float
-        Largest load of a roller with weight and centrifugal force [N].
-    window : float
-        Start of the window [s].
+    `tolerance` is relative, of slip and energy; `heaviest` the largest load of a roller with weight and centrifugal
+    force [N], `window` the window's start [s]. The roller may be of either row.
     """
     body, tables = roller.body[0], roller.tables
     fastest = body["orbit_ratio"] * np.abs(motion.shaft_speed).max()

@@ -206,8 +206,6 @@ def gold(kinematic_viscosity: float, factor: float, exponent: float) -> float:
     ambient pressure and the temperature of interest, positive, fitted for about 5 to 1000 mm2/s; `factor` and
     `exponent` are s and t of the oil family; see `macroslip.lubricant.base_oil`.
 
-    References
-    ----------
     P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, "Viscosity-pressure-temperature behaviour of mineral and
     synthetic oils", Journal of Synthetic Lubrication 18 (2001) 51-79.
 
@@ -228,8 +226,6 @@ def eyring_stress(limiting_shear: float, mean_pressure_viscosity: float) -> floa
     the limiting shear stress over pressure [-], 0.03 to 0.06, and alpha(T, p) = ln(eta/eta0)/p at the temperature and
     pressure [1/Pa], positive; see `mean_pressure_viscosity`.
 
-    References
-    ----------
     A. Arana, J. Larranaga, I. Ulacia, "Partial EHL friction coefficient model to predict power losses in cylindrical
     gears", Proc. IMechE Part J 233 (2019) 303-316.
 

@@ -46,7 +46,6 @@ def roller_load_history(
 
     Examples
     --------
-    >>> from macroslip import Bearing, BearingLoads, Lubricant
     >>> thrust = BearingLoads.constant([0.0, 0.0, 100e3], 2.1, 1.0)
     >>> _, load = roller_load_history(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), thrust)
     >>> load.shape, round(load[0].sum(axis=0)[0] * np.sin(np.radians(11.2))), load[1].max().item()
@@ -101,8 +100,6 @@ def rate(
 
     Examples
     --------
-    >>> from macroslip import Bearing, BearingLoads, Lubricant
-    >>> from macroslip.rating import roller_load_history
     >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
     >>> weight = BearingLoads.constant([0.0, -400e3, 0.0], 2.1, 1.0)
     >>> rating = rate(bearing, oil, *roller_load_history(bearing, oil, weight))

@@ -132,7 +132,6 @@ def next_temperature(known: Mapping[float, float], heat: Heat) -> tuple[float, b
 
     Examples
     --------
-    >>> from macroslip import Heat
     >>> next_temperature({290.0: 1200.0, 320.0: 600.0}, Heat(conductance=40.0, ambient=290.0))
     (310.0, False)
     """
@@ -198,7 +197,6 @@ def ring_temperatures(
 
     Examples
     --------
-    >>> from macroslip import Heat
     >>> heat = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=3000.0, ring_conductance=100.0)
     >>> ring_temperatures(heat, 1000.0, [0.0, float("inf")], (293.15, 293.15)).round(2).tolist()
     [[293.15, 293.15], [314.82, 309.82]]
@@ -221,7 +219,6 @@ def clearance_loss(bearing: Bearing, inner: float, outer: float) -> float:
 
     Examples
     --------
-    >>> from macroslip import Bearing
     >>> round(1e6 * clearance_loss(Bearing.read("skf-240-600-bc"), 318.15, 313.15), 1)
     44.4
     """

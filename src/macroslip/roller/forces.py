@@ -124,20 +124,9 @@ def carried(body, tables, play, outward, ring_speed, guess=0.0):
         [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
 
     h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without load turns slowly; one
-    that grips has left its play, where q counts for little.
-
-    Parameters
-    ----------
-    body, tables
-        The roller.
-    play : float
-        p ≥ 0 [m].
-    outward : float
-        Body force B along the contact normal [N], positive outward.
-    ring_speed : float
-        u2 [m/s].
-    guess : float, optional
-        Where to begin [N], such as the load a moment before; 0 begins at 1 N.
+    that grips has left its play, where q counts for little. The play p ≥ 0 and the body force B along the contact
+    normal, positive outward, are in m and N, u2 in m/s. The search begins at `guess` [N], such as the load a moment
+    before, or where that is 0, at 1 N.
     """
     speed = 0.5 * abs(ring_speed)
     log_u = math.log(max(speed, LOWEST_SPEED))
@@ -192,8 +181,6 @@ def station(body, tables, start_angle, now, found):
     The roller is at φ = `start_angle` at the first sample [rad]; `now` is the ring's motion, `found` a record of
     `STATION`.
 
-    Notes
-    -----
     Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along Z0. Its part along the contact normal and that
     of the centrifugal force (18) are summed; a sum that points outward loads the outer raceway, inward the inner one. A
     roller with play can lean on only one ring, so the sum and not each force for itself is what a raceway feels.
@@ -354,8 +341,6 @@ def slip_forces(body, tables, at, slip, found):
 
     The slip v is in m/s; `at` is a record of `STATION`, `found` one of `FORCES`.
 
-    Notes
-    -----
     The roller's surface speed is u1 = u2 − v. The cage is at rest in the orbiting frame, Δu_c = −u1, and its normal
     force balances everything tangential (32): F_n,cage = |F_g,x' + F_d,x' + F_i − F_o|, F_i and F_o with what rolling
     resistance does: its shear and the push of the inclined pressure.

@@ -24,8 +24,6 @@ def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray
     Both have the shape (parameters,): NaN where a value or the results do not change, and for fewer than three points.
     `values` has the shape (n, parameters), `results` (n,).
 
-    Notes
-    -----
     `scipy.stats.spearmanr`.
 
     Examples
@@ -85,8 +83,6 @@ def effects(
     sample. Where bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean over the
     sample in each. Arguments are those of `macroslip.study.year.year`.
 
-    Notes
-    -----
     Points without a value are left out, and quantities with fewer than four. An effect beside a standard error of its size
     is none.
     """

@@ -33,22 +33,13 @@ def lifetime_energy(
 
     Over (group, row) there is `lifetime_energy` [J], NaN where a bin has no run; over (group, bin, row) `power` [W] and
     `bin_energy` [J], the bin's part of the sum; over (group, bin) `runs`, those that were used, and `left_out`, those
-    that failed or are missing; over bin `probability`; and `covered`, their sum.
-
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    years : float
-        T [years of 365.25 days], above 0.
-    field, width, by
-        As in `macroslip.study.weights.binned`.
+    that failed or are missing; over bin `probability`; and `covered`, their sum. T is in years of 365.25 days, above 0;
+    `field`, `width` and `by` are those of `macroslip.study.weights.binned`.
 
     Examples
     --------
     One bin that is always there, at 3 W for 20 years:
 
-    >>> import xarray as xr
     >>> from macroslip.study.weights import Given
     >>> one = {name: ("case", ["-"]) for name in ("bearing", "lubricant", "model")}
     >>> study = xr.Dataset({"energy_mean": (("case", "row"), [[1800.0, 1800.0]]), "window_length": ("case", [600.0])},

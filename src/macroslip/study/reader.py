@@ -45,11 +45,7 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     that vary under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
     case and row, and the variables of `simulate`, all of them as floats. Missing values are NaN: a run that failed or
     is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time` over (case, sample).
-
-    Parameters
-    ----------
-    directory : path
-        Folder that `macroslip study` or `run_study` has written.
+    `directory` is the folder that `macroslip study` or `run_study` has written.
     """
     directory = Path(directory).absolute()
     manifest, runs = _read(directory)

@@ -324,12 +324,8 @@ def read_study(path: str | PathLike[str]) -> Study:
     """Read a study file.
 
     Bearings and lubricants are read here and now; load files are listed, but not opened. Raises InputError if the file
-    cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
-
-    Parameters
-    ----------
-    path : path
-        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
+    cannot be read, or anything in it is wrong: all problems together, each with file, line and key. The file is YAML,
+    as `macroslip init --example study` writes it; relative paths in it start at its own folder.
     """
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)

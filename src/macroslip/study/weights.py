@@ -36,8 +36,6 @@ class Weibull:
 
     Raises InputError for values that are not above 0.
 
-    Notes
-    -----
     F(v) = 1 − exp(−(v/A)^k), and a bin from a to b has the probability F(b) − F(a): IEC 61400-12-1 and every handbook
     of wind energy.
 
@@ -202,7 +200,6 @@ class Weighting:
 
         Examples
         --------
-        >>> from macroslip.study.loads_list import Load
         >>> loads = [Load(name, {"wind_speed": speed}) for name, speed in (("a", 8.0), ("b", 8.0), ("c", 12.0))]
         >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
         [0.308, 0.308, 0.384]
