@@ -53,8 +53,8 @@ def ring_motion(
 
     Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did not converge. Gives
     the motion, and the largest elastic load of a roller in the history [N]. With loads of the rollers the ring is left
-    in the middle. No roller load may exceed `highest_load` [N]; `more` is a force on the ring beside its load at the
-    samples of its motion [N], shape (n, 3).
+    in the middle. `highest_load` is in N, and `more` a force on the ring beside its load at the samples of its motion
+    [N], shape (n, 3).
     """
     time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)
