@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -242,7 +243,11 @@ def test_the_moment_rises_up_to_rising_slip(ring):
 def test_planes_are_their_laws(name):
     laws = prepare(FULL if name != "film" else Laws.paper().but(asperities="film-ratio"), BEARING, OIL, 1)
     law = laws.cage if name == "cage" else laws.outer
-    values = {"film": film_values, "oil": oil_values}[name](law) if name != "cage" else cage_values(law, POCKET_GAP)
+    values = {
+        "film": partial(film_values, law),
+        "oil": partial(oil_values, law),
+        "cage": partial(cage_values, law, POCKET_GAP),
+    }[name]
     record, tables = np.zeros(1, PLANE), Tables()
     write_plane(record[0], tables, values, 1e-4, 1e-4 * RUNNING.fastest, RUNNING)
     random = np.random.default_rng(3)

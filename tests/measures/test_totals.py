@@ -174,7 +174,7 @@ def test_outside_all_orbits_powers_count_for_the_rest_of_the_window():
 
 def looked(walked, cuts=(), edges=EDGES):
     model, roller, motion, steps = walked
-    looker = Looker(edges, roller, model.laws, prepare(model.laws), motion, ANGLE)
+    looker = Looker(Wanted(edges, 0.4, np.zeros(0), True), roller, model.laws, prepare(model.laws), motion, ANGLE)
     for part in np.split(steps, cuts):
         looker.add(part[:, None].copy(), 0)
     looker.finish()
@@ -208,7 +208,7 @@ def test_fewer_looks_than_steps_are_nearly_as_good(walked, details, monkeypatch)
     assert details.memory["count"][0] < 0.8 * np.count_nonzero(walked[3]["weight"][:, 0])
     every = new_details(EDGES)
     model, roller, motion, steps = walked
-    looker = Looker(EDGES, roller, model.laws, prepare(model.laws), motion, ANGLE)
+    looker = Looker(Wanted(EDGES, 0.4, np.zeros(0), True), roller, model.laws, prepare(model.laws), motion, ANGLE)
     for row in steps:
         # A new highest power makes every step a look.
         looker.details.memory["highest"][0, :] = -1.0

@@ -9,11 +9,11 @@ import xarray as xr
 from scipy.stats import qmc
 
 from macroslip import BearingLoads, Case, InputError, Laws, compare, simulate
-from macroslip.result.damage import damage
+from macroslip.result.damage import REFERENCE_POWER, damage
 from macroslip.study.effects import effects, main_effects, rank_correlations, sampled_parameters
 from macroslip.study.summary import damage_values
 from macroslip.study.weights import YEAR, Given, Rate, Year
-from macroslip.study.year import design_names, designs, reference_power, year
+from macroslip.study.year import design_names, designs, year
 
 POINTS = qmc.Sobol(2, rng=np.random.default_rng(0)).random(32)
 
@@ -111,7 +111,7 @@ def test_designs_of_a_year_by_hand():
     covered = 0.495 + 0.01
     np.testing.assert_allclose(table.mixed_time, [0.0, 0.2 * 0.495 / covered], rtol=1e-12)
     np.testing.assert_allclose(
-        table.pressure_slip * reference_power(), [2e5 * 0.495 / covered, 1e5 * 0.495 / covered], rtol=1e-12
+        table.pressure_slip * REFERENCE_POWER, [2e5 * 0.495 / covered, 1e5 * 0.495 / covered], rtol=1e-12
     )
     assert table.peak.tolist() == [40.0, 30.0]
     # Nothing fails while parked, so that only the share with wind counts.

@@ -25,12 +25,8 @@ class Bearing(Record):
     Contact angle and row offset are 0, and `outer_raceway_radius` is the radius of a cylinder.
 
     Attributes are in SI units (m, N, rad, Pa, kg); `provenance` gives the source of each. Lengths and angles
-    have no sign, except the clearance, which is negative for a preloaded bearing.
-
-    Raises
-    ------
-    InputError
-        If a value is missing, out of range, or inconsistent with the others.
+    have no sign, except the clearance, which is negative for a preloaded bearing. Raises InputError if a value is
+    missing, out of range, or inconsistent with the others.
 
     Examples
     --------

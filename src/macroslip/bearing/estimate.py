@@ -17,19 +17,16 @@ drawing**.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from macroslip.bearing.bearing import Bearing
 from macroslip.bearing.load_ratings import dynamic_load_rating, fatigue_load_limit
 from macroslip.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
 
 SAMPLES = 20_000
 
@@ -94,42 +91,25 @@ class MakersPage:
     """Numbers that a maker publishes of a bearing, SI units.
 
     Raises InputError if the values contradict each other. `Bearing` has their ranges.
-
-    Parameters
-    ----------
-    bore, outside, width : float
-        Boundary dimensions d, D, B [m].
-    static_load_rating : float
-        C0 [N].
-    axial_factor_e : float
-        e [-].
-    shoulder : float | None
-        Diameter of the outer ring's shoulder D1 [m].
-    groove : float | None
-        Width of the lubrication groove in the outer ring [m]; the raceways begin beside it.
-    dynamic_load_rating, fatigue_load_limit : float | None
-        C and C_u or P_u [N]; without them the values of ISO 281 are used.
-    axial_factor_y1, axial_factor_y2, axial_factor_y0 : float | None
-        [-]; without them 0.45, 0.67 and 0.44 cot(alpha).
-    mass : float | None
-        Of the bearing [kg].
-    bpfo, bpfi : float | None
-        Overrolling frequencies of outer and inner ring per turn of the shaft [-]; both or none.
     """
 
+    #: Boundary dimensions d, D, B [m].
     bore: float
     outside: float
     width: float
-    static_load_rating: float
-    axial_factor_e: float
-    shoulder: float | None = None
-    groove: float | None = None
+    static_load_rating: float  #: C0 [N]
+    axial_factor_e: float  #: e [-]
+    shoulder: float | None = None  #: Diameter of the outer ring's shoulder D1 [m]
+    groove: float | None = None  #: Width of the lubrication groove in the outer ring [m]; the raceways begin beside it
+    #: C and C_u or P_u [N]; without them the values of ISO 281 are used.
     dynamic_load_rating: float | None = None
     fatigue_load_limit: float | None = None
+    #: [-]; without them 0.45, 0.67 and 0.44 cot(alpha).
     axial_factor_y1: float | None = None
     axial_factor_y2: float | None = None
     axial_factor_y0: float | None = None
-    mass: float | None = None
+    mass: float | None = None  #: [kg]
+    #: Overrolling frequencies of outer and inner ring per turn of the shaft [-]; both or none.
     bpfo: float | None = None
     bpfi: float | None = None
 
@@ -172,24 +152,12 @@ class EstimatedBearing(NamedTuple):
 def estimate_bearing(page: MakersPage, name: str, title: str = "", *, seed: int = 1) -> EstimatedBearing:
     """Estimate the inside of a bearing from its maker's page.
 
-    Raises InputError if no bearing within the accepted proportions fits the page.
+    Raises InputError if no bearing within the accepted proportions fits the page. The same page and `seed` of the
+    random numbers give the same bearing.
 
-    Parameters
-    ----------
-    page : MakersPage
-        Numbers that the maker publishes.
-    name, title : str
-        Of the bearing.
-    seed : int
-        Of the random numbers; the same page and seed give the same bearing.
-
-    Notes
-    -----
     The samples are independent and uniform within the accepted ranges of this module, rejected where the parts do not
     fit. Length, spacing, sphere and angle of the median bearing agree with each other, as in every sample.
 
-    References
-    ----------
     ISO 76:2006; ISO 281:2007; Harris and Kotzalas, Essential Concepts of Bearing Technology (2006), for the overrolling
     frequencies.
 

@@ -83,6 +83,8 @@ class InletTemperature(Quantity):
 class Case:
     """One simulation.
 
+    Raises InputError for a wrong value, and for values that do not go together.
+
     Parameters
     ----------
     bearing : Bearing
@@ -117,11 +119,6 @@ class Case:
         (`macroslip.result.variables.CONTACT_DETAILS`). It takes up to a third of a simulation and changes nothing else.
     rating : bool
         Whether `macroslip run` and studies rate the bearing beside its slip; `simulate` never does.
-
-    Raises
-    ------
-    InputError
-        For a wrong value, and for values that do not go together.
 
     Examples
     --------
@@ -191,10 +188,7 @@ class Case:
     def oil(self) -> Lubricant:
         """The lubricant at the temperature of the inlets; every computation uses this one.
 
-        Raises
-        ------
-        InputError
-            If the temperature is still to be found.
+        Raises InputError if the temperature is still to be found.
         """
         if self.temperature == BALANCE:
             raise InputError(

@@ -28,12 +28,9 @@ def read_case(path: str | PathLike[str], *, bearing: str = "") -> Case:
     """Read a case file.
 
     `macroslip init` writes one with every key explained. Every quantity carries its unit. Relative paths in it start at its
-    own folder. Of a file with `drivetrain.bearing: both`, `bearing` is the one that is meant, front or rear.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
+    own folder. Of a file with `drivetrain.bearing: both`, `bearing` is the one that is meant, front or rear. Raises
+    InputError if the file cannot be read, or anything in it is wrong: all problems together, each with file, line and
+    key.
     """
     path = Path(path)
     data, source = _content(path)

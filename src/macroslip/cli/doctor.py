@@ -58,6 +58,8 @@ def doctor(as_json: Annotated[bool, typer.Option("--json", help="Print it as JSO
 
 def _packages() -> Iterator[dict[str, Any]]:
     """Packages that the program requires in its metadata: installed version, and the bound."""
+    from macroslip.machine import version_of
+
     try:
         wanted = importlib.metadata.requires("macroslip") or []
     except importlib.metadata.PackageNotFoundError:
@@ -68,9 +70,5 @@ def _packages() -> Iterator[dict[str, Any]]:
         extra = re.search(r"extra == ['\"](\w+)['\"]", marker)
         if parts is None or parts[1] == "macroslip" or (extra and extra[1] not in ("figures", "cluster", "notebook")):
             continue
-        try:
-            installed = importlib.metadata.version(parts[1])
-        except importlib.metadata.PackageNotFoundError:
-            installed = None
         bound = parts[2] + (f", for [{extra[1]}]" if extra else "")
-        yield {"package": parts[1], "installed": installed, "wanted": bound}
+        yield {"package": parts[1], "installed": version_of(parts[1]), "wanted": bound}

@@ -41,20 +41,19 @@ def report(
 ) -> None:
     """Make one self-contained HTML page on results."""
     require(FIGURES)
+    from macroslip.study.reader import is_study, open_study
+
     results = paths[0]
+    of_study = len(paths) == 1 and is_study(results)
+    if weibull and not of_study:
+        raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
     if len(paths) > 1:
-        if weibull:
-            raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
         return compare(paths, output=output, title=title or "", force=force, quiet=quiet)
     from macroslip.report.study_page import study_page
-    from macroslip.study.reader import is_study, open_study
     from macroslip.study.store import CASES, Outcome, parts
     from macroslip.study.weights import Weibull
 
     output = output or (results if results.is_dir() else results.parent) / PAGE
-    of_study = is_study(results)
-    if weibull and not of_study:
-        raise InputError("--weibull is given for results that are no study", remedy="Leave it out.")
     if results.exists():
         # Files that the page is made from, as far as the output could be one of them.
         inputs = results.glob("*.nc") if results.is_dir() else [results]

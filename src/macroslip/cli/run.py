@@ -52,7 +52,6 @@ def run(
 ) -> None:
     """Compute the slip of a case's rollers, as netCDF; of both main bearings as OUTPUT-front.nc and OUTPUT-rear.nc."""
     from macroslip.case.case_file import bearings_in, files_named_in
-    from macroslip.result.stored import to_netcdf
 
     inputs = [case, *(laws or ()), *files_named_in(case)]
     outputs = {
@@ -60,6 +59,8 @@ def run(
     }
     for path in outputs.values():
         check_new_file(path, force=force, inputs=inputs)
+    from macroslip.result.stored import to_netcdf
+
     for path in laws or ():
         from macroslip.plugins import load_laws
 

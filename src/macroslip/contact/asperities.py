@@ -38,19 +38,9 @@ def load_ratio(load, speed, material, roughness, hardness):
 
     L_a = 0.005 W^−0.408 U^−0.088 G^0.103 ln(1 + 4470 σ^6.015 V^1.168 W^0.485 U^−3.741 G^−2.898) per cent
 
-    Parameters
-    ----------
-    load, speed, material, roughness, hardness : array_like
-        W, U, G, σ and V of `macroslip.contact.film.masjedi_khonsari_thickness`, with the same ranges; all > 0, but
-        roughness ≥ 0.
+    The share [-] may exceed 1 far below the range of U, and is 0 where the surfaces are smooth. W, U, G, σ and V are
+    those of `macroslip.contact.film.masjedi_khonsari_thickness`, with the same ranges, all > 0, but σ ≥ 0.
 
-    Returns
-    -------
-    ndarray
-        L_a/100 [-]; may exceed 1 far below the range of U. 0 where the surfaces are smooth.
-
-    References
-    ----------
     Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, doi:10.1115/1.4005514.
 
     Examples
@@ -69,22 +59,11 @@ def load_ratio(load, speed, material, roughness, hardness):
 def film_ratio_share(film_ratio):
     """Share of the load that asperities carry by the ratio of film thickness to roughness, exp(−2.32 Λ^0.97).
 
-    Parameters
-    ----------
-    film_ratio : array_like
-        Λ = h/σ_rms, ≥ 0, with σ_rms the composite RMS roughness.
+    It is 1 at Λ = 0, 10 % at Λ = 0.99, 1 % at 2.03, 0.1 % at 3.08 [-]. Λ = h/σ_rms is ≥ 0, with σ_rms the composite RMS
+    roughness.
 
-    Returns
-    -------
-    ndarray
-        Share [-], 1 at Λ = 0; 10 % at Λ = 0.99, 1 % at 2.03, 0.1 % at 3.08.
-
-    Notes
-    -----
     A fit to measured surfaces of rolling bearings (tag V).
 
-    References
-    ----------
     Wingertszahn et al., Lubricants 11 (2023) 369, doi:10.3390/lubricants11090369.
 
     Examples
@@ -96,23 +75,11 @@ def film_ratio_share(film_ratio):
 
 
 def asperity_share(name: str, interface: Interface, load, entrainment_speed, film_thickness):
-    """Share of the load that asperities carry by the law called `name`, a key of `REFERENCES`.
+    """Share of the load that asperities carry, 0 to 1 [-], by the law called `name`, a key of `REFERENCES`.
 
-    Parameters
-    ----------
-    name : str
-        `masjedi-khonsari` takes the ellipse as a line, w = 3Q/(4a), as films do; `film-ratio` alone depends on the film,
-        and so on starvation.
-    load, entrainment_speed, film_thickness : array_like
-        Q [N], u_e [m/s] and h [m], > 0.
+    `masjedi-khonsari` takes the ellipse as a line, w = 3Q/(4a), as films do; `film-ratio` alone depends on the film,
+    and so on starvation. Load Q [N], entrainment speed u_e [m/s] and film thickness h [m] are > 0.
 
-    Returns
-    -------
-    ndarray
-        0 to 1 [-].
-
-    Notes
-    -----
     The load ratio is used outside its range too: it is small where the film is thick, so a cage contact has none
     (1e-6), and it is clamped to 1 where it exceeds that, at 20 kN on the base bearing's raceways below a third of the
     lowest U of its range.
@@ -138,7 +105,8 @@ def asperity_share(name: str, interface: Interface, load, entrainment_speed, fil
 def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
     """Friction of asperities over a contact whose slip varies as v(ζ) = sliding + bend ζ² − spin ζ, exactly.
 
-    Written so that it takes arrays with NumPy, and numbers where numba compiles it.
+    Written so that it takes arrays with NumPy, and numbers where numba compiles it. Gives ∫τ dA [N], ∫τ ζ² dA [N m²],
+    ∫τ ζ dA [N m] and ∫τ v dA [W], never negative.
 
     Parameters
     ----------
@@ -152,11 +120,6 @@ def asperity_patch(scale, full_slip, across, half, sliding, bend, spin):
         Where the contact ends: a, or half the roller's length if that is less [m].
     sliding, bend, spin : float or ndarray
         Slip [m/s]: Δu, κ/(2R_d) [1/(m s)] and s [1/s].
-
-    Returns
-    -------
-    force, second, skew, power : float or ndarray
-        ∫τ dA [N], ∫τ ζ² dA [N m²], ∫τ ζ dA [N m] and ∫τ v dA [W], never negative.
 
     Notes
     -----

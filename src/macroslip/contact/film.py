@@ -65,7 +65,7 @@ def line_groups(interface: Interface) -> LineGroups:
 
 
 def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
-    """Dimensionless central film thickness H = h/R of a rough line contact.
+    """Dimensionless central film thickness H = h/R [-] of a rough line contact.
 
     H = 2.691 W^−0.135 U^0.705 G^0.556 (1 + 0.2 σ^1.222 V^0.223 W^−0.229 U^−0.748 G^−0.842)
 
@@ -81,11 +81,6 @@ def masjedi_khonsari_thickness(load, speed, material, roughness, hardness):
         σ = σ_rms/R, range 0 to 5e-5.
     hardness : array_like
         V = v/E', range 0.005 to 0.03.
-
-    Returns
-    -------
-    ndarray
-        H [-].
 
     Notes
     -----
@@ -126,14 +121,12 @@ def masjedi_khonsari_in_range(interface: Interface, load, entrainment_speed):
 def masjedi_khonsari_notes(interface: Interface) -> list[str]:
     """The groups that load and speed do not change, where they are outside `RANGES`."""
     found = line_groups(interface)._asdict()
-    outside = [name for name in ("material", "roughness", "hardness") if not _within(found[name], RANGES[name])]
+    groups = [(name, found[name], *RANGES[name]) for name in ("material", "roughness", "hardness")]
     return [
-        f"the {name} group {found[name]:.4g} is outside {RANGES[name][0]:g} to {RANGES[name][1]:g}" for name in outside
+        f"the {name} group {value:.4g} is outside {low:g} to {high:g}"
+        for name, value, low, high in groups
+        if not low <= value <= high
     ]
-
-
-def _within(value: float, limits: tuple[float, float]) -> bool:
-    return limits[0] <= value <= limits[1]
 
 
 def moes_thickness(load, material):
@@ -142,27 +135,14 @@ def moes_thickness(load, material):
     N = {(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(−7/2) + H_EP^(−7/2))^(−2s/7)}^(1/s), s = (7 + 8 exp(−2 H_EI/H_RI))/5,
     H_RI = 3/M, H_EI = 2.621 M^(−1/5), H_RP = 1.287 L^(2/3), H_EP = 1.311 M^(−1/8) L^(3/4)
 
-    Parameters
-    ----------
-    load : array_like
-        M = W (2U)^(−½), > 0, with W = w/(E'R) and U = η0 u_e/(E'R).
-    material : array_like
-        L = G (2U)^¼, ≥ 0, with G = α_p E'.
+    N [-] is the film where the pressure is highest, which is the film that the volume flow fills. In a rigid contact it
+    is 1.226 times the smallest film, in an elastic one the film of the flat middle. In these terms 3/M and 1.287
+    L^(2/3) are exact limits of Reynolds' equation, to the digits given. M = W (2U)^(−½) > 0 and L = G (2U)^¼ ≥ 0, with
+    W = w/(E'R), U = η0 u_e/(E'R) and G = α_p E'.
 
-    Returns
-    -------
-    ndarray
-        N [-]: the film where the pressure is highest, which is the film that the volume flow fills. In a rigid contact
-        it is 1.226 times the smallest film, in an elastic one the film of the flat middle. In these terms 3/M and
-        1.287 L^(2/3) are exact limits of Reynolds' equation, to the digits given.
-
-    Notes
-    -----
     Smooth surfaces, flooded inlet, isothermal, Barus' law, incompressible. Within 5 % of full numerical solutions of
     that problem for M = 0.05 to 20 at L = 0 and 4, M = 0.05 to 2 at L = 8, and M = 0.05 to 1 at L = 15.
 
-    References
-    ----------
     Moes, Lubrication and Beyond, lecture notes, University of Twente (2000). The coefficients are those also given by
     Gelinck and Schipper, Tribol. Int. 33 (2000) 175, doi:10.1016/S0301-679X(00)00024-4.
 
@@ -285,28 +265,14 @@ def masjedi_khonsari_moes_in_range(interface: Interface, load, entrainment_speed
 
 
 def inlet_heating_factor(loading):
-    """Film thickness over isothermal film thickness in pure rolling, φ_T = 1/(1 + 0.1 L^0.64).
+    """Film thickness over isothermal film thickness in pure rolling, φ_T = 1/(1 + 0.1 L^0.64) [-], above 0 and at most 1.
 
-    Oil that the narrowing inlet turns back is sheared, warms up and thins.
+    Oil that the narrowing inlet turns back is sheared, warms up and thins. The thermal loading parameter is L = η0 β
+    u_e²/k ≥ 0, with β the temperature coefficient of viscosity and k the conductivity of the oil.
 
-    Parameters
-    ----------
-    loading : array_like
-        Thermal loading parameter L = η0 β u_e²/k, ≥ 0, with β the temperature coefficient of viscosity and k the
-        conductivity of the oil.
-
-    Returns
-    -------
-    ndarray
-        φ_T [-], above 0, at most 1.
-
-    Notes
-    -----
     A fit for line contacts of oils, quoted from the literature from memory (tag R); slip, which heats the inlet more,
     is left out, as is the small effect of load. Flooded inlet: in a starved one less oil turns back.
 
-    References
-    ----------
     The effect: Greenwood and Kauzlarich, J. Lubr. Technol. 95 (1973) 417, doi:10.1115/1.3451844.
 
     Examples

@@ -34,17 +34,8 @@ PEAK = 1.1115483780654022
 def effusivity(thermal_conductivity, density, specific_heat):
     """Thermal effusivity of a material, ε = √(k ρ c) [J/(m² K √s)].
 
-    Parameters
-    ----------
-    thermal_conductivity : float
-        k [W/(m K)], positive.
-    density : float
-        ρ [kg/m³], positive.
-    specific_heat : float
-        c [J/(kg K)], positive.
+    From k [W/(m K)], ρ [kg/m³] and c [J/(kg K)], all positive.
 
-    References
-    ----------
     Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.9, where k ρ c appears under the root.
 
     Examples
@@ -60,6 +51,10 @@ def effusivity(thermal_conductivity, density, specific_heat):
 def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2):
     """Largest rise of surface temperature in a band of friction, C P'/[(ε1 √|u1| + ε2 √|u2|) √(2b)] [K].
 
+    The rise is above the temperature with which the surfaces enter the contact, at 0.652 b behind its middle. It is
+    zero without power, and infinite if both surfaces are at rest: an endless band on a half-space then never becomes
+    steady.
+
     Parameters
     ----------
     power_per_length : array_like
@@ -70,12 +65,6 @@ def flash_temperature(power_per_length, half_width, speed_1, speed_2, effusivity
         Speeds of the surfaces relative to the contact [m/s], any sign; not their slip.
     effusivity_1, effusivity_2 : array_like
         Thermal effusivities ε = √(k ρ c) [J/(m² K √s)], > 0, see `effusivity`.
-
-    Returns
-    -------
-    ndarray
-        Rise above the temperature with which the surfaces enter the contact [K], at 0.652 b behind its middle. Zero
-        without power. Infinite if both surfaces are at rest: an endless band on a half-space then never becomes steady.
 
     Notes
     -----
@@ -124,23 +113,13 @@ _NODES, _WEIGHTS = (
 def transient_flash(time, power_per_length, half_width, speed_1, speed_2, effusivity_1, effusivity_2):
     """Largest rise of surface temperature [K] while a band of friction changes in strength and width, from cold.
 
-    Parameters
-    ----------
-    time : ndarray, shape (n,)
-        Rising [s]; the band is not there before the first, and the rise after the last is not looked for.
-    power_per_length, half_width, speed_1, speed_2 : ndarray, shape (n,)
-        As of `flash_temperature`, at these times; linear between them.
-    effusivity_1, effusivity_2 : float
-        As of `flash_temperature`.
+    The n times rise [s]; the band is not there before the first, and the rise after the last is not looked for. The
+    others are those of `flash_temperature`, powers, widths and speeds at these times, linear between them.
 
-    Notes
-    -----
     Heat goes into the depth only, ΔT = 1/(√π ε) ∫ q(s)/√(t − s) ds along the way of a point of surface 2 through the band,
     with the share of the heat that it would take from a steady one. The rise is below that of the largest power in a
     steady band, and reaches it where power lasts longer than the passage.
 
-    References
-    ----------
     Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.9.
 
     Examples

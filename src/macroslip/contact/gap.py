@@ -51,20 +51,9 @@ def starved_martin(inlet: float) -> tuple[float, float, float]:
     """Load, rolling force and shear of a starved line contact over those of a flooded one with the same h0.
 
     The film begins with no pressure at t_i < 0, where the gap is S times the film of the volume flow, h0 (1 + t_e²); the
-    pressure ends with zero slope at t_e, which follows from t_i by Martin's equation.
+    pressure ends with zero slope at t_e, which follows from t_i by Martin's equation. The factors on Q, F_R and ∫dx/h
+    hold at a given h0 and are at most 1 [-]. S is > 1, and infinite where flooded.
 
-    Parameters
-    ----------
-    inlet : float
-        S, > 1; infinite where flooded.
-
-    Returns
-    -------
-    tuple of float
-        Factors on Q, F_R and ∫dx/h at a given h0 [-], at most 1.
-
-    Notes
-    -----
     Resistance suffers first: at S = 10 it halves, while shear keeps 85 % and load 82 %.
 
     Examples
@@ -146,13 +135,8 @@ def ratios(kappa, aspect) -> np.ndarray:
 def prepare_gap(shape: GapShape, oil_gap: float = math.inf, widest_inlet: float = math.inf) -> Gap:
     """The rigid film of a contact, from the gap at which κ = 1e5 to that at which s = 4; power laws beyond.
 
-    Parameters
-    ----------
-    shape : GapShape
-    oil_gap : float
-        Gap where the inlet begins to be full [m]; the film is always thinner. Infinite where flooded.
-    widest_inlet : float
-        Largest S, > 1: where a surface ends, as a spar does; infinite where surfaces go on.
+    `oil_gap` is the gap where the inlet begins to be full [m], always wider than the film, infinite where flooded;
+    `widest_inlet` the largest S, > 1: where a surface ends, as a spar does, or infinite.
     """
     radius, length = shape.rolling_radius, shape.length
     curvature = length**2 / (8.0 * shape.lateral_radius)  # κ h0

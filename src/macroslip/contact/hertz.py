@@ -33,15 +33,8 @@ class HertzContact(NamedTuple):
 def effective_modulus(modulus_1: float, poisson_1: float, modulus_2: float, poisson_2: float) -> float:
     """Effective elastic modulus E' = 2/[(1−ν1²)/E1 + (1−ν2²)/E2] [Pa].
 
-    Parameters
-    ----------
-    modulus_1, modulus_2 : float
-        Young's moduli [Pa], > 0.
-    poisson_1, poisson_2 : float
-        Poisson's ratios, 0 to 0.5.
+    Of Young's moduli [Pa], > 0, and Poisson's ratios, 0 to 0.5.
 
-    References
-    ----------
     Johnson, Contact Mechanics (1985), section 4.2, where E* = E'/2.
 
     Examples
@@ -53,20 +46,11 @@ def effective_modulus(modulus_1: float, poisson_1: float, modulus_2: float, pois
 
 
 def axis_ratio(curvature_ratio: float) -> float:
-    """Ratio b/a (short over long semi-axis) of the contact ellipse.
+    """Ratio b/a of the contact ellipse, short over long semi-axis, 0 < b/a ≤ 1 [-].
 
-    Parameters
-    ----------
-    curvature_ratio : float
-        Smaller over larger relative curvature of the two principal planes, A/B, 0 < A/B ≤ 1.
+    It is the root of A/B = R_D(0, (b/a)², 1)/R_D(0, 1, (b/a)²). A/B is the smaller over the larger relative curvature
+    of the two principal planes, 0 < A/B ≤ 1.
 
-    Returns
-    -------
-    float
-        b/a, 0 < b/a ≤ 1, root of A/B = R_D(0, (b/a)², 1)/R_D(0, 1, (b/a)²).
-
-    References
-    ----------
     Johnson, Contact Mechanics (1985), eq. (4.26a, b), in Carlson's form (DLMF 19.25.1).
 
     Examples
@@ -103,10 +87,6 @@ def elliptical_contact(rolling_curvature: float, lateral_curvature: float, modul
         counts negative within the sum).
     modulus : float
         Effective modulus E' [Pa], see `effective_modulus`.
-
-    Returns
-    -------
-    HertzContact
 
     Notes
     -----

@@ -77,15 +77,9 @@ def interfaces(bearing: Bearing, lubricant: Lubricant) -> tuple[Interface, Inter
 def contact_shape(bearing: Bearing, interface: Interface, axial_sign: int, *, microslip: bool) -> ContactShape:
     """Shape of an interface; on the cage's contact slip is the same all over.
 
-    Parameters
-    ----------
-    axial_sign : int
-        +1 for the downwind row, −1 for the upwind row.
-    microslip : bool
-        Whether slip varies along the roller.
+    `axial_sign` is +1 for the downwind row and −1 for the upwind row; `microslip` says whether slip varies along the
+    roller.
 
-    Notes
-    -----
     The sign of ζ is that of the roller's axis z'. With z' = z cos α − y sin α (s = +1) the ring's surface at the station ζ
     is ζ sin α nearer to the bearing axis, which gives v the term +s (Ω_in − Ω) sin α ζ; ζ counted the other way round
     turns its sign, and that of the skew moment, and nothing else.
@@ -118,12 +112,7 @@ def truncation_load(bearing: Bearing, lubricant: Lubricant) -> float:
 def truncated_share(load: float, truncation: float) -> float:
     """Share of a roller's load whose part of the Hertz ellipse lies beyond the roller's ends [-].
 
-    Parameters
-    ----------
-    load : float
-        Largest roller load [N].
-    truncation : float
-        From `truncation_load` [N].
+    From its largest load, and the load of `truncation_load` [N].
 
     Examples
     --------

@@ -4,28 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.constants import FLOODED_GAP, MECHANISMS
 from macroslip.contact import asperities, film, rolling, traction
 from macroslip.contact.closed_form import BarusCrook, barus_crook_traction, prepare_barus_crook
 from macroslip.contact.flash import effusivity
 from macroslip.contact.gap import GapShape
 from macroslip.contact.interface import ContactShape, Interface, contact_shape, interfaces
-from macroslip.contact.mechanisms import check_lubricant
+from macroslip.contact.mechanisms import Laws, check_lubricant
 from macroslip.contact.patch import patch_of, traction_values
 from macroslip.contact.registry import FILM_LAWS, LEAST_SLIP, TRACTION_LAWS
 from macroslip.contact.rolling import RollingNumbers, prepare_rolling
 from macroslip.contact.starvation import film_factor, inlet_at_gap
 from macroslip.contact.traction import Fluid, chord_table, prepare_fluid
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.contact.mechanisms import Laws
-    from macroslip.lubricant import Lubricant
+from macroslip.lubricant import Lubricant
 
 #: Entrainment speed below which a film is that at this speed [m/s].
 LOWEST_ENTRAINMENT_SPEED = 1e-6
@@ -111,20 +107,11 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
     """The laws of the contacts of a roller.
 
     Raises InputError for a law that does not exist, values the lubricant lacks, or curvatures that do not make a Hertz
-    contact.
-
-    Parameters
-    ----------
-    laws : Laws
-        Chosen mechanisms.
-    lubricant : Lubricant
-        With `oil_gap`, from which on inlets are full.
-    axial_sign : int
-        +1 for the downwind row, −1 for the upwind row.
+    contact. The lubricant has its `oil_gap`, from which on inlets are full; `axial_sign` is +1 for the downwind row and
+    −1 for the upwind row.
 
     Examples
     --------
-    >>> from macroslip import Bearing, Laws, Lubricant
     >>> found = prepare(Laws.paper(), Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), 1)
     >>> height = found.inner.film_thickness(2e4, 0.4)
     >>> float(round(1e6 * height, 3)), float(round(found.inner.uniform_traction(2e4, height, 1e-4), 2))

@@ -81,12 +81,7 @@ def log_speed(speed):
 
 @jit_inline
 def in_plane(plane, tables, log_load, log_speed):
-    """Four quantities of a plane at ln Q and ln |u|, and their derivatives by both.
-
-    Returns
-    -------
-    tuple of 4 float, three times
-    """
+    """Four quantities of a plane at ln Q and ln |u|, and their derivatives by both, as three tuples."""
     i, t, by_first = cell_of(plane.load, log_load)
     j, u, by_second = cell_of(plane.speed, log_speed)
     stride = CHANNELS * (plane.speed.cells + 3)
@@ -100,21 +95,9 @@ def in_plane(plane, tables, log_load, log_speed):
 
 @jit_inline
 def traction(table, tables, load, log_load, ring_speed, slip):
-    """Traction of a raceway contact from its table.
+    """`Traction` of a raceway contact from its table.
 
-    Parameters
-    ----------
-    table : record of `TRACTION`
-    tables : ndarray
-        The flat array.
-    load, log_load : float
-        Q > 0 [N] and ln Q.
-    ring_speed, slip : float
-        u2 and v [m/s], each of either sign.
-
-    Returns
-    -------
-    Traction
+    At Q > 0 [N], ln Q, u2 and v [m/s], each of either sign, from a record of `TRACTION` and the flat array of tables.
     """
     sign = math.copysign(1.0, ring_speed)
     along, sliding = abs(ring_speed), slip * sign

@@ -8,16 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import fields, replace
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from macroslip.constants import MECHANISMS
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag
 from macroslip.input.messages import unknown_name
 from macroslip.input.section import input_section
-
-if TYPE_CHECKING:
-    from macroslip.lubricant import Lubricant
+from macroslip.lubricant import Lubricant
 
 _OWN_LAW = "A law of your own needs its file: macroslip run CASE --laws FILE."
 
@@ -35,6 +33,8 @@ def _names(module: str, holder: str, *first: str) -> Callable[[], list[str]]:
 @input_section("laws", "physics in the contacts: a named set, and mechanisms that differ from it")
 class Laws:
     """Mechanisms in the contacts of a roller. The defaults are the paper's model.
+
+    Raises InputError for a choice that does not exist, or one that a law of one's own makes void.
 
     Parameters
     ----------
@@ -64,11 +64,6 @@ class Laws:
     traction : str
         "mechanisms": built from the choices above. Otherwise the name of a registered traction law, which replaces
         viscosity, rheology, heating and microslip.
-
-    Raises
-    ------
-    InputError
-        For a choice that does not exist, or one that a law of one's own makes void.
 
     Examples
     --------
@@ -140,8 +135,6 @@ class Laws:
         Eyring's law, and not limiting shear, because traction measured on PAO and mineral oils keeps rising with the
         shear rate and reaches no limit; that of polyglycols does, so for them `rheology` is to be "limiting-shear".
 
-        References
-        ----------
         Vengudusamy, Enekes and Spallek, Friction (2019), doi:10.1007/s40544-019-0267-5; Jacod, Venner and Lugt,
         J. Tribol. 123 (2001) 248, doi:10.1115/1.1308021.
         """
@@ -149,13 +142,7 @@ class Laws:
 
     @classmethod
     def named(cls, name: str) -> Laws:
-        """The set called `name`: paper or physical.
-
-        Raises
-        ------
-        InputError
-            For any other name.
-        """
+        """The set called `name`, paper or physical; InputError for any other name."""
         if name not in PRESETS:
             problem = unknown_name(name, list(PRESETS))
             raise InputError(problem.what, where="laws.model", allowed=problem.allowed, remedy=problem.remedy)

@@ -165,21 +165,10 @@ def rolling_lines(bend, spin, slip, end):
 def patch_traction(patch, chords, load, film, share, ring_speed, slip, found):
     """Write pull and lag [N], skew moment [N m] and power of asperities [W] of a raceway contact into `found`.
 
-    Parameters
-    ----------
-    patch : Patch
-    chords : ChordTable
-    load, film : float
-        Q > 0 [N], and h > 0 [m], the same all over the patch.
-    share : float
-        Part of the load that asperities carry, 0 to 1: film and asperities each have their share of the area at the full
-        Hertz pressure.
-    ring_speed, slip : float
-        u2 and Δu at the middle [m/s].
-    found : ndarray, shape (4,)
+    Load Q > 0 [N] and film h > 0 [m] are the same all over the patch, u2 and Δu in the middle [m/s]. Asperities carry
+    the part `share` of the load, 0 to 1: film and asperities each have their share of the area at the full Hertz
+    pressure. `found` has the shape (4,).
 
-    Notes
-    -----
     The ellipse ends at the roller's ends; what Hertz's pressure would carry beyond is left out.
     """
     root = load ** (1.0 / 3.0)

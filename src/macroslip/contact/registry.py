@@ -122,12 +122,7 @@ _UNITS = {"film": "m", "traction": "N"}
 class LawList:
     """Names of the laws of one kind.
 
-    Parameters
-    ----------
-    kind : str
-        `film` or `traction`, the key in case files.
-    reserved : tuple of str
-        Names that mean something else under that key.
+    `kind` is `film` or `traction`, the key in case files; `reserved` are names that mean something else under that key.
     """
 
     def __init__(self, kind: str, reserved: tuple[str, ...] = ()):
@@ -218,17 +213,8 @@ def register_film(
 def register_traction(name: str, function: Callable, *, reference: str) -> None:
     """Make a traction law usable by name.
 
-    Raises InputError if the name is taken by a law of another module.
-
-    Parameters
-    ----------
-    name : str
-        Name in case files.
-    function : callable
-        `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, with arrays of one shape and slip above
-        zero; finite, above zero and without jumps, and in proportion to slip where that is small.
-    reference : str
-        Work to cite where the law was used.
+    As `register_film`, with `function(interface, load [N], film_thickness [m], slip [m/s]) -> F [N]`, arrays of one shape
+    and slip above zero; finite, above zero and without jumps, and in proportion to slip where that is small.
 
     Examples
     --------
@@ -265,12 +251,8 @@ def check_own_laws(laws: Laws, bearing: Bearing, lubricant: Lubricant, speed: fl
     """Refuse a law of the user's own that breaks its contract, with the state at which it does.
 
     It is tried over the states that a case can reach before the first step: a wrong law may give plausible numbers.
-    Raises InputError naming the law, the interface and the state; also if a law does not return.
-
-    Parameters
-    ----------
-    speed : float
-        Highest speed of the raceways [m/s]; nothing is tried for 0.
+    Raises InputError naming the law, the interface and the state; also if a law does not return. `speed` is the highest
+    of the raceways [m/s]; nothing is tried for 0.
     """
     chosen = [FILM_LAWS.named(laws.film)]
     if laws.traction != MECHANISMS:

@@ -32,16 +32,7 @@ import numpy as np
 from scipy.special import expit
 
 from macroslip.contact.film import joined, log_moes, thermal_loading
-from macroslip.contact.gap import (
-    FLOW,
-    ROLLING,
-    ROLLING_AT_GAP,
-    Gap,
-    GapShape,
-    film_at_gap,
-    film_at_load,
-    prepare_gap,
-)
+from macroslip.contact.gap import FLOW, ROLLING, ROLLING_AT_GAP, Gap, GapShape, film_at_gap, film_at_load, prepare_gap
 from macroslip.contact.interface import Interface
 from macroslip.contact.starvation import inlet_at_gap, rigid_rolling_factor
 from macroslip.errors import InputError
@@ -68,8 +59,6 @@ def starvation_factor(inlet):
 
     S is the film where the inlet begins to be full over the film of the contact, ≥ 1; infinite where flooded.
 
-    References
-    ----------
     Biboulet and Houpert, Proc. IMechE J 224 (2010) 777. Coefficients as later works quote them.
 
     Examples
@@ -85,7 +74,8 @@ def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, t
     """Rolling resistance of a bearing whose raceways refill over that of flooded ones, in the SKF model.
 
     φ_rs = exp{−K_rs ν n (d + D) √[K_Z/(2 (D − d))]}, with ν in mm²/s, n in r/min, d and D in mm. A thick oil and a fast
-    bearing leave less time and way for what a roller pushes aside to flow back.
+    bearing leave less time and way for what a roller pushes aside to flow back. φ_rs [-] is above 0 and at most 1, and
+    stated for steady running, ν from 2 to 500 mm²/s.
 
     Parameters
     ----------
@@ -99,11 +89,6 @@ def replenishment(kinematic_viscosity, speed, bore, outside, *, constant=6e-8, t
         K_rs: 6e-8 for grease and oil-air, 3e-8 for a low oil bath, 0 where oil covers the lowest roller's axis.
     type_factor : float
         K_Z; 5.5 for double-row spherical, 5.1 for cylindrical roller bearings with a cage.
-
-    Returns
-    -------
-    ndarray
-        φ_rs [-], above 0 and at most 1. Stated for steady running, ν from 2 to 500 mm²/s.
 
     References
     ----------
@@ -123,8 +108,6 @@ def inlet_heating_of_rolling(loading):
 
     L_T = η0 β u²/k ≥ 0 is the thermal loading parameter.
 
-    References
-    ----------
     Goksem and Hargreaves, J. Lubr. Technol. 100 (1978) 353. Coefficients as later works quote them.
 
     Examples
@@ -169,12 +152,7 @@ def log_elastic(name: str, log_load, log_material):
 def line_rolling(name: str, load, material):
     """N_F = F_R/(E' R l) (2U)^(−¾) [-] of a line contact, flooded and isothermal, rigid to elastic and piezoviscous.
 
-    Parameters
-    ----------
-    name : str
-        `inlet` or `whole-film`, see `log_elastic`.
-    load, material : array_like
-        M and L, > 0.
+    `name` is `inlet` or `whole-film`, see `log_elastic`; M and L are > 0.
 
     Examples
     --------
@@ -378,11 +356,8 @@ def plug_force(numbers: RollingNumbers, gap):
 def contact_at_gap(numbers: RollingNumbers, gap):
     """A contact whose smallest gap h0 [m] > 0 is given, as a roller with play has: rigid and isoviscous.
 
-    Returns
-    -------
-    load, conductance, resistance : ndarray
-        Each per speed [N s/m]: Q over the size of the mean surface speed, sliding force over slip, and F_R over the mean
-        speed.
+    Load, conductance and resistance are per speed [N s/m]: Q over the size of the mean surface speed, sliding force
+    over slip, and F_R over the mean speed.
     """
     log_load, log_rolling, log_shear = film_at_gap(numbers.gap, np.log(gap))
     return tuple(numbers.viscosity * np.exp(one) for one in (log_load, log_shear, log_rolling))
@@ -391,21 +366,9 @@ def contact_at_gap(numbers: RollingNumbers, gap):
 def pocket_contact(numbers: RollingNumbers, load, mean_speed, widest):
     """A roller in the pocket of its cage: a rigid, isoviscous contact under a load, whose gap the pocket bounds.
 
-    h0^−4 = h0(Q)^−4 + widest^−4: under no load the roller floats in the middle of its pocket.
-
-    Parameters
-    ----------
-    load : array_like
-        Q [N], ≥ 0, which the spar carries alone.
-    mean_speed : array_like
-        Size of the mean surface speed u [m/s], > 0.
-    widest : float
-        Largest gap [m].
-
-    Returns
-    -------
-    conductance, resistance : ndarray
-        Sliding force over slip, and F_R over the mean speed [N s/m].
+    h0^−4 = h0(Q)^−4 + widest^−4: under no load the roller floats in the middle of its pocket. Gives sliding force over
+    slip, and F_R over the mean speed [N s/m]. The spar alone carries Q [N] ≥ 0; the size of the mean surface speed is >
+    0 [m/s], and `widest` the largest gap [m].
     """
     with np.errstate(divide="ignore"):
         log_group = _log_group(numbers, np.log(load), np.log(mean_speed))

@@ -21,19 +21,16 @@ Traction has the direction of slip, and its stress is that of the shear law at |
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.contact.asperities import FULL_SLIP
 from macroslip.contact.interface import common_contour_radius
+from macroslip.contact.laws import ContactLaws
 from macroslip.contact.patch import graded_rule
 from macroslip.contact.traction import Fluid, local_stress
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.contact.laws import ContactLaws
 
 #: Stress [Pa] of a film over pressure [Pa], film thickness [m] and slip [m/s], arrays above zero.
 Shear = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
@@ -124,14 +121,8 @@ def constant_friction(coefficient: float) -> Shear:
 def skewed_contact(laws: ContactLaws, bearing: Bearing, axial_sign: int, shear: Shear | None = None) -> SkewedContact:
     """A raceway contact of a roller that may be skewed.
 
-    Parameters
-    ----------
-    laws : ContactLaws
-        Of the inner or outer raceway, with a sheared film.
-    axial_sign : int
-        +1 for the downwind row, −1 for the upwind row.
-    shear : callable, optional
-        In place of the film's own.
+    `laws` are those of the inner or outer raceway, with a sheared film, whose stress `shear` may replace; `axial_sign`
+    is +1 for the downwind and −1 for the upwind row.
     """
     inner = laws.name == "inner"
     side = -1 if inner else 1
@@ -170,17 +161,9 @@ def slip_lines(contact: SkewedContact, ring_speed, slip, skew, shift, tilt) -> S
 def resultants(contact: SkewedContact, load, ring_speed, slip, skew, shift, tilt) -> Resultants:
     """Forces, moments and power of a contact by quadrature over its ellipse.
 
-    Parameters
-    ----------
-    load : array_like
-        Q > 0 [N].
-    ring_speed, slip : array_like
-        u2 ≠ 0 and Δu at the middle of the roller [m/s].
-    skew, shift, tilt : array_like
-        ψ [rad], ζ_c [m] and θ [rad].
+    At Q > 0 [N], u2 ≠ 0 and Δu at the middle of the roller [m/s], the skew ψ [rad], the shift ζ_c [m] and the tilt θ
+    [rad].
 
-    Notes
-    -----
     The ellipse ends at the roller's ends. It is divided where v vanishes and graded towards these lines, with 30 chords of 10
     points each; against twice as many of either the net moments of both raceways are off by what `tests/contact/test_skewed.py`
     bounds. Film and asperities share the area as in `macroslip.contact.patch`.

@@ -5,8 +5,6 @@ coefficients next to each other in one flat array, so that a look-up sums four n
 This is the only file that writes instructions for the compiler: its vectors take a third of the time of plain loops.
 The order of all sums is fixed, so results are the same on processors with registers of any length.
 
-References
-----------
 de Boor, A Practical Guide to Splines, Springer (1978), doi:10.1007/978-1-4612-6333-3.
 """
 
@@ -199,19 +197,10 @@ def spline_value(typingctx, table, start, strides, places):
 
 @intrinsic
 def splines_in_square(typingctx, table, start, stride, t, u):
-    """Four splines Σ w_m(t) w_n(u) c[start + m stride + 4 n + channel] and their derivatives by t and u.
+    """Four splines Σ w_m(t) w_n(u) c[start + m stride + 4 n + channel] and their derivatives by t and u, as three tuples.
 
-    Parameters
-    ----------
-    table : ndarray of float64, 1 dimension
-    start, stride : int
-        Number of the cell's first coefficient, and of numbers from one node of the first axis to the next.
-    t, u : float
-        Places in the cell, from 0 to 1.
-
-    Returns
-    -------
-    tuple of 4 float, three times
+    `start` is the number of the cell's first coefficient in the flat `table`, `stride` how many numbers lie from one
+    node of the first axis to the next; t and u are places in the cell, from 0 to 1.
     """
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
@@ -237,20 +226,9 @@ def splines_in_square(typingctx, table, start, stride, t, u):
 def splines_in_cube(typingctx, table, start, strides, places):
     """Four splines Σ w_m(t) w_q(s) w_n(u) c[…] over three axes and their derivatives by t, s and u.
 
-    Parameters
-    ----------
-    table : ndarray of float64, 1 dimension
-    start : int
-        Number of the cell's first coefficient.
-    strides : tuple of 2 int
-        Numbers from one node to the next, along the first and the second axis; four along the third.
-    places : tuple of 3 float
-        t, s and u in the cell, from 0 to 1.
-
-    Returns
-    -------
-    tuple of 4 float, four times
-        Values that are not used cost nothing: they are not compiled.
+    They come as four tuples. Values that are not used cost nothing: they are not compiled. `start` is the number of the
+    cell's first coefficient in the flat `table`, the strides those from one node to the next along the first and the
+    second axis, four along the third; the places t, s and u are in the cell, from 0 to 1.
     """
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:

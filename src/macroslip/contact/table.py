@@ -59,16 +59,10 @@ class Box(NamedTuple):
 def table_box(ring_speeds: np.ndarray, highest_load: float, tolerance: float, falling: float = 0.0) -> Box:
     """The box of a case, rounded outward so that cases alike share their tables.
 
-    Parameters
-    ----------
-    ring_speeds : ndarray
-        u2 at all load samples, between which it is linear [m/s].
-    highest_load : float
-        Largest load of a roller, with weight and centrifugal force [N].
-    tolerance : float
-        Of the integrator: the error of a spline goes with the fourth power of the distance between its nodes.
-    falling : float
-        Speed that a roller reaches by itself, however slow the rings are [m/s].
+    u2 [m/s] is linear between all load samples, at which it is given; `highest_load` is the largest load of a roller,
+    with weight and centrifugal force [N], `tolerance` that of the integrator: the error of a spline goes with the
+    fourth power of the distance between its nodes. `falling` is the speed that a roller reaches by itself, however slow
+    the rings are [m/s].
 
     Examples
     --------
@@ -115,13 +109,8 @@ class Tables:
 def write_plane(record: np.void, tables: Tables, values: Callable, lightest: float, slowest: float, box: Box) -> None:
     """Make a plane over ln Q and ln u and write where it stands.
 
-    Parameters
-    ----------
-    record : record of `PLANE`
-    values : callable
-        `values(load [N], speed [m/s])`, arrays of one shape: up to four quantities.
-    lightest, slowest : float
-        Least load [N] and speed [m/s].
+    Of up to four quantities `values(load [N], speed [m/s])`, on arrays of one shape, from the least load [N] and speed
+    [m/s] on; `record` is one of `PLANE`.
     """
     load = axis(math.log(lightest), math.log(box.load), _PLANE_LOAD * box.fineness)
     speed = axis(math.log(slowest), math.log(2.0 * box.fastest), _PLANE_SPEED * box.fineness)
@@ -133,45 +122,33 @@ def write_plane(record: np.void, tables: Tables, values: Callable, lightest: flo
     record["load"], record["speed"] = tuple(load), tuple(speed)
 
 
-def film_values(contact: ContactLaws) -> Callable:
+def film_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of a contact's film: ln h and the asperities' share of the load."""
-
-    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
-        film = contact.film_thickness(load, speed)
-        return np.log(film), contact.asperity_share(load, speed, film)
-
-    return values
+    film = contact.film_thickness(load, speed)
+    return np.log(film), contact.asperity_share(load, speed, film)
 
 
-def oil_values(contact: ContactLaws) -> Callable:
+def oil_values(contact: ContactLaws, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of a raceway's oil: sliding per slip, rolling resistance and ln of the volume flow's film."""
-
-    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
-        conductance, resistance, film = light_contact(contact.rolling, load, speed)
-        return conductance, resistance, np.log(film)
-
-    return values
+    conductance, resistance, film = light_contact(contact.rolling, load, speed)
+    return conductance, resistance, np.log(film)
 
 
-def cage_values(contact: ContactLaws, pocket_gap: float) -> Callable:
+def cage_values(contact: ContactLaws, pocket_gap: float, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
     """Quantities of the plane of the cage, over ln Q and ln of the roller's surface speed.
 
     Friction per slip, the asperities' part of its power, and of the oil in a pocket with the largest gap `pocket_gap` [m]
     sliding per slip and rolling resistance per mean speed.
     """
-
-    def values(load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, ...]:
-        none = np.zeros_like(load)
-        friction, rough = none, none
-        if contact.closed_form is None:
-            pull, _, _, power = tractions(contact, load, none, -speed)
-            friction = -pull / speed
-            rough = power / (-pull * speed)
-        if contact.rolling is None:
-            return friction, rough
-        return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
-
-    return values
+    none = np.zeros_like(load)
+    friction, rough = none, none
+    if contact.closed_form is None:
+        pull, _, _, power = tractions(contact, load, none, -speed)
+        friction = -pull / speed
+        rough = power / (-pull * speed)
+    if contact.rolling is None:
+        return friction, rough
+    return friction, rough, *pocket_contact(contact.rolling, load, 0.5 * speed, pocket_gap)
 
 
 def tractions(
@@ -179,10 +156,7 @@ def tractions(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Traction of a contact by its laws: pull and lag [N], skew moment [N m] and power of asperities [W].
 
-    Parameters
-    ----------
-    load, ring_speed, slip : ndarray
-        Q > 0 [N], u2 and v [m/s], of one shape. The roller's axis is tilted to the positive side.
+    At Q > 0 [N], u2 and v [m/s], of one shape. The roller's axis is tilted to the positive side.
     """
     entrainment = np.maximum(np.abs(ring_speed - 0.5 * slip), REST_SPEED)
     film = contact.film_thickness(load, entrainment)
@@ -291,12 +265,7 @@ class _Made(NamedTuple):
 
 
 def write_traction(record: np.void, tables: Tables, contact: ContactLaws, box: Box) -> TableErrors:
-    """Make the table of a raceway's traction, or find it in store, and write where it stands.
-
-    Parameters
-    ----------
-    record : record of `TRACTION`
-    """
+    """Make the table of a raceway's traction, or find it in store, and write where it stands into a record of `TRACTION`."""
     grid, key = _grid(contact, box), table_key("traction", *contact_parts(contact))
     made = remembered(table_key(key, grid), lambda: _traction(contact, grid, box, key))
     record["start"], record["rising"] = tables.add(made.coefficients), tables.add(made.rising)

@@ -60,10 +60,7 @@ def _described(value: Any) -> str:
 def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarray]:
     """The arrays called `key`, made only if neither this process nor the disk has them; read-only.
 
-    Parameters
-    ----------
-    key : str
-        From `table_key`.
+    The key is one of `table_key`.
     """
     return remembered(key, lambda: _from_disk_or_made(key, make))
 
@@ -71,12 +68,7 @@ def stored(key: str, make: Callable[[], Sequence[np.ndarray]]) -> list[np.ndarra
 def remembered(key: str, make: Callable[[], Made]) -> Made:
     """The object called `key`, made only if this process has not made it or has forgotten it.
 
-    Parameters
-    ----------
-    key : str
-        From `table_key`.
-    make : callable
-        Returns arrays, or tuples of them.
+    The key is one of `table_key`; `make` gives arrays, or tuples of them.
     """
     with _guard:
         lock = _locks.setdefault(key, threading.Lock())

@@ -21,19 +21,17 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import map_coordinates
 
+from macroslip.contact.mechanisms import Laws
 from macroslip.contact.spline import axis, spline_coefficients
 from macroslip.contact.table_store import stored, table_key
 from macroslip.errors import InputError
+from macroslip.lubricant import Lubricant
 from macroslip.lubricant.temperature import ROELANDS_PRESSURE, roelands_index
-
-if TYPE_CHECKING:
-    from macroslip.contact.mechanisms import Laws
-    from macroslip.lubricant import Lubricant
 
 NEWTONIAN, LIMITING_SHEAR, EYRING = 0, 1, 2
 #: Numbers of the rheologies by the names that case files use.
@@ -72,18 +70,9 @@ _BOUNDS, _SPACING, _LARGEST_ERROR = ((-14.0, 8.0), (-22.0, 8.0)), 0.1, 1e-6
 def limited_stress(rheology: int, viscous_stress, characteristic_stress):
     """Shear stress τ [Pa] of a film whose Newtonian stress would be τ* = η γ̇.
 
-    Parameters
-    ----------
-    rheology : int
-        `NEWTONIAN`: τ = τ*. `LIMITING_SHEAR` (Bair and Winer): τ = τ_L [1 − exp(−τ*/τ_L)]. `EYRING`:
-        τ = τ_E asinh(τ*/τ_E).
-    viscous_stress : array_like
-        τ* ≥ 0 [Pa].
-    characteristic_stress : array_like
-        τ_L or τ_E > 0 [Pa].
+    `NEWTONIAN`: τ = τ*. `LIMITING_SHEAR` (Bair and Winer): τ = τ_L [1 − exp(−τ*/τ_L)]. `EYRING`: τ = τ_E asinh(τ*/τ_E).
+    Of τ* ≥ 0, and τ_L or τ_E > 0 [Pa].
 
-    References
-    ----------
     Bair and Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342; Eyring's law for traction: Johnson and
     Tevaarwerk, Proc. R. Soc. A 356 (1977) 215, doi:10.1098/rspa.1977.0129.
 
@@ -110,24 +99,12 @@ def _elasticity(rheology: int, ratio):
 def heated_shear(rheology: int, viscous_stress, characteristic_stress, heat):
     """Shear stress τ [Pa] of a film that is limited in stress and heated by its own shear: the exact solution.
 
-    Parameters
-    ----------
-    rheology : int
-        See `limited_stress`.
-    viscous_stress : array_like
-        η_s |Δu|/h ≥ 0 [Pa], with the viscosity at wall temperature.
-    characteristic_stress : array_like
-        Limiting or Eyring stress [Pa], taken at wall temperature.
-    heat : array_like
-        β h |Δu|/(8k) [1/Pa]; 0 without heating.
+    `rheology` is one of `limited_stress`; the viscous stress η_s |Δu|/h ≥ 0 [Pa] has the viscosity at wall temperature,
+    and the limiting or Eyring stress [Pa] is taken there too; `heat` is β h |Δu|/(8k) [1/Pa], 0 without heating.
 
-    Notes
-    -----
     Valid as long as conduction across the film is the only way for heat to leave. The mid-film temperature rise is
     (2/β) ln cosh c.
 
-    References
-    ----------
     Derivation in the module's docstring; Crook (1961), doi:10.1098/rsta.1961.0014, for the Newtonian case.
 
     Examples
@@ -196,8 +173,6 @@ def thermal_reduction(heating):
     across the film is the only way for heat to leave and walls stay at inlet temperature. B = β η_s Δu²/(8k) is Crook's
     heating number; the middle of the film is ln(1 + B)/β above its walls.
 
-    References
-    ----------
     Crook, Phil. Trans. R. Soc. A 254 (1961) 237, doi:10.1098/rsta.1961.0014.
 
     Examples
@@ -278,30 +253,17 @@ def characteristic_slip(fluid: Fluid, log_eta, pressure, film_thickness):
     return film_thickness * characteristic_stress(fluid, pressure) * np.exp(-log_eta)
 
 
-def chord_rule(nodes: int) -> tuple[np.ndarray, np.ndarray]:
-    """Cos θ and weights of ∫₀^{π/2} f(cos θ) cos θ dθ by Gauss and Legendre."""
-    t, weights = np.polynomial.legendre.leggauss(nodes)
-    cosine = np.cos(0.25 * np.pi * (t + 1.0))
-    return cosine, 0.25 * np.pi * weights * cosine
-
-
-_COSINES, _WEIGHTS = chord_rule(18)
+# Cos θ and weights of ∫₀^{π/2} f(cos θ) cos θ dθ by Gauss and Legendre.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(18)
+_COSINES = np.cos(0.25 * np.pi * (_NODES + 1.0))
+_WEIGHTS = 0.25 * np.pi * _WEIGHTS * _COSINES
 
 
 def chord_stress(fluid: Fluid, pressure, film_thickness, slip):
     """Mean stress q [Pa] along a chord by quadrature.
 
-    Parameters
-    ----------
-    pressure : array_like
-        Largest pressure on the chord p1 [Pa], > 0.
-    film_thickness : array_like
-        h [m].
-    slip : array_like
-        |Δu| [m/s].
+    At the largest pressure on the chord p1 > 0 [Pa], h [m] and |Δu| [m/s].
 
-    Notes
-    -----
     Relative error of the 18 nodes below 1e-4 up to 2 GPa and 1e-3 up to 4 GPa with Roelands' viscosity; with Barus' and
     a limiting stress, 5e-4 up to 1 GPa and 1e-2 up to 2 GPa.
 
@@ -361,12 +323,7 @@ def _log_local_stress(rheology: int, viscous: np.ndarray, heat: np.ndarray) -> n
 def local_stress(fluid: Fluid, pressure, log_film, log_slip):
     """Stress τ [Pa] at places of a film, from the table that all oils share, or where that is not good, solved for.
 
-    Parameters
-    ----------
-    pressure : array_like
-        p > 0 [Pa].
-    log_film, log_slip : array_like
-        Logarithms of h [m] and |Δu| [m/s].
+    At p > 0 [Pa], and the logarithms of h [m] and |Δu| [m/s].
 
     Examples
     --------
@@ -410,8 +367,6 @@ class ChordTable(NamedTuple):
 def chord_table(fluid: Fluid | None) -> ChordTable:
     """The table of a fluid, made in half a second of CPU time and kept, in memory and on disk; empty without one.
 
-    Notes
-    -----
     With limiting shear and Roelands' viscosity the relative error of the interpolated stress is below 1e-3 (in 99 of 100
     places 1e-4) up to 2 GPa and 0.05 m/s in films of 0.1 to 2 µm, and from 1 kPa to 30 MPa in any film. Where a contact
     above 1 GPa skids at 0.4 m/s and limited stress gives way to heating it reaches 1 %, in less than one place in a hundred;

@@ -60,11 +60,8 @@ class ThrustTest:
     def power(self, profile: str = "uniform", slices: int = 200) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Places along the roller [m], outwards, and e_a of a washer there [W/m²].
 
-        Parameters
-        ----------
-        profile : "uniform" or "logarithmic"
-            Load even along the roller; or that of ISO/TS 16281's profile, 0.00035 D ln 1/(1 − (2ζ/L)²), with its slices of
-            35 948 N/mm per mm^(10/9) made linear at the mean load.
+        The load is even along the roller (`uniform`), or that of ISO/TS 16281's `logarithmic` profile, 0.00035 D ln
+        1/(1 − (2ζ/L)²), with its slices of 35 948 N/mm per mm^(10/9) made linear at the mean load.
 
         Examples
         --------

@@ -17,15 +17,9 @@ RIG_SLIDE_ROLL_RATIO = 0.05
 def entries_beyond(largest: ArrayLike, entries: ArrayLike, limit: float) -> tuple[NDArray, NDArray]:
     """Least and largest number of entries beyond a limit.
 
-    Parameters
-    ----------
-    largest : array_like
-        Over (..., roller, orbit), the largest value of the entries, in the unit of `limit`; NaN without one.
-    entries : array_like
-        How many entries each of these orbits has.
+    `largest` has over (..., roller, orbit) the largest value of the entries, in the unit of `limit`, NaN without one;
+    `entries` how many entries each of these orbits has.
 
-    Notes
-    -----
     One, or all, of the entries in an orbit whose largest is beyond. They differ where rollers enter several times in an orbit.
 
     Examples

@@ -23,19 +23,9 @@ def worn_volume(coefficient: float, asperity_energy: ArrayLike, friction: float)
     """Volume k E/µ_b [m³] that wears where asperities dissipate E, or with E per area the depth [m].
 
     Asperities dissipate µ_b p |v| of the area that they carry, so E/µ_b is their pressure times slip over time and area. Where
-    slip is too slow for them to slide, they dissipate and wear less.
+    slip is too slow for them to slide, they dissipate and wear less. k [m²/N] is the dimensionless coefficient over
+    hardness, µ_b > 0 the boundary friction [-], and E in J or J/m².
 
-    Parameters
-    ----------
-    coefficient : float
-        k [m²/N], dimensionless coefficient over hardness.
-    asperity_energy : array_like
-        E [J] or [J/m²].
-    friction : float
-        Boundary friction µ_b [-], > 0.
-
-    References
-    ----------
     Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448. Each of the two surfaces wears by k.
 
     Examples
@@ -54,8 +44,6 @@ def slice_loads(gap: ArrayLike, load: float, stiffness: float, width: float) -> 
     Of the gap of each slice where the roller just touches [m], its contour and what has worn; the sum of the slices'
     loads, not negative [N], from which δ follows; c [Pa]; and the width of a slice [m].
 
-    Notes
-    -----
     Neighbours do not hold each other, as they do in a half-space: a groove narrower than the contact is long loses its load a
     little too fast. With c of `hertz_slices` the unworn contour carries Hertz' load per length.
 
@@ -122,15 +110,9 @@ class Worn(NamedTuple):
 def grow(contacts: tuple[Pressed, Pressed], width: float, *, deepest: float = DEPTHS[-1]) -> Worn:
     """Wear of both raceways and the roller, with the pressure found anew after every `STEP` of the deepest slice.
 
-    Parameters
-    ----------
-    contacts : tuple of Pressed
-        With the inner and the outer raceway. The roller wears in both, and its worn profile counts in both.
-    width, deepest : float
-        Of a slice, and depth at which every body that wears is done [m].
+    The roller wears in both contacts, and its worn profile counts in both. `width` is that of a slice, `deepest` the
+    depth at which every body that wears is done [m].
 
-    Notes
-    -----
     dh/dt = k w |v| × passes per way, at a constant roller load and slip: where the profile moves the lines of pure rolling, it
     does not follow.
 

@@ -44,14 +44,9 @@ def backward_euler_step(path, work, step, tolerance):
     """Spin after one implicit step of I_z' dω/dt = r (F_i + F_o + F_c) (16), with the station at its end in the first stage.
 
     The iteration is the secant method started from the last spin, as MINPACK's hybrid method reduces to in one unknown,
-    held inside a bracket once there is one. It stops when ω changes by less than `tolerance` of itself.
-
-    Returns
-    -------
-    spin : float
-        ω after the step, relative to the orbiting frame [rad/s]; NaN if the iteration did not stop.
-    defect : float
-        Force the stopped iteration leaves unbalanced [N].
+    held inside a bracket once there is one. It stops when ω changes by less than `tolerance` of itself. Gives ω after
+    the step, relative to the orbiting frame [rad/s], NaN if the iteration did not stop; and the force [N] that the
+    stopped iteration leaves unbalanced.
     """
     to_force = path.body.radius / (step * path.body.mobility)
     older = work.spin

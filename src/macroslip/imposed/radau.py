@@ -14,8 +14,6 @@ the step, with the energy by Simpson's rule, takes two force evaluations in plac
 forgets what it was within a small part of the step: L-stable, and of order 2 where slip has a memory (its stability function is
 (1 + z/4)/(1 − 3z/4 + z²/4)).
 
-References
-----------
 Hairer and Wanner, Solving Ordinary Differential Equations II, Springer (1996), doi:10.1007/978-3-642-05221-7.
 """
 

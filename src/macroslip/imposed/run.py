@@ -49,18 +49,8 @@ def radau_limits(
 ) -> np.ndarray:
     """Bounds of the Radau integrator that hold for all rollers of a case.
 
-    Parameters
-    ----------
-    roller : Roller
-        Of either row.
-    motion : Motion
-    tolerance : float
-        Relative tolerance of slip and energy.
-    max_steps : int
-    heaviest : float
-        Largest load of a roller with weight and centrifugal force [N].
-    window : float
-        Start of the window [s].
+    `tolerance` is relative, of slip and energy; `heaviest` the largest load of a roller with weight and centrifugal
+    force [N], `window` the window's start [s]. The roller may be of either row.
     """
     body, tables = roller.body[0], roller.tables
     fastest = body["orbit_ratio"] * np.abs(motion.shaft_speed).max()
@@ -87,18 +77,8 @@ def fixed_step(
 def steps_of(problem: Problem, start_angle: float, outcome: Outcome) -> Iterator[np.ndarray]:
     """Integrate one roller from pure rolling on.
 
-    Parameters
-    ----------
-    problem : Problem
-    start_angle : float
-        Position φ at the first sample [rad].
-    outcome : Outcome
-        Filled when the last buffer has been given.
-
-    Yields
-    ------
-    ndarray of `STEP`, shape (n, 1)
-        Steps that follow one another, in a buffer that the next ones overwrite.
+    Yields steps that follow one another, arrays of `STEP` of shape (n, 1), in a buffer that the next ones overwrite.
+    The first sample has the roller at φ = `start_angle` [rad]; `outcome` is filled when the last buffer has been given.
     """
     motion, limits, body = problem.motion, problem.limits[0], problem.roller.body[0]
     tables = problem.roller.tables

@@ -228,25 +228,10 @@ def _accept(path, work, end, rows):
 def integrate(path, stops, classes, work, steps):
     """Integrate the slip of one roller, until its history ends or the buffer is full.
 
-    Parameters
-    ----------
-    path : Path
-        With `LIMITS`.
-    stops : ndarray
-        Times at which a step must end [s], rising, the last being the end of the integration.
-    classes : ndarray of int8, shape (n − 1,)
-        Classes of sample intervals, from `classify`.
-    work : record of `WORK`
-        Zeros but for the slip at the first sample; then as the last call left it.
-    steps : ndarray of `STEP`, shape (m,)
-        Filled from the start.
-
-    Returns
-    -------
-    status : int
-        A `Status`; UNDER_WAY where the buffer is full.
-    count : int
-        Rows that were written.
+    Gives a `Status`, UNDER_WAY where the buffer is full, and the number of rows that were written. `path` has `LIMITS`;
+    `stops` are times at which a step must end [s], rising, the last being the end of the integration; `classes` of
+    sample intervals, shape (n − 1,), are those of `classify`. A record of `WORK` has zeros but for the slip at the
+    first sample, and then is as the last call left it; `steps`, shape (m,), are filled from the start.
     """
     time, speed, angle, displacement = path.motion
     motion = Motion(uncounted(time), uncounted(speed), uncounted(angle), uncounted(displacement))  # pyright: ignore[reportCallIssue]

@@ -162,13 +162,8 @@ class Record:
     """A named set of quantities that can be read from a catalogue file or built from SI numbers.
 
     A subclass declares every quantity as `Annotated[float, Quantity(...)]` with its range in SI, and keeps its shipped
-    files in the folder `catalogue` of its own package.
-
-    Raises
-    ------
-    InputError
-        If a value is missing, unknown, no finite number, out of its range, or inconsistent with the others. All such
-        problems are reported together.
+    files in the folder `catalogue` of its own package. Raises InputError if a value is missing, unknown, no finite
+    number, out of its range, or inconsistent with the others. All such problems are reported together.
     """
 
     noun: ClassVar[str] = "record"
@@ -269,22 +264,10 @@ class Record:
 
     @classmethod
     def read(cls, source: str | PathLike[str]) -> Self:
-        """Read a shipped record or a file of the user's.
+        """Read a shipped record or a file of the user's, to SI units.
 
-        Parameters
-        ----------
-        source : str | PathLike
-            A name from `catalogue()`, or the path of a YAML file. A name wins over a file of the same name.
-
-        Returns
-        -------
-        Self
-            The record in SI units.
-
-        Raises
-        ------
-        InputError
-            If there is no such file or name, or the content is wrong; the message names file, line and key.
+        Raises InputError if there is no such file or name, or the content is wrong; the message names file, line and
+        key. `source` is a name from `catalogue()`, which wins over a file of the same name, or the path of a YAML file.
         """
         name, names = fspath(source), cls.catalogue()
         if name in names:

@@ -138,7 +138,8 @@ class HubLoads(History):
     Axes, right-handed and turning with neither the rotor nor the shaft: x along the shaft, from the hub towards the
     gearbox (downwind); z up, perpendicular to the shaft; y = z × x, horizontal, to the left looking downwind. They
     are OpenFAST's ``s`` axes. The rotor's weight is part of these loads, the shaft's is not. The arrays are stored as
-    read-only, C-contiguous float64 copies.
+    read-only, C-contiguous float64 copies. Raises InputError for a wrong shape, fewer than 2 samples, values that are
+    not finite, time that does not increase, a gap, or a magnitude that only a wrong unit explains.
 
     Parameters
     ----------
@@ -156,12 +157,6 @@ class HubLoads(History):
         Which channels of a file they were read from, and how; empty for loads that were not read.
     event : bool
         Whether they are of a start, a stop, idling or the like: the window then opens at the first sample.
-
-    Raises
-    ------
-    InputError
-        Wrong shape, fewer than 2 samples, values that are not finite, time that does not increase, a gap, or a
-        magnitude that only a wrong unit explains.
     """
 
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("fx", "fy", "fz"), "moment": ("mx", "my", "mz")}
@@ -197,6 +192,9 @@ class HubLoads(History):
     ) -> HubLoads:
         """Read output of OpenFAST, Bladed or HAWC2, or a table with units in its column names (Parquet, CSV).
 
+        Raises InputError if the file is absent, empty, damaged or cut off, lacks a channel, or holds values that
+        `HubLoads` refuses.
+
         Parameters
         ----------
         path : path
@@ -207,11 +205,6 @@ class HubLoads(History):
             Keep only this part of the file [s], on the file's own time axis. What lies outside is not validated.
         shaft_speed : float, optional
             Constant shaft speed [rad/s] in place of the file's; needed where the file has none.
-
-        Raises
-        ------
-        InputError
-            The file is absent, empty, damaged or cut off, lacks a channel, or holds values that `HubLoads` refuses.
         """
         path, extension = source_file(path, _HUB_FILES)
         # Numbers that are not finite are reported with their channel and time, without NumPy's warnings before.
@@ -247,7 +240,8 @@ class BearingLoads(History):
 
     Bearing frame, right-handed and not rotating: Z0 along the shaft, downwind; Y0 up, in the plane of the shaft tilt;
     X0 = Y0 × Z0, horizontal, to the left looking downwind. In OpenFAST's shaft axes (X0, Y0, Z0) = (y, z, x).
-    A spherical bearing carries no moment. The arrays are stored as read-only, C-contiguous float64 copies.
+    A spherical bearing carries no moment. The arrays are stored as read-only, C-contiguous float64 copies. Raises
+    InputError as `HubLoads`.
 
     Parameters
     ----------
@@ -260,11 +254,6 @@ class BearingLoads(History):
         Where the loads come from, for errors and reports.
     event : bool
         As in `HubLoads`.
-
-    Raises
-    ------
-    InputError
-        As `HubLoads`.
     """
 
     _VECTORS: ClassVar[Mapping[str, tuple[str, str, str]]] = {"force": ("F_X0", "F_Y0", "F_Z0")}

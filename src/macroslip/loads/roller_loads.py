@@ -25,7 +25,8 @@ class RollerLoads(History):
     """Load of a roller over its place in the bearing, at times: in place of a balance of the inner ring.
 
     Between places a roller's approach, which goes with its load to the power 2/3, is linear in the angle; between times it is
-    linear in time at a place at rest. A place without load has the bearing's clearance as its play.
+    linear in time at a place at rest. A place without load has the bearing's clearance as its play. Raises InputError
+    as `HubLoads`, for a negative load, and for a place given twice.
 
     Parameters
     ----------
@@ -37,11 +38,6 @@ class RollerLoads(History):
         Load along the contact normal that a roller at the place has, 0 or more.
     source : str
         Where the loads come from, for errors and reports.
-
-    Raises
-    ------
-    InputError
-        As `HubLoads`; for a negative load, or a place given twice.
 
     Examples
     --------
@@ -82,12 +78,9 @@ class RollerLoads(History):
     def read(cls, path: str | os.PathLike[str], *, start: float | None = None, end: float | None = None) -> RollerLoads:
         """Read a table (``.csv``, ``.parquet``) with the columns time_s, shaft_speed_rpm, row, angle_deg and load_N.
 
-        One line for each time, row and place, in any order; row is downwind or upwind. `start` and `end` [s]: as `HubLoads.read`.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read, lacks a column, or has not as many places in each row at each time.
+        One line for each time, row and place, in any order; row is downwind or upwind. `start` and `end` [s]: as
+        `HubLoads.read`. Raises InputError if the file cannot be read, lacks a column, or has not as many places in each
+        row at each time.
         """
         path, _ = source_file(path, {".csv": "table", ".parquet": "table"}, "Columns: " + ", ".join(COLUMNS))
         with reading(path, DAMAGED):

@@ -37,7 +37,8 @@ class Drivetrain:
 
     Lengths are measured along the shaft, positive downwind. Valid for an upwind rotor. On a three-point mount one main
     bearing and the gearbox carry the shaft. On a four-point mount two main bearings carry it, and the gearbox takes
-    nothing but torque.
+    nothing but torque. Raises InputError for a value outside its range, for keys of a four-point mount that are missing
+    there, or given on a three-point mount.
 
     Parameters
     ----------
@@ -63,11 +64,6 @@ class Drivetrain:
     shaft_mass_station : float [m]
         Distance of that mass behind the hub centre: on a three-point mount up to the gearbox's support, on a four-point
         mount up to 10 m behind the rear bearing.
-
-    Raises
-    ------
-    InputError
-        A value outside its range; keys of a four-point mount that are missing there, or given on a three-point mount.
     """
 
     mount: Annotated[str, Choice("what carries the shaft", lambda: MOUNTS)] = "three-point"
@@ -165,10 +161,7 @@ def support_loads(hub_loads: HubLoads, drivetrain: Drivetrain) -> dict[str, NDAr
 def main_bearing_load(hub_loads: HubLoads, drivetrain: Drivetrain) -> BearingLoads:
     """Load on the inner ring of the simulated main bearing, by `support_loads`, with time and speed of the hub loads.
 
-    Raises
-    ------
-    InputError
-        The load is beyond 1e8 N, as a support distance close to zero makes it.
+    Raises InputError if the load is beyond 1e8 N, as a support distance close to zero makes it.
 
     Examples
     --------

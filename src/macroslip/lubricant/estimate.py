@@ -33,16 +33,9 @@ def estimate_lubricant(
     The viscosity follows Walther's line; the pressure-viscosity coefficient is the mean of the oil family by Gold et
     al., for esters and polyglycols raised within its scatter by the friction of thrust bearings, and the Eyring stress
     2 gamma/alpha at 1 GPa. Values that the family leaves open have the tag E and a range. Raises InputError if there is
-    no such family, a viscosity is out of range, or it does not fall with temperature.
-
-    Parameters
-    ----------
-    kinematic_viscosity_40, kinematic_viscosity_100 : float
-        At 40 and 100 degC [m2/s].
-    base_oil : str
-        A family of `macroslip.lubricant.base_oil.BASE_OILS`. For a grease, the family of its base oil.
-    name : str
-        Short name of the lubricant.
+    no such family, a viscosity is out of range, or it does not fall with temperature. The viscosities are at 40 and 100
+    degC [m2/s]; `base_oil` is a family of `macroslip.lubricant.base_oil.BASE_OILS`, for a grease that of its base oil,
+    and `name` the short name of the lubricant.
 
     Examples
     --------

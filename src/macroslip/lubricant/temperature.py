@@ -202,17 +202,10 @@ def mean_pressure_viscosity(viscosity: float, pressure_viscosity: float, pressur
 def gold(kinematic_viscosity: float, factor: float, exponent: float) -> float:
     """Pressure-viscosity coefficient [1/Pa] by the power law of Gold et al., alpha_p = s nu^t in 1/GPa, with nu in mm2/s.
 
-    A mean over oils of one family, measured up to 0.2 GPa; single oils scatter by about 20 % around it.
+    A mean over oils of one family, measured up to 0.2 GPa; single oils scatter by about 20 % around it. nu is at
+    ambient pressure and the temperature of interest, positive, fitted for about 5 to 1000 mm2/s; `factor` and
+    `exponent` are s and t of the oil family; see `macroslip.lubricant.base_oil`.
 
-    Parameters
-    ----------
-    kinematic_viscosity : float
-        nu at ambient pressure and the temperature of interest [m2/s], positive; fitted for about 5 to 1000 mm2/s.
-    factor, exponent : float
-        s and t of the oil family; see `macroslip.lubricant.base_oil`.
-
-    References
-    ----------
     P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, "Viscosity-pressure-temperature behaviour of mineral and
     synthetic oils", Journal of Synthetic Lubrication 18 (2001) 51-79.
 
@@ -229,17 +222,10 @@ def eyring_stress(limiting_shear: float, mean_pressure_viscosity: float) -> floa
 
     Shear stress far above tau_E is tau_E ln(2 eta s/tau_E), in which ln eta contains alpha p. As gamma hardly depends on
     temperature while alpha falls, tau_E rises with temperature: for a PAO at 1 GPa 6.9, 7.8 and 8.7 MPa at 40, 60 and
-    80 degC. Under Roelands' law with constant Z the ratio of two temperatures does not depend on the pressure.
+    80 degC. Under Roelands' law with constant Z the ratio of two temperatures does not depend on the pressure. gamma is
+    the limiting shear stress over pressure [-], 0.03 to 0.06, and alpha(T, p) = ln(eta/eta0)/p at the temperature and
+    pressure [1/Pa], positive; see `mean_pressure_viscosity`.
 
-    Parameters
-    ----------
-    limiting_shear : float
-        Limiting shear stress over pressure gamma [-]; 0.03 to 0.06.
-    mean_pressure_viscosity : float
-        ln(eta/eta0)/p at the temperature and pressure [1/Pa], positive; see `mean_pressure_viscosity`.
-
-    References
-    ----------
     A. Arana, J. Larranaga, I. Ulacia, "Partial EHL friction coefficient model to predict power losses in cylindrical
     gears", Proc. IMechE Part J 233 (2019) 303-316.
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from macroslip.measures.roller import Wanted
 from macroslip.whole.books import Books
-
-if TYPE_CHECKING:
-    from macroslip.measures.roller import Wanted
-    from macroslip.whole.model import WholeBearing
-    from macroslip.whole.sdirk import Part
+from macroslip.whole.model import WholeBearing
+from macroslip.whole.sdirk import Part
 
 #: Sides of a pocket: the spars ahead and behind.
 SIDES = ("front", "rear")
@@ -20,32 +16,24 @@ PLACES = 72
 
 
 class CageMeasures:
-    """Measures of pockets and cages.
-
-    Attributes
-    ----------
-    impulse, largest, time : ndarray, shape (n, 2)
-        ∫|N| dt [N s], largest |N| [N] and time with a push [s] in the window, by side of the pocket.
-    largest_by_place : ndarray, shape (n, places)
-        Largest |N| in the window by place on the orbit [N].
-    slip : ndarray, shape (c, 3)
-        ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window.
-    books : Books
-        Of momentum and energy, at the times of traces, or of the window's start and the ends of its orbits.
-    traces : ndarray, shape (m, c, 5)
-        Speed of the cage [rad/s], its lag [m], its displacement along X0 and Y0 [m], and the rollers' torque on it [N m].
-    offset, deviation : ndarray, shape (m, n)
-        Traces of the rollers: way ahead of the middle of the pocket [m], and orbit speed less that of pure rolling [rad/s].
-    """
+    """Measures of pockets and cages."""
 
     def __init__(self, bearing: WholeBearing, wanted: Wanted, times: np.ndarray):
         count, cages = bearing.places.size, bearing.cages
         self._bearing, self._window, self._times = bearing, wanted.edges[0], times
+        #: By side of the pocket, shape (n, 2): ∫|N| dt [N s], largest |N| [N] and time with a push [s] in the window.
         self.impulse, self.largest, self.time = (np.zeros((count, 2)) for _ in range(3))
+        #: Largest |N| in the window by place on the orbit [N], shape (n, places).
         self.largest_by_place = np.zeros((count, PLACES))
+        #: ∫ dt, ∫ s dt and ∫ s² dt of the cage's relative slip s = Ω_c/Ω_pure − 1 in the window, shape (c, 3).
         self.slip = np.zeros((cages, 3))
+        #: Of momentum and energy, at the times of traces, or of the window's start and the ends of its orbits.
         self.books = Books(bearing, times)
+        #: Speed of the cage [rad/s], its lag [m], its displacement along X0 and Y0 [m], and the rollers' torque on it [N m],
+        #: shape (m, c, 5).
         self.traces = np.full((times.size, cages, 5), np.nan)
+        #: Traces of the rollers, shape (m, n): way ahead of the middle of the pocket [m], and orbit speed less that of pure
+        #: rolling [rad/s].
         self.offset, self.deviation = (np.full((times.size, count), np.nan) for _ in range(2))
 
     def add(self, part: Part) -> None:

@@ -17,6 +17,7 @@ A roller of a whole bearing is ahead of pure rolling, or behind: φ is its own.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -102,6 +103,17 @@ _MAPS = np.dtype(
         ("along", _ALONG, (4,)), ("last", "i8", (2,)),
     ]
 )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Measures that are wanted."""
+
+    edges: np.ndarray  #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
+    highest_speed: float  #: Largest raceway speed of the history [m/s]
+    trace_time: np.ndarray  #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
+    details: bool  #: Whether contacts are looked at station by station
+    spacing: float = 1.0  #: Changes between looks, over those of a roller on an imposed orbit
 
 
 class Details(NamedTuple):
@@ -442,35 +454,21 @@ def _heat_entries(rows, effusivity, extreme):
 class Looker:
     """Looks at the contacts of one roller, buffer after buffer.
 
-    Parameters
-    ----------
-    edges : ndarray
-        Of the orbits [s].
-    roller : Roller
-    laws : RollerLaws
-    contacts : tuple of three Contact
-        From `prepare`, of these laws.
-    motion : Motion
-    start_angle : float
-        Position φ at the first sample [rad].
-    spacing : float
-        Changes between looks, over those of a roller on an imposed orbit.
-    skew : SkewMeasures, optional
-        Of a roller that skews.
+    `contacts` are those of `prepare`, of the same laws; the roller is at φ = `start_angle` at the first sample [rad], and
+    has `skew` if it skews.
     """
 
     def __init__(
         self,
-        edges: np.ndarray,
+        wanted: Wanted,
         roller: Roller,
         laws: RollerLaws,
         contacts: Any,
         motion: Motion,
         start_angle: float,
-        spacing: float = 1.0,
         skew: SkewMeasures | None = None,
     ):
-        self.details, self._spacing, self._start_angle = new_details(edges), spacing, start_angle
+        self.details, self._spacing, self._start_angle = new_details(wanted.edges), wanted.spacing, start_angle
         self._roller, self._laws, self._contacts, self._motion, self._skew = roller, laws, contacts, motion, skew
         self._last, self._looks = np.zeros(1, STEP), Batch(_LOOK)
         #: Rows for `_heat_entries` of the entry under way.

@@ -2,40 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from macroslip.measures.details import SECTORS, Details, Looker, prepare
+from macroslip.contact.laws import RollerLaws
+from macroslip.measures.details import SECTORS, Details, Looker, Wanted, prepare
 from macroslip.measures.skew import Skewing, SkewMeasures
-from macroslip.measures.totals import (
-    END,
-    INTERFACES,
-    Batch,
-    Totals,
-    book,
-    film_times,
-    loaded_contacts,
-    new_totals,
-)
-from macroslip.ring.orbit import angle_at
-
-if TYPE_CHECKING:
-    from macroslip.contact.laws import RollerLaws
-    from macroslip.ring.orbit import Motion
-    from macroslip.roller.model import Roller, RollerModel
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """Measures that are wanted."""
-
-    edges: np.ndarray  #: Shape (orbits + 1,). Start of the window and ends of its complete orbits [s].
-    highest_speed: float  #: Largest raceway speed of the history [m/s]
-    trace_time: np.ndarray  #: Times of the traces [s]; a step ends at each, or with a fixed step soon after
-    details: bool  #: Whether contacts are looked at station by station
-    spacing: float = 1.0  #: Changes between looks, over those of a roller on an imposed orbit
+from macroslip.measures.totals import END, INTERFACES, Batch, Totals, book, film_times, loaded_contacts, new_totals
+from macroslip.ring.orbit import Motion, angle_at
+from macroslip.roller.model import Roller, RollerModel
 
 
 class Row:
@@ -51,11 +25,7 @@ class Row:
 class RollerMeasures:
     """Measures of one roller.
 
-    Parameters
-    ----------
-    row : Row
-    start_angle : float
-        Position φ at the first sample [rad].
+    The roller is at φ = `start_angle` at the first sample [rad].
     """
 
     def __init__(self, row: Row, start_angle: float):
@@ -64,8 +34,8 @@ class RollerMeasures:
         self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
         self.film_times, self._states = np.zeros((2, 3)), Batch(END)
         self.skew = SkewMeasures(row.skewing, wanted.edges[0]) if row.skewing else None
-        places = row.contacts, row.motion, start_angle, wanted.spacing, self.skew
-        self.looker = Looker(wanted.edges, row.roller, row.model.laws, *places) if wanted.details else None
+        places = row.contacts, row.motion, start_angle, self.skew
+        self.looker = Looker(wanted, row.roller, row.model.laws, *places) if wanted.details else None
         self._last: np.ndarray | np.void = np.zeros((), END)
         #: Largest power by place on the orbit [W], where no orbit is complete.
         self.sector_power = None if wanted.edges.size > 1 else np.zeros((SECTORS, 3))

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from macroslip.compiled import jit, jit_inline
+from macroslip.contact.laws import ContactLaws, RollerLaws
 from macroslip.roller.forces import LOWEST_SPEED
-
-if TYPE_CHECKING:
-    from macroslip.contact.laws import ContactLaws, RollerLaws
 
 #: Meaning of `Totals.mechanism_energy` by position: what makes surfaces slide.
 MECHANISMS = ("sliding", "curvature", "contact angle")
@@ -188,17 +186,8 @@ def _book_peaks(step, totals, orbit):
 def book(steps, j, totals, states):
     """Add the steps of roller `j` in a buffer to its totals.
 
-    Parameters
-    ----------
-    steps : ndarray of `STEP`, shape (n, rollers)
-    j : int
-    totals : Totals
-        Changed in place.
-    states : ndarray of `END`, shape (n,)
-        Filled with the states at the ends of the steps.
+    `steps` has the shape (n, rollers); `states`, shape (n,), is filled with the states at the ends of the steps.
 
-    Notes
-    -----
     Of the load that films carry beside that of the rings the lighter one of the two raceways' counts, which the roller's body
     force does not load.
     """
@@ -244,13 +233,7 @@ def book(steps, j, totals, states):
 
 
 def film_times(states: np.ndarray, laws: RollerLaws) -> np.ndarray:
-    """Time with load on each interface, and the part of it outside the film law's range [s], shape (2, 3).
-
-    Parameters
-    ----------
-    states : ndarray of `END`, shape (n,)
-    laws : RollerLaws
-    """
+    """Time with load on each interface, and the part of it outside the film law's range [s], shape (2, 3)."""
     counted, found = states[states["span"] > 0.0], np.zeros((2, 3))
     for i, (law, load, speed) in enumerate(loaded_contacts(counted, laws)):
         loaded = load > 0.0

@@ -141,20 +141,10 @@ def life_modification(viscosity_ratio: float, contamination: float, load_ratio: 
     """Life modification factor a_ISO [-] of radial roller bearings.
 
     a_ISO = 0.1 [1 - (1.5859 - A/kappa^B) (e_C C_u/P)^0.4]^-9.185, at most 50, with (A, B) = (1.3993, 0.054381) for
-    kappa below 0.4, (1.2348, 0.19087) to 1, and (1.2348, 0.071739) to 4.
+    kappa below 0.4, (1.2348, 0.19087) to 1, and (1.2348, 0.071739) to 4. kappa = nu/nu1 [-] is at least 0.1; above 4
+    the value at 4 holds. Below 0.1, or NaN, the standard defines no factor, and it is NaN. e_C [-] is 0 (very severe)
+    to 1 (extreme cleanliness), C_u/P [-] not negative.
 
-    Parameters
-    ----------
-    viscosity_ratio : float
-        kappa = nu/nu1 [-], at least 0.1; above 4 the value at 4 holds. Below 0.1, or NaN, the standard defines no
-        factor, and it is NaN.
-    contamination : float
-        e_C [-], 0 (very severe) to 1 (extreme cleanliness).
-    load_ratio : array_like
-        C_u/P [-], not negative.
-
-    References
-    ----------
     ISO 281:2007, section 9.3.3.3, equations (31) to (33) and figure 4.
 
     Examples
@@ -195,8 +185,6 @@ def ring_ratings(
     without the division by lambda nu = 0.83, which goes with laminae. Of C [N], i rows, Z rollers in each, alpha [rad]
     and gamma = Dw cos(alpha)/Dpw [-].
 
-    References
-    ----------
     ISO/TS 16281:2008, section 6.3.1.1. 0.378 and 0.364 are J_r/J_1 and J_r/J_2, Sjövall's and Lundberg's load integrals
     of a bearing loaded over half its circumference, to which the tests compare them.
 
@@ -218,32 +206,15 @@ def damage_series(load, semi_axis, roller_length, rating, stationary):
     Q_e = (1/Z sum Q_j^4)^(1/4) of a ring that turns against the load, (1/Z sum Q_j^(9/2))^(2/9) of one at rest. Along
     the roller it is the mean over laminae, on each of which a load Q_j counts that spread over the whole length would
     give what it bears per length: Hertz' ellipse, or what lies within the roller's ends, carrying all. The mean is the
-    standard's sum with q_c = Q_c (1/n)^(7/9).
+    standard's sum with q_c = Q_c (1/n)^(7/9). It has the shape (2, n): with the load along the roller of Hertz, and
+    with load spread evenly and the factor 0.83 kept, which is what ISO 281 assumes of every bearing. `load` is that of
+    the row's rollers [N], shape (Z, n); the semi-axis of the contact ellipse along the roller is per Q^(1/3)
+    [m/N^(1/3)], the length L in m, and Q_c of the ring [N] is without the division by `REDUCTION`; `stationary` says
+    whether the ring is at rest relative to the load.
 
-    Parameters
-    ----------
-    load : ndarray, shape (Z, n)
-        Loads of the row's rollers [N].
-    semi_axis, roller_length : float
-        Semi-axis of the contact ellipse along the roller, per Q^(1/3) [m/N^(1/3)], and length L [m].
-    rating : float
-        Q_c of the ring [N], without the division by `REDUCTION`.
-    stationary : bool
-        Whether the ring is at rest relative to the load.
-
-    Returns
-    -------
-    ndarray, shape (2, n)
-        With the load along the roller of Hertz, and with load spread evenly and the factor 0.83 kept, which is what
-        ISO 281 assumes of every bearing.
-
-    Notes
-    -----
     The inner loop runs over laminae of rollers of samples, 40 million times for ten minutes; NumPy's powers of the same
     arrays take ten times as long.
 
-    References
-    ----------
     ISO/TS 16281:2008, section 6.3.1.2.
 
     Examples

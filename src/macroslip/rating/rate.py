@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, ROWS
 from macroslip.bearing.load_ratings import fatigue_load_limit
 from macroslip.contact.interface import highest_load, interfaces
@@ -15,17 +17,11 @@ from macroslip.contact.mechanisms import Laws
 from macroslip.contact.registry import FILM_LAWS
 from macroslip.errors import InputError
 from macroslip.loads import BearingLoads, RollerLoads
+from macroslip.lubricant import Lubricant
 from macroslip.rating import iso
 from macroslip.rating.spectrum import damage_equivalent_load, load_duration, sample_durations
 from macroslip.ring.motion import elastic_loads, ring_motion
 from macroslip.roller.model import ring_geometry, roller_model
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from numpy.typing import NDArray
-
-    from macroslip.bearing import Bearing
-    from macroslip.lubricant import Lubricant
 
 RACEWAYS = ("inner", "outer")
 FILM_LAW = "masjedi-khonsari"
@@ -44,18 +40,12 @@ def roller_load_history(
 ) -> tuple[BearingLoads, NDArray[np.float64]]:
     """Elastic load of every roller at every sample; it does not depend on the lubricant.
 
-    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends.
-
-    Returns
-    -------
-    loads : BearingLoads
-        The same loads, with samples in between where the shaft turns too far between two of them.
-    roller_load : ndarray, shape (2, Z, n)
-        Q [N] over row, roller and the samples of these loads.
+    Raises InputError if a roller load is so high that more than a tenth of it would lie beyond the roller's ends. Gives
+    the same loads, with samples in between where the shaft turns too far between two of them, and Q [N] over row,
+    roller and these samples, shape (2, Z, n).
 
     Examples
     --------
-    >>> from macroslip import Bearing, BearingLoads, Lubricant
     >>> thrust = BearingLoads.constant([0.0, 0.0, 100e3], 2.1, 1.0)
     >>> _, load = roller_load_history(Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"), thrust)
     >>> load.shape, round(load[0].sum(axis=0)[0] * np.sin(np.radians(11.2))), load[1].max().item()
@@ -90,6 +80,9 @@ def rate(
 ) -> xr.Dataset:
     """Rate a bearing: static safety, rating lives, pressures, film, minimum load and load spectra.
 
+    Variables have `units` and `long_name`. Lives are hours at the history's mean speed, as if it repeated for ever;
+    they weigh loads by revolutions. NaN where the shaft does not turn or the standard defines no value.
+
     Parameters
     ----------
     bearing : Bearing
@@ -105,24 +98,14 @@ def rate(
     wohler_exponents : tuple of float
         Slopes m for which damage-equivalent loads are given [-].
 
-    Returns
-    -------
-    xarray.Dataset
-        Variables with `units` and `long_name`. Lives are hours at the history's mean speed, as if it repeated for ever;
-        they weigh loads by revolutions. NaN where the shaft does not turn or the standard defines no value.
-
     Examples
     --------
-    >>> from macroslip import Bearing, BearingLoads, Lubricant
-    >>> from macroslip.rating import roller_load_history
     >>> bearing, oil = Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao")
     >>> weight = BearingLoads.constant([0.0, -400e3, 0.0], 2.1, 1.0)
     >>> rating = rate(bearing, oil, *roller_load_history(bearing, oil, weight))
     >>> round(float(rating.static_safety), 2), f"{float(rating.basic_life):.3g} {rating.basic_life.units}"
     (40.75, '2.21e+07 h')
     """
-    import xarray as xr
-
     history = _history(bearing, lubricant, loads, roller_load, contamination)
     parts = (_static(history), _iso281(history), _reference(history), _contacts(history),
              _spectra(history, wohler_exponents))  # fmt: skip

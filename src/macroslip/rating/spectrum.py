@@ -42,8 +42,6 @@ def rainflow_ranges(load: NDArray[np.float64]) -> NDArray[np.float64]:
 
     Of two samples or more. Empty for a constant load. Ripples of less than 1/256 of the largest range do not count.
 
-    References
-    ----------
     ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17.
 
     Examples

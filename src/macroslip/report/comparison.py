@@ -5,9 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from macroslip.errors import InputError
@@ -20,9 +21,6 @@ from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
 from macroslip.study.weights import YEAR, Given, Weibull, binned, weights_in_use
 from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, designs, year
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 #: Pieces of a history whose differences are taken as independent of each other, at most.
 _PIECES = 10
@@ -37,6 +35,13 @@ COLUMNS = ("quantity", "units", "design", "value", "difference [%]", "low [%]", 
 def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = None) -> pd.DataFrame:
     """Compare results, or the designs of a study.
 
+    Raises InputError for fewer than two results or designs, or a study beside a result.
+
+    The table has a line a quantity and design: `quantity`, `units`, `design`, `value`, `difference [%]` from the first
+    design, and `low [%]` to `high [%]`, the 95 % range of the energy's difference by the scatter of the wind, which
+    both designs have in common; NaN where there is none. `attrs`: `notes`, what restricts the comparison; `inputs`,
+    what differs, by key and design; `ranking`, a sentence.
+
     Parameters
     ----------
     *results : xarray.Dataset or path
@@ -44,19 +49,6 @@ def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = 
     by : str or sequence of str, optional
         Of a study: the labels that distinguish designs, `bearing`; every bearing, lubricant, model and parameter if not
         given. Runs that differ in other labels are pooled. Without weights in the study all its cases count alike.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A line a quantity and design: `quantity`, `units`, `design`, `value`, `difference [%]` from the first design, and
-        `low [%]` to `high [%]`, the 95 % range of the energy's difference by the scatter of the wind, which both designs
-        have in common; NaN where there is none. `attrs`: `notes`, what restricts the comparison; `inputs`, what differs, by
-        key and design; `ranking`, a sentence.
-
-    Raises
-    ------
-    InputError
-        For fewer than two results or designs, or a study beside a result.
 
     Notes
     -----
@@ -266,8 +258,6 @@ def _pooled_range(differences: pd.Series, place: Mapping[str, int], share: np.nd
 
 
 def _frame(values: Mapping[str, Mapping[tuple[str, str], float]], ranges: Mapping[str, float]) -> pd.DataFrame:
-    import pandas as pd
-
     first = next(iter(values))
     shared = [key for key in values[first] if all(key in one for one in values.values())]
     rows = []

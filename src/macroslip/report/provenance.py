@@ -6,7 +6,9 @@ import json
 import re
 from collections.abc import Iterable, Mapping
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import xarray as xr
 
 import macroslip
 from macroslip.imposed.status import Status
@@ -15,9 +17,6 @@ from macroslip.input.units import with_unit
 from macroslip.machine import machine
 from macroslip.report.page import Section, Table, sections, words
 from macroslip.result.run_input import stored_settings
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _DOI = re.compile(r"doi:\s*(10\.\S+?)[.;,)]?(?=\s|$)")
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from macroslip.constants import HOURS_A_YEAR
 from macroslip.damage.micropitting import share_below
@@ -15,9 +16,6 @@ from macroslip.report.page import Table, number
 from macroslip.report.style import years
 from macroslip.result.run_input import stored_settings
 from macroslip.study.summary import RATING_VARIABLES
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Keys of a case in which a result on imposed orbits may differ from the coupled one it is compared with.
 _OWN_KEYS = ("dynamics", "cage", "traces", "rollers")
@@ -31,14 +29,11 @@ _RATING = (
 def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
     """The main numbers of each row of a result, or of a case of a study.
 
-    Returns
-    -------
-    list of dict
-        Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface` with the largest
-        energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W], the median over the orbits; `spin`
-        [1], the lowest over pure rolling; `loaded` [%], share of time with load; `outside` and `mixed` [%], shares of
-        loaded time outside the film formula's range and with Λ below 3, of the raceway with more, and `outside_most`
-        [%] of any roller and interface; and how many `failed` of the `rollers`.
+    Of each row its `name`; `energy` [J], the mean of the rollers, `least` and `most`; `interface` with the largest
+    energy and its `share` [%]; `peak` [W], the largest power, and `typical` [W], the median over the orbits; `spin`
+    [1], the lowest over pure rolling; `loaded` [%], share of time with load; `outside` and `mixed` [%], shares of
+    loaded time outside the film formula's range and with Λ below 3, of the raceway with more, and `outside_most` [%] of
+    any roller and interface; and how many `failed` of the `rollers`.
     """
     found = []
     for name in result.row.values.tolist():
@@ -243,7 +238,6 @@ def rating_text(value: xr.DataArray) -> str:
 
     Examples
     --------
-    >>> import xarray as xr
     >>> rating_text(xr.DataArray(87660.0, attrs={"units": "h"})), rating_text(xr.DataArray(1.5e5, attrs={"units": "N"}))
     ('10 years', '150 kN')
     """

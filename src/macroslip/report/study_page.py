@@ -70,24 +70,10 @@ _TEMPLATE = "study.html"
 
 
 def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None = None, years: float = 20.0) -> str:
-    """A page on a study.
+    """A page on a study: HTML in one piece, every name and text in it escaped.
 
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    title : str
-        Heading of the page.
-    weights : Weibull or Given, optional
-        How likely each wind speed is; that of the study file by default. Without any, designs are ranked over all cases
-        alike, and lifetime and exceedance are those of `CLASS_ONE`.
-    years : float
-        The lifetime [years].
-
-    Returns
-    -------
-    str
-        HTML in one piece, every name and text in it escaped.
+    `weights` says how likely each wind speed is, the study file by default. Without any, designs are ranked over all
+    cases alike, and lifetime and exceedance are those of `CLASS_ONE`. `years` is the lifetime.
     """
     text = words(_TEMPLATE)
     chosen, field, width = weights_in_use(study, weights)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from macroslip.bearing import geometry
 from macroslip.damage import friction_energy, micropitting, smearing, wear
@@ -14,9 +15,6 @@ from macroslip.errors import InputError
 from macroslip.measures.details import FILM_EDGES, SLIP_EDGES, STATIONS
 from macroslip.result.run_input import RunInput, run_input, stored_settings
 from macroslip.result.variables import described
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 PLACES = ("inner", "outer", "roller")
 YEAR = 365.25 * 86400.0
@@ -67,17 +65,18 @@ class Criterion(NamedTuple):
 
 
 _FE8 = friction_energy.ThrustTest()
-_REFERENCE_POWER = sum(_FE8.range()) / 2.0
+#: e_a [W/m²] of the FE8 test, mean of its range: what friction energy is compared with.
+REFERENCE_POWER = sum(_FE8.range()) / 2.0
 _IDLE = "oil at idle rollers"
 CRITERIA = (
     Criterion("entry_slide_roll_ratio", "smearing: slide-roll ratio at entry", "1", smearing.RIG_SLIDE_ROLL_RATIO,
               "rig, light load, Evans 2013", 3.0, _IDLE),
     Criterion("entry_power_density", "smearing: power density at entry", "W/m2", math.nan, "", 3.0, _IDLE),
     Criterion("entry_flash_temperature", "smearing: flash temperature at entry", "K", math.nan, "", 3.0, _IDLE),
-    Criterion("friction_energy_rate", "friction energy: e_a, mean of p |v|", "W/m2", _REFERENCE_POWER,
+    Criterion("friction_energy_rate", "friction energy: e_a, mean of p |v|", "W/m2", REFERENCE_POWER,
               "FE8 test 81212", 1.3, "crown of washers"),
     Criterion("friction_energy_year", "friction energy: p |v| of such a year", "J/m2",
-              _FE8.duration * _REFERENCE_POWER, "FE8 test 81212, 20 h", 1.3, "crown of washers"),
+              _FE8.duration * REFERENCE_POWER, "FE8 test 81212, 20 h", 1.3, "crown of washers"),
     Criterion("mixed_time", "micropitting: loaded time with Λ < 1", "1", math.nan, "", 3.0, "roughness, oil supply"),
     Criterion("slower_time", "micropitting: ring slower, Λ < 3", "1", math.nan, "", 1.5, "profile of slip"),
     Criterion("wear_time", "wear: time to 10 µm at the middle k", "year", DESIGN_LIFE, "design life, IEC 61400",
@@ -97,6 +96,9 @@ def damage(
     Raises InputError if the result keeps no details; if wear is asked for where no asperities were chosen; for a
     criterion that does not exist, or numbers out of range.
 
+    Rates per second are over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`,
+    and as coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
+
     Parameters
     ----------
     result : xarray.Dataset
@@ -106,15 +108,7 @@ def damage(
         over it.
     thresholds : mapping, optional
         Your own thresholds by the name of the criterion, each with its source, in place of a reference.
-
-    Returns
-    -------
-    xarray.Dataset
-        Rates per second over row, place and station; over `criterion` the worst `value`, its `reference` and `ratio`, and as
-        coordinates `unit`, `compared_with` and `how_sure`. The attribute `not_kept` says what is missing, and why.
     """
-    import xarray as xr
-
     if "surface_work" not in result:
         raise InputError(_NO_DETAILS, allowed="results of contacts with microslip or asperities")
     own, known = dict(thresholds or {}), [one.name for one in CRITERIA]

@@ -10,12 +10,14 @@ momentum and energy are closed.
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 import macroslip
 from macroslip.bearing.geometry import initial_angles, row_names
+from macroslip.case.case import Case
 from macroslip.case.parts import Radau
 from macroslip.constants import ZERO_CELSIUS
 from macroslip.contact.laws import references
@@ -28,16 +30,11 @@ from macroslip.measures.roller import RollerMeasures, Wanted
 from macroslip.measures.totals import INTERFACES, MECHANISMS, spin_ratio
 from macroslip.result import skew, surface_maps
 from macroslip.result.heat_balance import clearance_loss, rings_at_balance
+from macroslip.result.prepared import Prepared
 from macroslip.result.variables import COUNTS, ENTRY_EXTREMES, ORBIT_EXTREMES, VARIABLES
 from macroslip.roller.model import TableReport
 from macroslip.whole.books import FLOWS, STOCKS, Books
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from macroslip.case.case import Case
-    from macroslip.result.prepared import Prepared
-    from macroslip.whole.model import WholeBearing
+from macroslip.whole.model import WholeBearing
 
 #: Works that every result is based on.
 CITATIONS = (
@@ -127,8 +124,6 @@ def _dataset(
     extra: dict[str, Any],
     coordinates: dict[str, Any],
 ) -> xr.Dataset:
-    import xarray as xr
-
     case, curved = ready.case, ready.model.curved
     table = [[results[row, number] for number in case.roller_numbers] for row in row_names(case.bearing)]
     values = _window_values(table)

@@ -5,22 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.linalg import expm
 from scipy.optimize import root_scalar
 
+from macroslip.bearing import Bearing
+from macroslip.case.case import Case
+from macroslip.case.parts import Heat
 from macroslip.errors import InputError
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from numpy.typing import NDArray
-
-    from macroslip.bearing import Bearing
-    from macroslip.case.case import Case
-    from macroslip.case.parts import Heat
 
 #: Of bearing steel: thermal expansion [1/K], from 20 to 100 degC, and specific heat [J/(kg K)].
 EXPANSION, SPECIFIC_HEAT = 11.9e-6, 460.0
@@ -36,13 +32,13 @@ _BALANCE = "temperature: balance"
 def balance_temperature(
     power: Callable[[float], float], conductance: float, ambient: float, hottest: float = HOTTEST
 ) -> float:
-    """Temperature T of the heat balance power(T) = conductance (T - ambient).
+    """Temperature T [K] of the heat balance power(T) = conductance (T - ambient), to 1e-9 K, by Brent's method.
 
     Steady state: the whole friction of the bearing leaves it in proportion to its excess temperature. A large bearing
     takes hours to get there, so the mean power over a wind history counts, not that of a gust. Where friction falls
     with temperature, as in full films, there is one solution; where it rises again in mixed lubrication, this may be
     one of several. Raises InputError if conductance or ambient are no such numbers, the power is not a finite,
-    non-negative number, or the bearing is still heated at the highest temperature.
+    non-negative number, or the bearing is still heated at the highest temperature. T lies from `ambient` to `hottest`.
 
     Parameters
     ----------
@@ -54,11 +50,6 @@ def balance_temperature(
         turbine.
     ambient, hottest : float
         Temperature of the surroundings, and the highest that is accepted [K].
-
-    Returns
-    -------
-    float
-        T [K], from `ambient` to `hottest`, to 1e-9 K, by Brent's method.
 
     Examples
     --------
@@ -141,7 +132,6 @@ def next_temperature(known: Mapping[float, float], heat: Heat) -> tuple[float, b
 
     Examples
     --------
-    >>> from macroslip import Heat
     >>> next_temperature({290.0: 1200.0, 320.0: 600.0}, Heat(conductance=40.0, ambient=290.0))
     (310.0, False)
     """
@@ -198,29 +188,15 @@ def rings_at_balance(heat: Heat, temperature: float) -> tuple[float, float]:
 def ring_temperatures(
     heat: Heat, power: float, time: Sequence[float], start: tuple[float, float]
 ) -> NDArray[np.float64]:
-    """Temperatures of inner and outer ring over time under a constant friction power; exact.
+    """Temperatures T_i and T_o of inner and outer ring over time under a constant friction power [K], shape (n, 2); exact.
 
         m_i c dT_i/dt = P/2 − G_r (T_i − T_o),   m_o c dT_o/dt = P/2 + G_r (T_i − T_o) − G (T_o − T_ambient)
 
-    Parameters
-    ----------
-    heat : Heat
-        With masses and ring conductance; InputError without.
-    power : float
-        Friction power of the bearing P [W]; 0 gives a cooling curve.
-    time : sequence of float
-        n times since the start [s]; infinite for the steady state.
-    start : tuple of float
-        Temperatures at the start, inner and outer [K].
-
-    Returns
-    -------
-    ndarray, shape (n, 2)
-        T_i and T_o [K].
+    `heat` has the masses and the ring conductance, InputError without; `power` is P [W], 0 for a cooling curve; `time`
+    n times since the start [s], infinite for the steady state; `start` both temperatures then, inner and outer [K].
 
     Examples
     --------
-    >>> from macroslip import Heat
     >>> heat = Heat(conductance=60.0, ambient=293.15, inner_mass=4000.0, outer_mass=3000.0, ring_conductance=100.0)
     >>> ring_temperatures(heat, 1000.0, [0.0, float("inf")], (293.15, 293.15)).round(2).tolist()
     [[293.15, 293.15], [314.82, 309.82]]
@@ -243,7 +219,6 @@ def clearance_loss(bearing: Bearing, inner: float, outer: float) -> float:
 
     Examples
     --------
-    >>> from macroslip import Bearing
     >>> round(1e6 * clearance_loss(Bearing.read("skf-240-600-bc"), 318.15, 313.15), 1)
     44.4
     """

@@ -140,12 +140,9 @@ def over_orbit(
 def orbit_profile(result: xr.Dataset) -> dict[str, xr.Dataset]:
     """Averages over traces that a report shows of one result.
 
-    Returns
-    -------
-    dict
-        "result": the result without its traces; "orbit": `energy_over_orbit`, and quantiles of film_thickness [m] and
-        film_parameter [1] over (row, interface, quantile, angle), and of slip over the speed of the raceways [1];
-        "load_zone"; "scene"; "still".
+    "result" is the result without its traces; "orbit" has `energy_over_orbit`, and quantiles of film_thickness [m] and
+    film_parameter [1] over (row, interface, quantile, angle), and of slip over the speed of the raceways [1]; the
+    others are "load_zone", "scene" and "still".
     """
     orbit = energy_over_orbit(result).to_dataset()
     window = in_window(result)

@@ -32,10 +32,7 @@ _MOST = 0.5
 def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearing | None = None) -> list[str]:
     """Sentences on loads that cannot be meant so; none where all is plausible.
 
-    Parameters
-    ----------
-    bearing : Bearing, optional
-        Its static load rating is what the rotor's weight is compared with.
+    The rotor's weight is compared with the static load rating of a bearing, if one is given.
 
     Examples
     --------

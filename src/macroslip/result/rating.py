@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
-from macroslip.case.case import BALANCE
+from macroslip.case.case import BALANCE, Case
 from macroslip.errors import InputError
 from macroslip.rating import rate, roller_load_history
 from macroslip.rating.rate import CONTAMINATION
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from numpy.typing import NDArray
-
-    from macroslip.case.case import Case
 
 #: One of so many samples of the ring balance is used.
 _EVERY = 5

@@ -48,11 +48,6 @@ def run_input(result: xr.Dataset) -> RunInput:
     """Bearing, rollers and settings a result was computed with, from its attribute `input`.
 
     Raises InputError if the dataset has no input.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `macroslip.simulate`, or read from its netCDF file.
     """
     with _complete():
         return RunInput(json.loads(result.attrs["input"]), result.row.values.tolist())

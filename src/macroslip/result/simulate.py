@@ -6,9 +6,9 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from macroslip.bearing.geometry import initial_angles, row_names
 from macroslip.case.case import BALANCE, WHOLE_BEARING, Case
@@ -28,9 +28,6 @@ from macroslip.whole import sdirk
 from macroslip.whole.model import whole_bearing
 from macroslip.whole.model import with_tables as assembled
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 #: Times that tables are made larger for a roller whose state leaves them.
 _ENLARGED = 4
 
@@ -40,6 +37,11 @@ def simulate(
 ) -> xr.Dataset:
     """Compute the slip of the rollers of all rows.
 
+    Raises InputError if a roller's load truncates its contact ellipse, or a law does not exist.
+
+    `macroslip.result.dataset` describes the dataset. A roller whose integration failed has a `status` other than 0 and
+    NaN results.
+
     Parameters
     ----------
     case : Case
@@ -48,16 +50,6 @@ def simulate(
     progress : callable, optional
         Called as progress(done, total) whenever rollers are done, and twice a second meanwhile; the rollers of a whole
         bearing are done together. An exception in it ends the simulation.
-
-    Returns
-    -------
-    xarray.Dataset
-        See `macroslip.result.dataset`. A roller whose integration failed has a `status` other than 0 and NaN results.
-
-    Raises
-    ------
-    InputError
-        If a roller's load truncates its contact ellipse, or a law does not exist.
 
     Examples
     --------

@@ -44,14 +44,8 @@ def to_netcdf(result: xr.Dataset) -> bytes:
 def check_result(result: xr.Dataset, where: str) -> None:
     """Refuse a dataset that is no result, or not whole, or holds what none can hold.
 
-    Raises InputError naming the variable or attribute.
-
-    Parameters
-    ----------
-    result : xarray.Dataset
-        As read from a file: of a run, or of a study, which has everything over `case` too.
-    where : str
-        The file.
+    Raises InputError naming the variable or attribute. The result is as read from the file `where`: of a run, or of a
+    study, which has everything over `case` too.
     """
     problem = next(filter(None, (look(result) for look in (_names, _kinds, _labels, _values, _input))), None)
     if problem:

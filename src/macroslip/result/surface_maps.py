@@ -10,20 +10,15 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, row_names
 from macroslip.errors import InputError
-from macroslip.measures.details import FILM_EDGES, FILM_REGIMES, SECTORS, SLIP_EDGES, SLIP_SIGNS, STATIONS
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from macroslip.bearing import Bearing
-    from macroslip.measures.details import Details
+from macroslip.measures.details import FILM_EDGES, FILM_REGIMES, SECTORS, SLIP_EDGES, SLIP_SIGNS, STATIONS, Details
 
 _PLACES = ("row", "raceway", "angle", "station")
 _CLASSES = ("row", "raceway", "film_class", "slip_class")

@@ -165,20 +165,9 @@ def _descend(ring, turn_cosine, turn_sine, force, displacement, tolerance, most_
 def balance(ring, shaft_angle, force, displacement):
     """Ring displacement that carries a load, found from the given start and written in its place.
 
-    Parameters
-    ----------
-    ring : RingGeometry
-    shaft_angle : float
-        Shaft angle [rad]; rollers have moved on by orbit_ratio times it.
-    force : ndarray, shape (3,)
-        Load on the inner ring in the bearing frame [N].
-    displacement : ndarray, shape (3,)
-        Start, overwritten by the solution [m].
-
-    Returns
-    -------
-    float
-        Unbalanced force |Σ Q n − F| that is left [N]. It is at most 1e-10 |F| + 1e-7 N where the solver converged.
+    Gives the unbalanced force |Σ Q n − F| that is left [N], at most 1e-10 |F| + 1e-7 N where the solver converged.
+    Rollers have moved on by orbit_ratio times the shaft angle [rad]; `force` is the load on the inner ring in the
+    bearing frame [N], `displacement` the start, overwritten by the solution [m], both of shape (3,).
     """
     turn_cosine = math.cos(ring.orbit_ratio * shaft_angle)
     turn_sine = math.sin(ring.orbit_ratio * shaft_angle)

@@ -7,19 +7,15 @@ Loads of rollers that are given take the place of the balance; every roller then
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from macroslip.bearing import Bearing
 from macroslip.compiled import jit
 from macroslip.errors import InputError, MacroslipError
-from macroslip.loads import RollerLoads
+from macroslip.loads import BearingLoads, RollerLoads
 from macroslip.ring.balance import RingGeometry, balance_series, radial_clearance, roller_loads
 from macroslip.ring.orbit import Motion, shaft_angle, travel
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.loads import BearingLoads
 
 #: Largest part of a roller pitch turned between samples of the ring balance; loads sampled more coarsely get samples
 #: in between, because the ring moves with every roller that passes.
@@ -55,22 +51,10 @@ def ring_motion(
 ) -> tuple[Motion, float]:
     """Ring displacement at every load sample, with rollers where they are then.
 
-    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did not converge.
-
-    Parameters
-    ----------
-    loads : BearingLoads or RollerLoads
-        Load on the inner ring; or loads of the rollers, with which the ring is left in the middle.
-    highest_load : float
-        Roller load [N] that must not be exceeded.
-    more : ndarray, optional
-        Force on the ring beside its load at the samples of its motion [N], shape (n, 3).
-
-    Returns
-    -------
-    motion : Motion
-    largest : float
-        Largest elastic roller load of the history [N].
+    Raises InputError if a roller load exceeds `highest_load`, and MacroslipError if a balance did not converge. Gives
+    the motion, and the largest elastic load of a roller in the history [N]. With loads of the rollers the ring is left
+    in the middle. `highest_load` is in N, and `more` a force on the ring beside its load at the samples of its motion
+    [N], shape (n, 3).
     """
     time, speed = _finely_sampled(loads, ring.orbit_ratio, bearing.rollers_per_row)
     angle = shaft_angle(time, speed)

@@ -124,20 +124,9 @@ def carried(body, tables, play, outward, ring_speed, guess=0.0):
         [h(q) + h(q + |B|)]/1.2257 − (q/K)^(2/3) = p,
 
     h the film of the volume flow of a roller whose surface is at rest, u = u2/2. A roller without load turns slowly; one
-    that grips has left its play, where q counts for little.
-
-    Parameters
-    ----------
-    body, tables
-        The roller.
-    play : float
-        p ≥ 0 [m].
-    outward : float
-        Body force B along the contact normal [N], positive outward.
-    ring_speed : float
-        u2 [m/s].
-    guess : float, optional
-        Where to begin [N], such as the load a moment before; 0 begins at 1 N.
+    that grips has left its play, where q counts for little. The play p ≥ 0 and the body force B along the contact
+    normal, positive outward, are in m and N, u2 in m/s. The search begins at `guess` [N], such as the load a moment
+    before, or where that is 0, at 1 N.
     """
     speed = 0.5 * abs(ring_speed)
     log_u = math.log(max(speed, LOWEST_SPEED))
@@ -189,18 +178,9 @@ def film_load(body, tables, load, approach, outward, ring_speed, guess=0.0):
 def station(body, tables, start_angle, now, found):
     """Write loads on a roller and speed of the rings past it.
 
-    Parameters
-    ----------
-    body, tables
-        The roller.
-    start_angle : float
-        Roller position φ at the first sample [rad].
-    now : Instant
-        The ring's motion.
-    found : record of `STATION`
+    The roller is at φ = `start_angle` at the first sample [rad]; `now` is the ring's motion, `found` a record of
+    `STATION`.
 
-    Notes
-    -----
     Weight has the parts −m g cos(tilt) along Y0 and +m g sin(tilt) along Z0. Its part along the contact normal and that
     of the centrifugal force (18) are summed; a sum that points outward loads the outer raceway, inward the inner one. A
     roller with play can lean on only one ring, so the sum and not each force for itself is what a raceway feels.
@@ -262,12 +242,7 @@ _NO_TRACTION = Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @jit_inline
 def raceway_traction(law, tables, closed_form, load, ln_load, ring_speed, slip):
-    """Traction of a raceway contact with Q > 0 [N] at u2 and v [m/s].
-
-    Returns
-    -------
-    Traction
-    """
+    """Traction of a raceway contact with Q > 0 [N] at u2 and v [m/s]."""
     if not closed_form:
         if ring_speed == 0.0 and slip == 0.0:
             # At rest nothing pulls, while tables end at a ring that creeps.
@@ -311,11 +286,8 @@ def raceway_oil(law, tables, load, ln_load, mean, ln_mean, slip):
 def cage_traction(body, tables, load, ln_load, surface_speed, ln_surface):
     """Traction of the cage's contact under a load > 0 [N], without the oil of the pocket.
 
-    Returns
-    -------
-    tuple of 4 float
-        Force in the spin equation [N], its derivatives by the roller's slip [N s/m] and by load [-], and the power of
-        asperities [W].
+    Gives the force in the spin equation [N], its derivatives by the roller's slip [N s/m] and by load [-], and the
+    power of asperities [W].
     """
     law = body.cage
     # Slip at the cage is −u1, and v slows the roller's surface.
@@ -337,12 +309,7 @@ def cage_traction(body, tables, load, ln_load, surface_speed, ln_surface):
 
 @jit_inline
 def cage_contact(body, tables, load, surface_speed, ln_surface):
-    """Contact with the cage under |F_n,cage| [N], from the speed of the roller's surface u2 − v [m/s] and its logarithm.
-
-    Returns
-    -------
-    Cage
-    """
+    """Contact with the cage under |F_n,cage| [N], from the speed of the roller's surface u2 − v [m/s] and its logarithm."""
     law = body.cage
     if load <= 0.0 and not body.oily:
         return Cage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -372,17 +339,8 @@ def cage_contact(body, tables, load, surface_speed, ln_surface):
 def slip_forces(body, tables, at, slip, found):
     """Write the forces of the raceways and the cage for the raceway slip v = Δu_in = Δu_out.
 
-    Parameters
-    ----------
-    body, tables
-        The roller.
-    at : record of `STATION`
-    slip : float
-        v [m/s].
-    found : record of `FORCES`
+    The slip v is in m/s; `at` is a record of `STATION`, `found` one of `FORCES`.
 
-    Notes
-    -----
     The roller's surface speed is u1 = u2 − v. The cage is at rest in the orbiting frame, Δu_c = −u1, and its normal
     force balances everything tangential (32): F_n,cage = |F_g,x' + F_d,x' + F_i − F_o|, F_i and F_o with what rolling
     resistance does: its shear and the push of the inclined pressure.

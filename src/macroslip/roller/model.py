@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.bearing import geometry
+from macroslip.bearing import Bearing, geometry
 from macroslip.bearing.geometry import AXIAL_SIGNS, initial_angles, row_names
 from macroslip.constants import GRAVITY
 from macroslip.contact.hertz import series_stiffness
@@ -25,12 +26,9 @@ from macroslip.contact.table import (
     write_plane,
     write_traction,
 )
+from macroslip.lubricant import Lubricant
 from macroslip.ring.balance import RingGeometry
 from macroslip.roller.forces import is_faded
-
-if TYPE_CHECKING:
-    from macroslip.bearing import Bearing
-    from macroslip.lubricant import Lubricant
 
 #: Least load of planes [N], and least speed of oil's as part of the fastest.
 _LIGHTEST, _SLOWEST = 1e-4, 1e-4
@@ -139,20 +137,9 @@ def roller_model(
     """Prepare a roller of one row.
 
     Raises InputError for unknown laws, values the lubricant lacks, or curvatures that do not make a Hertz contact.
+    `axial_sign` is +1 for the downwind and −1 for the upwind row, `tilt` that of the shaft [rad]: the hub end is up, so
+    that weight has a part along +Z0.
 
-    Parameters
-    ----------
-    axial_sign : int
-        +1 for the downwind row, −1 for the upwind row.
-    tilt : float
-        Shaft tilt [rad]; the hub end is up, so that weight has a part along +Z0.
-    gravity, drag : bool
-        Whether weight and drag act on the roller.
-    laws : Laws
-        Mechanisms in the contacts.
-
-    Notes
-    -----
     The drag acts on the area 2 r l with the density of the lubricant times its fill factor (24).
     """
     radius = geometry.roller_radius(bearing)
@@ -225,15 +212,15 @@ def _write_contact(
     record["boundary_friction"], record["full_slip"] = contact.boundary_friction, contact.full_slip
     slowest = _SLOWEST * box.fastest
     if contact.closed_form is not None:
-        write_plane(record["film"], tables, film_values(contact), _LIGHTEST, REST_SPEED, box)
+        write_plane(record["film"], tables, partial(film_values, contact), _LIGHTEST, REST_SPEED, box)
         for name in ("conductance", "pressure_exponent", "heating"):
             record[name] = getattr(contact.closed_form, name)
     elif contact.name != "cage":
         errors.append(write_traction(record["traction"], tables, contact, box))
     if contact.name == "cage":
-        write_plane(record["oil"], tables, cage_values(contact, pocket_gap), _LIGHTEST, slowest, box)
+        write_plane(record["oil"], tables, partial(cage_values, contact, pocket_gap), _LIGHTEST, slowest, box)
     elif contact.rolling is not None:
-        write_plane(record["oil"], tables, oil_values(contact), _LIGHTEST, slowest, box)
+        write_plane(record["oil"], tables, partial(oil_values, contact), _LIGHTEST, slowest, box)
         # Beside its shear the inclined pressure pushes by −2 R/r of it.
         record["push"] = 1.0 - 2.0 * contact.rolling.share_1
     return errors

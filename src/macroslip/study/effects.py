@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from macroslip.errors import InputError
 from macroslip.result.variables import described
 from macroslip.study.weights import Weights
 from macroslip.study.year import CRITERIA, LIVES, designs, year
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 #: Quantiles of a quantity over the sample, and points below which nothing is said.
 QUANTILES = (0.05, 0.5, 0.95)
@@ -24,18 +21,9 @@ _FEWEST = 4
 def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Spearman's rank correlation of results with each value of a sample, and its probability by chance.
 
-    Parameters
-    ----------
-    values : array_like, shape (n, parameters)
-    results : array_like, shape (n,)
+    Both have the shape (parameters,): NaN where a value or the results do not change, and for fewer than three points.
+    `values` has the shape (n, parameters), `results` (n,).
 
-    Returns
-    -------
-    ndarray, ndarray, shape (parameters,)
-        NaN where a value or the results do not change, and for fewer than three points.
-
-    Notes
-    -----
     `scipy.stats.spearmanr`.
 
     Examples
@@ -57,10 +45,7 @@ def rank_correlations(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray
 def main_effects(values: ArrayLike, results: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Mean of the results in the upper half of each value less that in its lower half, and the standard error.
 
-    Parameters
-    ----------
-    values : array_like, shape (n, parameters)
-    results : array_like, shape (n,)
+    `values` has the shape (n, parameters), `results` (n,).
 
     Examples
     --------
@@ -92,21 +77,12 @@ def effects(
 
     Raises InputError if the study has no sample, or a label or a weight is wrong.
 
-    Parameters
-    ----------
-    study, weights, field, width
-        As in `macroslip.study.year.year`.
+    Over (quantity, parameter) there are `main_effect`, mean of the upper half of the parameter's values less that of
+    the lower half, in parts of the mean [1], its standard error `main_effect_error`, Spearman's `rank_correlation` and
+    its `probability` by chance; over (quantity, quantile) `range`, in the coordinate `units`; and `points` of the
+    sample. Where bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean over the
+    sample in each. Arguments are those of `macroslip.study.year.year`.
 
-    Returns
-    -------
-    xarray.Dataset
-        Over (quantity, parameter): `main_effect`, mean of the upper half of the parameter's values less that of the lower
-        half, in parts of the mean [1], its standard error `main_effect_error`, Spearman's `rank_correlation` and its
-        `probability` by chance. Over (quantity, quantile): `range`, in the coordinate `units`. `points`: of the sample. Where
-        bearing, lubricant, model or a grid vary as well, quantities are taken relative to their mean over the sample in each.
-
-    Notes
-    -----
     Points without a value are left out, and quantities with fewer than four. An effect beside a standard error of its size
     is none.
     """

@@ -28,18 +28,11 @@ def exceedance(
     Results are read one after the other and counted by classes, so that memory does not grow with the study. Raises
     InputError if a label or a probability is wrong, or a stored result is damaged.
 
-    Parameters
-    ----------
-    study, weights, field, width, by
-        As in `macroslip.study.lifetime.lifetime_energy`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (group, row, threshold): `energy_orbits` and `power_orbits` [1/year], orbits a year of one roller whose
-        energy (all interfaces) or peak power (largest at any interface) exceeds the threshold [J or W]. Over (group,
-        row): `orbits` [1/year], all of them. NaN where a bin of some weight has no result. `runs` and `left_out` over
-        (group, bin). Thresholds that all orbits exceed, and those that none does, are left out but for the nearest.
+    Over (group, row, threshold) there are `energy_orbits` and `power_orbits` [1/year], orbits a year of one roller
+    whose energy (all interfaces) or peak power (largest at any interface) exceeds the threshold [J or W]; over (group,
+    row) `orbits` [1/year], all of them, NaN where a bin of some weight has no result; `runs` and `left_out` over
+    (group, bin). Thresholds that all orbits exceed, and those that none does, are left out but for the nearest.
+    Arguments are those of `macroslip.study.lifetime.lifetime_energy`.
     """
     missing = [name for name in ("orbit_energy", "peak_power") if name not in study]
     if missing:
@@ -106,13 +99,9 @@ def load_spectrum(
         n = T Σ_b p_b (1/N_b) Σ_{c in b} n_c / t_c
 
     as in `macroslip.study.lifetime.lifetime_energy`, with the cycles n_c and the length t_c of each load history.
-    Raises InputError if a label or a probability is wrong, or the study has not counted cycles.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (group, component, load_range): `cycles` [1]. NaN where a bin of some weight has no result. Ranges below
-        the smallest and above the largest that occur are left out.
+    Raises InputError if a label or a probability is wrong, or the study has not counted cycles. `cycles` [1] are over
+    (group, component, load_range), NaN where a bin of some weight has no result. Ranges below the smallest and above
+    the largest that occur are left out.
     """
     if "load_cycles" not in study:
         remedy = "Set `cycles: true` in the study file and run it again."

@@ -26,7 +26,6 @@ def as_table(dataset: xr.Dataset, names: Sequence[str]) -> pd.DataFrame:
 
     Examples
     --------
-    >>> import xarray as xr
     >>> one = xr.Dataset({"energy": ("row", [1.0, 2.0], {"units": "J"})}, {"row": ["downwind", "upwind"]})
     >>> list(as_table(one, ["energy"]).columns)
     ['row', 'energy [J]']
@@ -46,16 +45,9 @@ def tables(
 ) -> dict[str, pd.DataFrame]:  # fmt: skip
     """All tables of a study by name; docs/studies.md lists their columns.
 
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    weights : Weibull or Given, optional
-        Without them there are `cases`, `failures`, `worst`, `percentiles`, `designs` and, of a sample, `effects`; with them
-        also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where results keep its variables, and, if the study counts
-        cycles, `cycles`.
-    years, field, width, by
-        As in `macroslip.study.lifetime.lifetime_energy`.
+    Without weights there are `cases`, `failures`, `worst`, `percentiles`, `designs` and, of a sample, `effects`; with
+    them also `year`, `lives`, `lifetime`, `bins`, `exceedance`, where results keep its variables, and, if the study
+    counts cycles, `cycles`. Arguments are those of `macroslip.study.lifetime.lifetime_energy`.
     """
     summary = study.drop_vars([name for name, one in study.variables.items() if not set(one.dims) <= {"case", "row"}])
     by_row = [name for name, one in summary.data_vars.items() if "row" in one.dims]

@@ -31,27 +31,15 @@ def lifetime_energy(
     speeds share the rest. Time outside the bins contributes nothing; `covered` is the share of all time in the bins.
     Raises InputError if a label, a probability or the lifetime is wrong.
 
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    years : float
-        T [years of 365.25 days], above 0.
-    field, width, by
-        As in `macroslip.study.weights.binned`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (group, row): `lifetime_energy` [J], NaN where a bin has no run. Over (group, bin, row): `power`
-        [W], `bin_energy` [J], the bin's part of the sum. Over (group, bin): `runs`, those that were used, and `left_out`,
-        those that failed or are missing. Over bin: `probability`; and `covered`, their sum.
+    Over (group, row) there is `lifetime_energy` [J], NaN where a bin has no run; over (group, bin, row) `power` [W] and
+    `bin_energy` [J], the bin's part of the sum; over (group, bin) `runs`, those that were used, and `left_out`, those
+    that failed or are missing; over bin `probability`; and `covered`, their sum. T is in years of 365.25 days, above 0;
+    `field`, `width` and `by` are those of `macroslip.study.weights.binned`.
 
     Examples
     --------
     One bin that is always there, at 3 W for 20 years:
 
-    >>> import xarray as xr
     >>> from macroslip.study.weights import Given
     >>> one = {name: ("case", ["-"]) for name in ("bearing", "lubricant", "model")}
     >>> study = xr.Dataset({"energy_mean": (("case", "row"), [[1800.0, 1800.0]]), "window_length": ("case", [600.0])},
@@ -111,24 +99,9 @@ def worst(
 ) -> xr.Dataset:
     """The runs and rows with the largest values of a variable of the summary.
 
-    Raises InputError if there is no such variable.
-
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    variable : str
-        Any variable over case and row.
-    count : int
-        How many, above 0.
-    smallest : bool
-        The smallest ones instead, as for `lowest_spin_ratio`.
-
-    Returns
-    -------
-    xarray.Dataset
-        The variables of the summary and all labels, over `rank` from 1; `row` is a coordinate of it. Runs without a
-        value are left out.
+    Raises InputError if there is no such variable. The variables of the summary and all labels are over `rank` from 1;
+    `row` is a coordinate of it. Runs without a value are left out. `variable` is any over case and row, `count` above
+    0; `smallest` takes the smallest ones instead, as for `lowest_spin_ratio`.
     """
     names = [name for name, one in study.data_vars.items() if set(one.dims) == {"case", "row"}]
     if variable not in names:
@@ -153,12 +126,9 @@ def weighted_maps(
     As `lifetime_energy`, at every place and for every sign of slip and film regime. Raises InputError if a label, a
     probability or the lifetime is wrong, or the study has no maps.
 
-    Returns
-    -------
-    xarray.Dataset
-        `surface_energy` [J] and `surface_power_density` [W/m²] over group and their dimensions in a result, and
-        `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete run. In which place the inner ring
-        is when a case begins is by chance, so its map is spread evenly over the angle.
+    `surface_energy` [J] and `surface_power_density` [W/m²] are over group and their dimensions in a result, beside
+    `cell_area` [m²]. Energies are NaN where a bin of some weight has no complete run. In which place the inner ring is
+    when a case begins is by chance, so its map is spread evenly over the angle.
     """
     if "surface_energy" not in study:
         raise InputError(

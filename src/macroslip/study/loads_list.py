@@ -51,13 +51,9 @@ class LoadList:
 class Pattern:
     """A path with fields and wildcards, to find files by and to read values from their names.
 
-    Raises InputError if a field has another form.
-
-    Parameters
-    ----------
-    text : str
-        Fields are `{name}` (text without slash), `{name:d}` (whole number) and `{name:g}` (number); wildcards are `*`,
-        `?` and `**/`. A field that occurs twice must have the same value in both places.
+    Raises InputError if a field has another form. Fields are `{name}` (text without slash), `{name:d}` (whole number)
+    and `{name:g}` (number); wildcards are `*`, `?` and `**/`. A field that occurs twice must have the same value in
+    both places.
 
     Examples
     --------

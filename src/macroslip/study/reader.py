@@ -35,29 +35,16 @@ def is_study(path: Path) -> bool:
 def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     """Open all results of a study, also while it is being computed.
 
-    Labels and summary are read at once. Everything else is read, and its checksum compared, when its values are
-    accessed; select cases first, or `.chunk({"case": 50})` with dask, where all together would not fit into memory.
+    `directory` is the folder that `macroslip study` or `run_study` has written. Labels and summary are read at once.
+    Everything else is read, and its checksum compared, when its values are accessed; select cases first, or
+    `.chunk({"case": 50})` with dask, where all together would not fit into memory. Raises InputError if the folder
+    holds no study, or a damaged one; and when values are accessed, if a stored result is gone or damaged.
 
-    Parameters
-    ----------
-    directory : path
-        Folder that `macroslip study` or `run_study` has written.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`. Coordinates
-        over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters that vary
-        under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
-        case and row, and the variables of `simulate`, all of them as floats. Missing values are NaN: a run
-        that failed or is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time`
-        over (case, sample).
-
-    Raises
-    ------
-    InputError
-        If the folder holds no study, or a damaged one; and when values are accessed, if a stored result is gone or
-        damaged.
+    The dataset is over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`.
+    Coordinates over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters
+    that vary under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
+    case and row, and the variables of `simulate`, all of them as floats. Missing values are NaN: a run that failed or
+    is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time` over (case, sample).
     """
     directory = Path(directory).absolute()
     manifest, runs = _read(directory)
@@ -81,17 +68,9 @@ def open_study(directory: str | PathLike[str]) -> xr.Dataset:
 def stored_results(directory: str | PathLike[str]) -> Iterator[tuple[int, xr.Dataset]]:
     """Yield the stored results of a study one by one, whole and with their attributes.
 
-    Raises InputError if the folder holds no study, or a stored result is gone or damaged.
-
-    Parameters
-    ----------
-    directory : path
-        Folder that `macroslip study` or `run_study` has written.
-
-    Yields
-    ------
-    (int, xarray.Dataset)
-        Number of the run, the `case` of `open_study`, and its result; runs without a result are left out.
+    Raises InputError if the folder holds no study, or a stored result is gone or damaged. Each comes with the number of
+    its run, the `case` of `open_study`; runs without a result are left out. `directory` is a folder that `macroslip
+    study` or `run_study` has written.
     """
     directory = Path(directory).absolute()
     _, runs = _read(directory)

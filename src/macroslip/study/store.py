@@ -30,16 +30,7 @@ import xarray as xr
 from filelock import FileLock, Timeout
 
 from macroslip.errors import InputError
-from macroslip.files import (
-    DATABASE,
-    LOCK,
-    MANIFEST,
-    STUDY_FILES,
-    SUMMARY,
-    UNFINISHED,
-    check_regular,
-    write_durably,
-)  # fmt: skip
+from macroslip.files import DATABASE, LOCK, MANIFEST, STUDY_FILES, SUMMARY, UNFINISHED, check_regular, write_durably
 from macroslip.study.summary import NUMBERS
 
 FORMAT = 3

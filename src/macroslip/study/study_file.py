@@ -10,9 +10,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from macroslip.case.case import BALANCE, Case
+from macroslip.case.parts import Heat
 from macroslip.errors import InputError
 from macroslip.input.fields import Choice, Flag, Form, Text, Texts
 from macroslip.input.files import Place, Source, parse, read_text
@@ -24,9 +25,6 @@ from macroslip.result.variables import VARIABLES
 from macroslip.study.loads_list import Load, LoadList, load_list
 from macroslip.study.settings import CUT_KEYS, RECORDS, Sample, Setting, template
 from macroslip.study.weights import Weighting
-
-if TYPE_CHECKING:
-    from macroslip.case.parts import Heat
 
 LOAD_SOURCES = ("files", "table", "bundled")
 KINDS = ("hub", "main-bearing")
@@ -325,17 +323,9 @@ _OF_A_CASE = Case.__annotations__.keys() - StudyFile.__annotations__.keys()
 def read_study(path: str | PathLike[str]) -> Study:
     """Read a study file.
 
-    Bearings and lubricants are read here and now; load files are listed, but not opened.
-
-    Parameters
-    ----------
-    path : path
-        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
+    Bearings and lubricants are read here and now; load files are listed, but not opened. Raises InputError if the file
+    cannot be read, or anything in it is wrong: all problems together, each with file, line and key. The file is YAML,
+    as `macroslip init --example study` writes it; relative paths in it start at its own folder.
     """
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
@@ -351,14 +341,8 @@ def read_study(path: str | PathLike[str]) -> Study:
 def study_of(content: Mapping[str, Any], folder: str | PathLike[str] = ".") -> Study:
     """A study from the content of a study file as plain data.
 
-    Raises InputError as `read_study`, without file and line.
-
-    Parameters
-    ----------
-    content : mapping
-        As `yaml` would read it.
-    folder : path
-        Where relative paths start.
+    Raises InputError as `read_study`, without file and line. The content is as `yaml` would read it; relative paths
+    start at `folder`.
 
     Examples
     --------

@@ -182,20 +182,14 @@ def load_cycles(loads: BearingLoads) -> xr.Dataset:
     Cycles of the axial load move load from one row of rollers to the other and back, and a row that is unloaded is a row
     that slips; cycles of the radial load load housing, shaft and ring seats.
 
-    Returns
-    -------
-    xarray.Dataset
-        `load_cycles` over (component, load_range): cycles in the whole history, which is taken as repeating, so that
-        every cycle closes. `load_range` is the geometric middle of a class [N].
+    `load_cycles` over (component, load_range) are those of the whole history, which is taken as repeating, so that
+    every cycle closes; `load_range` is the geometric middle of a class [N].
 
-    Notes
-    -----
     `fatpack.find_rainflow_ranges`, 256 levels between the smallest and the largest load; smaller ripples do not count.
     ASTM E 1049-85, Standard Practices for Cycle Counting in Fatigue Analysis, doi:10.1520/E1049-85R17.
 
     Examples
     --------
-    >>> from macroslip import BearingLoads
     >>> time = np.linspace(0.0, 10.0, 1001)
     >>> force = np.zeros((1001, 3))
     >>> force[:, 2] = 45e3 * np.sin(2.0 * np.pi * time)

@@ -7,9 +7,12 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
+import pandas as pd
+import xarray as xr
+from numpy.typing import ArrayLike
 
 from macroslip.errors import InputError
 from macroslip.input.fields import IN_FILE, Form, Quantity, Text
@@ -17,13 +20,7 @@ from macroslip.input.fields import Given as Given_
 from macroslip.input.section import MappingOf, form_from, input_section
 from macroslip.input.units import NUMBER
 from macroslip.result.variables import described
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
-    from numpy.typing import ArrayLike
-
-    from macroslip.study.loads_list import Load
+from macroslip.study.loads_list import Load
 
 #: A year [s], of 365.25 days.
 YEAR = 365.25 * 86400.0
@@ -39,8 +36,6 @@ class Weibull:
 
     Raises InputError for values that are not above 0.
 
-    Notes
-    -----
     F(v) = 1 − exp(−(v/A)^k), and a bin from a to b has the probability F(b) − F(a): IEC 61400-12-1 and every handbook
     of wind energy.
 
@@ -205,7 +200,6 @@ class Weighting:
 
         Examples
         --------
-        >>> from macroslip.study.loads_list import Load
         >>> loads = [Load(name, {"wind_speed": speed}) for name, speed in (("a", 8.0), ("b", 8.0), ("c", 12.0))]
         >>> [round(one, 3) for one in Weighting(scale=9.5, shape=2.0).of(loads)]
         [0.308, 0.308, 0.384]
@@ -350,14 +344,8 @@ class Binning(Bins):
     def means(self, values: Iterable[ArrayLike]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Mean of the values of each run in each cell, over runs without NaN; numbers of these and of the others.
 
-        Values are taken one run after the other, so that a large study need not fit into memory.
-
-        Returns
-        -------
-        ndarray, shape (groups, bins, ...)
-            Means; NaN in a cell without runs.
-        ndarray, ndarray, shape (groups, bins)
-            Number of runs in the mean, and of runs left out.
+        Values are taken one run after the other, so that a large study need not fit into memory. Means have the shape
+        (groups, bins, ...), NaN in a cell without runs, and both numbers (groups, bins).
         """
         shape = len(self.groups), self.centres.size
         used, left_out = np.zeros(shape), np.zeros(shape)
@@ -385,21 +373,10 @@ def binned(study: xr.Dataset, field: str | None, width: float = 2.0, by: Sequenc
 
     A bin is centred on a multiple of its width; runs whose label `event` is not empty have one of their own. A group
     has one bearing, lubricant, model and set of parameters; other labels, such as seeds, are pooled unless they are
-    named in `by`. Raises InputError if there is no such label, or it is no number.
-
-    Parameters
-    ----------
-    study : xarray.Dataset
-        From `open_study`.
-    field : str or None
-        Label to sort by, a number: `wind_speed`. None: one bin holds all runs.
-    width : float
-        Of a bin [unit of the field], above 0.
-    by : sequence of str
-        Further labels that separate groups: `turbulence`.
+    named in `by`. Raises InputError if there is no such label, or it is no number. `field` is the label to sort by, a
+    number, or None: then one bin holds all runs. `width` is that of a bin [unit of the field], above 0, and `by` names
+    further labels that separate groups: `turbulence`.
     """
-    import pandas as pd
-
     labels = [str(name) for name in study.coords if study[name].dims == ("case",) and name not in _NO_LABELS]
     for name in (*([field] if field else []), *by):
         if name not in labels:

@@ -56,7 +56,6 @@ def case_key(case: Case, options: Mapping[str, Any]) -> str:
 
     Examples
     --------
-    >>> from macroslip import BearingLoads, Case
     >>> loads = BearingLoads.constant([0.0, -300e3, 0.0], 2.0, 10.0)
     >>> key = case_key(Case(loads=loads), {})
     >>> len(key), key == case_key(Case(loads=loads, drag=False), {})
@@ -73,21 +72,13 @@ def work(task: dict[str, Any], progress: Callable[[int, int], None] | None = Non
 
     Raises StoreError if the result cannot be stored: the disk is full, for example.
 
-    Parameters
-    ----------
-    task : dict
-        Plain data: `directory`, `setup` (checksum of its manifest), `session` (a name that no other has), `run` (name),
-        `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
-        compute even if a result is there.
-    progress : callable, optional
-        As for `macroslip.simulate`; an exception in it ends the run.
+    The record is for the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `layout`,
+    `values`; and `program`, by which the study verifies that a worker runs the same version. With `found` true nothing
+    was computed: a result of that key is there, and the database decides whether it is sound.
 
-    Returns
-    -------
-    dict
-        For the database: `run`, `key`, `outcome`, `reason`, `detail` (checksum of the result), `layout`, `values`; and
-        `program`, by which the study verifies that a worker runs the same version. With `found` true nothing was
-        computed: a result of that key is there, and the database decides whether it is sound.
+    A task is plain data: `directory`, `setup` (checksum of its manifest), `session` (a name that no other has), `run`
+    (name), `load`, `bearing`, `lubricant`, `settings` (list of key, value, unit), `threads`, and `again`: whether to
+    compute even if a result is there. `progress` is as for `macroslip.simulate`; an exception in it ends the run.
     """
     started = time.perf_counter()
     record: dict[str, Any] = {"run": task["run"], "program": program()}

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
-from macroslip.damage.friction_energy import ThrustTest
 from macroslip.loads.bundled import EVENTS
+from macroslip.result.damage import REFERENCE_POWER
 from macroslip.result.variables import described
 from macroslip.study.weights import CHOICES, YEAR, Weights, binned, weighted
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 #: Lives of a run that accumulate, and exponents of its damage-equivalent loads.
 LIVES = ("basic_life", "modified_life", "reference_life", "modified_reference_life")
@@ -37,27 +35,19 @@ def year(
     are at 1 Hz, by S = (Σ p_b S_b^m)^(1/m), both with p_b as share of the time that the cases cover. Raises InputError
     if a label or a weight is wrong.
 
-    Parameters
-    ----------
-    study, weights, field, width, by
-        As in `macroslip.study.lifetime.lifetime_energy`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over (group, bin): `runs` in the means and `left_out`, those that failed or are missing. Over bin: `hours` of a year
-        [h]. Over (group, bin, row): `energy` of a mean roller in a year [J], `per_hour` [J], `peak` and `entry_slip`, the
-        largest power [W] and slide-roll ratio at an entry [1] of any run, and the sums of `SUMS`, as far as the results
-        kept what they need; worst places of different bins are added, so `wear` and `pressure_slip` are upper bounds. Over
-        (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the scatter of runs that share
-        a bin; NaN where no bin has two. Over group: the lives [h] and damage-equivalent loads [N]; NaN where a bin of some
-        weight has none. `covered` [1].
+    Over (group, bin) there are `runs` in the means and `left_out`, those that failed or are missing; over bin `hours`
+    of a year [h]. Over (group, bin, row): `energy` of a mean roller in a year [J], `per_hour` [J], `peak` and
+    `entry_slip`, the largest power [W] and slide-roll ratio at an entry [1] of any run, and the sums of `SUMS`, as far
+    as the results kept what they need; worst places of different bins are added, so `wear` and `pressure_slip` are
+    upper bounds. Over (group, row): `total` [J] and its `scatter` [1], the standard error of the total from the scatter
+    of runs that share a bin; NaN where no bin has two. Over group: the lives [h] and damage-equivalent loads [N]; NaN
+    where a bin of some weight has none. `covered` [1]. Arguments are those of
+    `macroslip.study.lifetime.lifetime_energy`.
 
     Examples
     --------
     Half a year with a life of 10 000 h and half with 30 000 h, both on the way to failure:
 
-    >>> import xarray as xr
     >>> from macroslip.study.weights import Given
     >>> two = {name: ("case", ["-", "-"]) for name in ("bearing", "lubricant", "model")}
     >>> rows = {"energy_mean": (("case", "row"), [[600.0], [1200.0]]), "basic_life": ("case", [1e4, 3e4])}
@@ -139,29 +129,17 @@ CRITERIA = {
 
 
 def designs(found: xr.Dataset) -> tuple[pd.DataFrame, list[str]]:
-    """The designs of a year side by side, the least energy first; and sentences on what is not known.
+    """The designs side by side, of `year`, the least energy first; and sentences on what is not known.
 
-    Parameters
-    ----------
-    found : xarray.Dataset
-        From `year`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A line a group, with its number as index: its labels, the columns of `CRITERIA` and the lives [h]. Energy and entries
-        are of both rows, the others of the worse one. NaN where something is not known; a criterion that no run has is left
-        out.
-    list of str
-        What was left out, and why.
+    The table has a line a group, with its number as index: its labels, the columns of `CRITERIA` and the lives [h].
+    Energy and entries are of both rows, the others of the worse one. NaN where something is not known; a criterion that
+    no run has is left out.
     """
-    import pandas as pd
-
     labels = {str(name): one.values for name, one in found.coords.items() if one.dims == ("group",)}
     table, told = pd.DataFrame(labels, index=range(found.sizes["group"])), []
     missing = []
     seconds = float(found.covered) * YEAR
-    scale = {"mixed_time": 1.0 / seconds, "pressure_slip": 1.0 / (seconds * reference_power())}
+    scale = {"mixed_time": 1.0 / seconds, "pressure_slip": 1.0 / (seconds * REFERENCE_POWER)}
     for name, (how, _, about) in CRITERIA.items():
         known = found[name].where(found.hours > 0.0) if name in found else None
         if known is None or not bool(known.notnull().any()):
@@ -197,7 +175,6 @@ def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str
 
     Examples
     --------
-    >>> import xarray as xr
     >>> tilts = ("group", [4.0, 5.0], {"units": "deg"})
     >>> design_names(xr.Dataset(coords={"bearing": ("group", ["A", "A"]), "drivetrain.tilt": tilts}))
     ['tilt 4 deg', 'tilt 5 deg']
@@ -215,23 +192,11 @@ def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str
     return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [""] * found.sizes["group"]
 
 
-def reference_power() -> float:
-    """e_a [W/m²] of the FE8 test, mean of its range: what friction energy is compared with.
-
-    Examples
-    --------
-    >>> f"{reference_power():.3g} W/m²"
-    '4.75e+06 W/m²'
-    """
-    return sum(ThrustTest().range()) / 2.0
-
-
 def coverage(found: xr.Dataset) -> str:
     """What share of a year the cases of `year` cover, as a sentence.
 
     Examples
     --------
-    >>> import xarray as xr
     >>> coverage(xr.Dataset({"hours": ("bin", [4000.0, 66.0, 0.0])}, {"event": ("bin", ["", "start-8", "idle-6"])}))
     'The cases cover 46 % of a year: 4000 h of wind speeds and 66 h of events, whose supervisor is assumed; idle-6 counts nothing.'
     """

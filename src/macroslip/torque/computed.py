@@ -27,18 +27,10 @@ def computed_torque(result: xr.Dataset) -> xr.Dataset:
     through the ring's axis. Of both rings and the rollers between them the torques balance: what the inner ring gets and
     the outer one does not is drag and what guides the cage.
 
-    Parameters
-    ----------
-    result : xarray.Dataset
-        From `macroslip.simulate`, of all rollers of both rows, with traces; InputError without.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque
-        [N m] and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: its parts;
-        ring_torque [N m] over (raceway, time): torque of the contacts on inner and outer ring, positive along the
-        orbit. NaN where the shaft is at rest, or from where a roller failed.
+    Over time: shaft_speed [rad/s], with its sign; torque [N m] against the rotation, not negative; contact_torque [N m]
+    and rolling_torque [N m] over (row, interface, time), drag_torque [N m] over time: its parts; ring_torque [N m] over
+    (raceway, time): torque of the contacts on inner and outer ring, positive along the orbit. NaN where the shaft is at
+    rest, or from where a roller failed. The result has all rollers of both rows, with traces; InputError without.
 
     Examples
     --------

@@ -266,11 +266,8 @@ def skf_torque(
     ----------
     bearing : Bearing
         With bore, outside diameter and width; InputError without.
-    lubricant : Lubricant
-        Oil, or base oil of the grease, at operating temperature.
-    radial_load, axial_load, shaft_speed : array_like
-        Load on the bearing [N] and speed of the inner ring [rad/s], finite; signs are dropped. At zero speed it is the
-        torque of starting, with μ_bl = 0.15.
+    lubricant, radial_load, axial_load, shaft_speed
+        As of `palmgren_torque`. At zero speed it is the torque of starting, with μ_bl = 0.15.
     series : str
         Dimension series: a key of `SKF_SERIES`.
     oil : str
@@ -348,13 +345,9 @@ def _oil_bath_drag(case: _Operation, bath: OilBath) -> NDArray[np.float64]:
         t = 2 arccos[(0.6 d_m − H)/(0.6 d_m)],    f_t = sin(t/2) up to t = π, then 1
         R_s = 0.36 d_m² (t − sin t) f_A,    f_A = 0.05 K_Z (D + d)/(D − d)
 
-    Notes
-    -----
     For a large oil sump, the shaft horizontal, the inner ring turning. The first term is churning, the second the
     entrance of the rollers into the oil.
 
-    References
-    ----------
     SKF, Rolling bearings, PUB BU/P1 17000 (2018), section "Drag losses". From memory, then confirmed in a public
     transcription (V), except for the cubic term of C_w, which is negligible, for t and f_t, and for the bounds (R).
     """
@@ -391,7 +384,6 @@ def torque_histories(
 
     Examples
     --------
-    >>> from macroslip import BearingLoads
     >>> loads = BearingLoads.constant([0.0, -344e3, 164e3], 2.143, 1.0)
     >>> found = torque_histories({}, loads, Bearing.read("skf-240-600-bc"), Lubricant.read("vg460-pao"))
     >>> [f"{name}: {history.torque[0]:.0f} N m" for name, history in found.items()]
