@@ -39,8 +39,16 @@ class MacroslipError(Exception):
 class InputError(MacroslipError, ValueError):
     """Input that cannot be used, explained in one paragraph.
 
-    `what` is the fault, with the offending value; `where` its file, key, line or time stamp; `allowed` tells the values
-    that are accepted, `remedy` a way to mend it.
+    Parameters
+    ----------
+    what : str
+        The fault, with the offending value.
+    where : str
+        File, key, line or time stamp of the fault.
+    allowed : str
+        Values that are accepted.
+    remedy : str
+        A way to mend it.
 
     Examples
     --------

@@ -33,9 +33,17 @@ def load_laws(path: str | PathLike[str]) -> OwnLaws:
 
     The file is imported as a module whose name follows from its own name and its content, so that tables made of its laws
     are found again on the disk, by every process and wherever the file lies. To load the same file again does nothing.
-    Raises InputError if the file cannot be read, an error occurs in it (with its line), it registers no law, or it
-    registers a name that is taken. Then none of its laws is registered. The file is a program: load only files you would
-    run.
+
+    Parameters
+    ----------
+    path : path
+        The file. It is a program: load only files you would run.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, an error occurs in it (with its line), it registers no law, or it registers a name
+        that is taken. Then none of its laws is registered.
 
     Examples
     --------

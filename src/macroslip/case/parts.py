@@ -20,8 +20,12 @@ _Step = Annotated[float, Quantity("fixed time step", TIME, 1e-7, 1.0)]
 class Radau:
     """The production integrator: Radau IIA in the slip, L-stable, order 5, error-controlled.
 
-    `tolerance`, 1e-10 to 1e-2, is relative per step, on slip (against the raceway speed) and on energy. After
-    `max_steps` steps and rejections a roller counts as failed.
+    Parameters
+    ----------
+    tolerance : float
+        Relative tolerance per step on slip (against the raceway speed) and on energy, 1e-10 to 1e-2.
+    max_steps : int
+        Steps and rejections after which a roller counts as failed.
     """
 
     tolerance: Annotated[
@@ -43,9 +47,14 @@ class ExplicitEuler:
 
 @input_section("integrator", "fixed step, implicit, on the spin")
 class BackwardEuler:
-    """Backward Euler on the spin at a fixed step [s], the paper's method.
+    """Backward Euler on the spin at a fixed step, the paper's method.
 
-    The nonlinear iteration stops at a relative change of spin of `tolerance`, 1e-16 to 1e-2.
+    Parameters
+    ----------
+    step : float
+        [s].
+    tolerance : float
+        Relative change of spin at which the nonlinear iteration stops, 1e-16 to 1e-2.
     """
 
     step: _Step
@@ -80,8 +89,12 @@ class Window:
 class Traces:
     """Series to be kept for every simulated roller.
 
-    `step` is the time between samples [s], at each of which the integrator ends a step. `start` and `end` are first and
-    last time [s] on the loads' time axis; None: first and last sample of the loads.
+    Parameters
+    ----------
+    step : float
+        Time between samples [s]. The integrator ends a step at each of them.
+    start, end : float, optional
+        First and last time [s] on the loads' time axis; None: first and last sample of the loads.
     """
 
     step: Annotated[float, Positive("time between samples", TIME)]

@@ -187,10 +187,22 @@ class Lubricant(Record):
         Viscosity and its temperature coefficient follow Walther's line (ASTM D341) through viscosity and slope at the
         present inlet temperature; density falls by 0.65 kg/(m3 K); the pressure-viscosity coefficient follows Roelands'
         law with constant index Z, alpha_p = Z (ln eta0 + 9.67)/p_r; the Eyring stress 2 gamma/alpha(T, p) rises as
-        alpha falls. The limiting shear coefficient stays: measured changes with temperature are within 0.003. Raises
-        InputError if the temperature is no number or out of range, or a law does not hold for the lubricant. Its
-        changed values have the tag D. At its own temperature it is the lubricant itself. The temperature is in K, or
-        text with its unit such as "50 degC"; -20 to 150 degC.
+        alpha falls. The limiting shear coefficient stays: measured changes with temperature are within 0.003.
+
+        Parameters
+        ----------
+        temperature : float or str
+            Inlet temperature [K], or text with its unit such as "50 degC"; -20 to 150 degC.
+
+        Returns
+        -------
+        Lubricant
+            Its changed values have the tag D. At its own temperature it is the lubricant itself.
+
+        Raises
+        ------
+        InputError
+            If the temperature is no number or out of range, or a law does not hold for the lubricant.
 
         Examples
         --------

@@ -35,13 +35,6 @@ COLUMNS = ("quantity", "units", "design", "value", "difference [%]", "low [%]", 
 def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = None) -> pd.DataFrame:
     """Compare results, or the designs of a study.
 
-    Raises InputError for fewer than two results or designs, or a study beside a result.
-
-    The table has a line a quantity and design: `quantity`, `units`, `design`, `value`, `difference [%]` from the first
-    design, and `low [%]` to `high [%]`, the 95 % range of the energy's difference by the scatter of the wind, which
-    both designs have in common; NaN where there is none. `attrs`: `notes`, what restricts the comparison; `inputs`,
-    what differs, by key and design; `ranking`, a sentence.
-
     Parameters
     ----------
     *results : xarray.Dataset or path
@@ -49,6 +42,19 @@ def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = 
     by : str or sequence of str, optional
         Of a study: the labels that distinguish designs, `bearing`; every bearing, lubricant, model and parameter if not
         given. Runs that differ in other labels are pooled. Without weights in the study all its cases count alike.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A line a quantity and design: `quantity`, `units`, `design`, `value`, `difference [%]` from the first design, and
+        `low [%]` to `high [%]`, the 95 % range of the energy's difference by the scatter of the wind, which both designs
+        have in common; NaN where there is none. `attrs`: `notes`, what restricts the comparison; `inputs`, what differs, by
+        key and design; `ranking`, a sentence.
+
+    Raises
+    ------
+    InputError
+        For fewer than two results or designs, or a study beside a result.
 
     Notes
     -----

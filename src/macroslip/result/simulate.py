@@ -37,11 +37,6 @@ def simulate(
 ) -> xr.Dataset:
     """Compute the slip of the rollers of all rows.
 
-    Raises InputError if a roller's load truncates its contact ellipse, or a law does not exist.
-
-    `macroslip.result.dataset` describes the dataset. A roller whose integration failed has a `status` other than 0 and
-    NaN results.
-
     Parameters
     ----------
     case : Case
@@ -50,6 +45,16 @@ def simulate(
     progress : callable, optional
         Called as progress(done, total) whenever rollers are done, and twice a second meanwhile; the rollers of a whole
         bearing are done together. An exception in it ends the simulation.
+
+    Returns
+    -------
+    xarray.Dataset
+        See `macroslip.result.dataset`. A roller whose integration failed has a `status` other than 0 and NaN results.
+
+    Raises
+    ------
+    InputError
+        If a roller's load truncates its contact ellipse, or a law does not exist.
 
     Examples
     --------

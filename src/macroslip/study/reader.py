@@ -35,16 +35,29 @@ def is_study(path: Path) -> bool:
 def open_study(directory: str | PathLike[str]) -> xr.Dataset:
     """Open all results of a study, also while it is being computed.
 
-    `directory` is the folder that `macroslip study` or `run_study` has written. Labels and summary are read at once.
-    Everything else is read, and its checksum compared, when its values are accessed; select cases first, or
-    `.chunk({"case": 50})` with dask, where all together would not fit into memory. Raises InputError if the folder
-    holds no study, or a damaged one; and when values are accessed, if a stored result is gone or damaged.
+    Labels and summary are read at once. Everything else is read, and its checksum compared, when its values are
+    accessed; select cases first, or `.chunk({"case": 50})` with dask, where all together would not fit into memory.
 
-    The dataset is over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`.
-    Coordinates over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters
-    that vary under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
-    case and row, and the variables of `simulate`, all of them as floats. Missing values are NaN: a run that failed or
-    is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time` over (case, sample).
+    Parameters
+    ----------
+    directory : path
+        Folder that `macroslip study` or `run_study` has written.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `case`, one a run of the study in its order, and the dimensions of the results of `simulate`. Coordinates
+        over `case`: `run`, `loads`, the fields of the loads, `bearing`, `lubricant`, `model`, the parameters that vary
+        under their keys, `outcome`, `reason` and `key`. Variables: the summary of `macroslip.study.summary`, over
+        case and row, and the variables of `simulate`, all of them as floats. Missing values are NaN: a run
+        that failed or is missing, orbits and rollers that others have more of. Traces are over `sample`, with `time`
+        over (case, sample).
+
+    Raises
+    ------
+    InputError
+        If the folder holds no study, or a damaged one; and when values are accessed, if a stored result is gone or
+        damaged.
     """
     directory = Path(directory).absolute()
     manifest, runs = _read(directory)

@@ -144,10 +144,7 @@ def run_study(
     """Compute all runs of a study whose results are not there yet.
 
     Without `workers` and `scheduler` the runs are computed in this process: one after the other, or several at once
-    where a run has few rollers or is of the whole bearing. Results do not depend on these arguments. Raises InputError
-    if the study, the folder or the address is wrong, or another process is at work in the folder; MacroslipError if
-    results cannot be stored (a full disk), the scheduler is gone, or a worker has another version. What was reported
-    done stays done. A run that fails does not raise; it is among the `failures` of what is given back.
+    where a run has few rollers or is of the whole bearing. Results do not depend on these arguments.
 
     Parameters
     ----------
@@ -170,6 +167,19 @@ def run_study(
         Stop at the first run that fails, or whose rollers do.
     progress : callable, optional
         Called with the `Progress` after every change.
+
+    Returns
+    -------
+    Ended
+        A run that fails does not raise; it is among `failures`.
+
+    Raises
+    ------
+    InputError
+        If the study, the folder or the address is wrong, or another process is at work in the folder.
+    MacroslipError
+        If results cannot be stored (a full disk), the scheduler is gone, or a worker has another version. What was
+        reported done stays done.
     """
     if workers is not None and scheduler is not None:
         remedy = "Give one of them: start workers, or use others."

@@ -323,9 +323,17 @@ _OF_A_CASE = Case.__annotations__.keys() - StudyFile.__annotations__.keys()
 def read_study(path: str | PathLike[str]) -> Study:
     """Read a study file.
 
-    Bearings and lubricants are read here and now; load files are listed, but not opened. Raises InputError if the file
-    cannot be read, or anything in it is wrong: all problems together, each with file, line and key. The file is YAML,
-    as `macroslip init --example study` writes it; relative paths in it start at its own folder.
+    Bearings and lubricants are read here and now; load files are listed, but not opened.
+
+    Parameters
+    ----------
+    path : path
+        YAML file; `macroslip init --example study` writes one. Relative paths in it start at its own folder.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or anything in it is wrong: all problems together, each with file, line and key.
     """
     path = Path(path)
     text = read_text(path, "the study file cannot be read", where=str(path), remedy=_REMEDY)
