@@ -1,7 +1,7 @@
 """Numbers of skew.md: skew over the orbit of bundled cases, and what it adds to power and thrust.
 
-python docs/skew_study.py               # 12A, 14B, 18C and 24A, two rollers a row, the first 60 s
-python docs/skew_study.py 14B 24A
+python docs/skew_study.py 14B 24A 12A   # two rollers a row, the first 60 s
+python docs/skew_study.py all           # the 21 cases, under Eyring's law
 python docs/skew_study.py check 14B     # powers of a result against contacts at the slip that a skewed roller has
 python docs/skew_study.py speed 14B
 python docs/skew_study.py coupled 14B 24A   # imposed orbits, and the whole bearing
@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from macroslip import Case, HubLoads, Laws, Traces, Window, simulate
+from macroslip import Case, HubLoads, Laws, Traces, Window, bundled_cases, simulate
 from macroslip.bearing.geometry import roller_radius
 from macroslip.case.case import DYNAMICS, WHOLE_BEARING
 from macroslip.compiled import jit
@@ -47,11 +47,15 @@ ORBITS = {
 CAGES = {"pressing spar": Cage(), "stop only": Cage(alignment="none")}
 
 
-def main(names: list[str]) -> None:
+def main(names: list[str], variants: list[str]) -> None:
     for name in names:
         loads = HubLoads.bundled(name)
-        base = Case(loads=loads, rollers=ROLLERS, window=Window(end=float(loads.time[0]) + END), contact_details=False)
-        for variant, changes in VARIANTS.items():
+        base = Case(
+            loads=loads, rollers=ROLLERS, window=Window(end=float(loads.time[0]) + END), contact_details=False,
+            traces=Traces(step=0.1),
+        )  # fmt: skip
+        for variant in variants:
+            changes = VARIANTS[variant]
             for cage, described in CAGES.items():
                 found = simulate(replace(base, cage=described, **changes))
                 energy = found.energy.sel(interface=["inner", "outer"]).sum(("interface", "roller")).values
@@ -64,7 +68,7 @@ def main(names: list[str]) -> None:
                 print(
                     f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)}  skew "
                     + " ".join(f"{a:.2f}..{b:.2f}" for a, b in zip(low, high, strict=True))
-                    + f" mrad  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN",
+                    + f" mrad  ends {float(found.stop_force.max()):.1f} N  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN",
                     flush=True,
                 )
 
@@ -222,4 +226,7 @@ if __name__ == "__main__":
     elif sys.argv[1:2] in (["check"], ["speed"], ["ends"]):
         {"check": check, "speed": speed, "ends": ends}[sys.argv[1]](sys.argv[2])
     else:
-        main(sys.argv[1:] or ["12A", "14B", "18C", "24A"])
+        every = sys.argv[1:] == ["all"]
+        main(
+            bundled_cases() if every else sys.argv[1:] or ["14B", "24A", "12A"], ["eyring"] if every else list(VARIANTS)
+        )
