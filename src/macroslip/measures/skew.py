@@ -47,9 +47,9 @@ def _power_of_ends(roller, stop, push, speed):
 
 
 @jit
-def _add(skewing, roller, steps, j, places, window, before, sums, by_place):
-    """Add skew's power to steps, and sum up; `before` holds what was added at the end of the last step [W]."""
-    table, guide = skewing
+def _add(skewing, roller, steps, j, places, window, totals):
+    """Add skew's power to steps, and sum up; the first of `totals` holds what was added at the end of the last step [W]."""
+    (table, guide), (before, sums, by_place) = skewing, totals
     for n in range(steps.shape[0]):
         step = steps[n, j]
         for i in range(3):
@@ -120,7 +120,8 @@ class SkewMeasures:
     def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
         """Add skew's power to the steps of roller `j`, whose stages are at these places on the orbit, in the buffer itself."""
         roller = self._roller.body[0], self._roller.tables.ctypes.data
-        _add(self._skewing[:2], roller, steps, j, places, self._window, self._before, self._sums, self.by_place)
+        totals = self._before, self._sums, self.by_place
+        _add(self._skewing[:2], roller, steps, j, places, self._window, totals)
 
     def turn(self, looks: np.ndarray) -> None:
         """Let the contacts of looks slide as those of the skewed roller, where the rings press it."""
