@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
-from macroslip import Bearing, Laws, Lubricant
+from macroslip import Bearing, BearingLoads, Case, Laws, Lubricant, simulate
 from macroslip.contact.laws import prepare
 from macroslip.roller.skew import equilibrium, pocket, raceways
 
@@ -24,6 +24,12 @@ SPEED, LOAD = -0.39594, 40e3
 STOP = pocket(BASE, "conforming-pocket", 0.5e-3).largest
 SKEWS = 2e-4 * np.sinh(np.linspace(0.0, np.arcsinh(STOP / 2e-4), 13))
 INNER, OUTER = np.linspace(0.96, 0.985, 5), np.linspace(0.96, 0.985, 5)
+#: Of the last map: radial load [N], F_a/F_r, and speeds of the shaft [rpm].
+RADIAL, RATIOS, SPEEDS = (
+    300e3,
+    np.array([0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5]),
+    np.array([3.0, 6.0, 10.0, 15.0, 20.463]),
+)
 LOADS, TEMPERATURES = np.geomspace(5e3, 120e3, 9), np.linspace(20.0, 90.0, 6)
 PHYSICAL = Laws.physical()
 ROWS = {
@@ -83,6 +89,24 @@ def over_load() -> Rest:
     return Rest(*(np.array([getattr(one, name) for one in lines]) for name in Rest._fields))
 
 
+def over_thrust() -> Rest:
+    """Over the shaft's speed and F_a/F_r: means over a case's downwind row, whose rollers spars press; the force over F_a."""
+    lines = []
+    for rpm in SPEEDS:
+        speed = rpm * np.pi / 30.0
+        line = []
+        for ratio in RATIOS:
+            loads = BearingLoads.constant([0.0, -RADIAL, ratio * RADIAL], speed, 3.0 * 2.0 * np.pi / (0.454 * speed))
+            found = simulate(
+                Case(loads=loads, rollers=[0], laws=PHYSICAL.but(skew="quasi-static"), contact_details=False),
+            ).sel(row="downwind")
+            energy, added = float(found.energy[0, :2].sum()), float(found.skew_energy.sum())
+            thrust = float(found.frictional_thrust) / (ratio * RADIAL)
+            line.append((1e3 * float(found.skew_by_position.mean()), energy / (energy - added), 100.0 * thrust))
+        lines.append(line)
+    return Rest(*np.moveaxis(np.array(lines), -1, 0))
+
+
 def draw(axes, x, y, found: Rest, labels: tuple[str, str]) -> None:
     """Three maps."""
     norms = (
@@ -103,8 +127,8 @@ def draw(axes, x, y, found: Rest, labels: tuple[str, str]) -> None:
 def main() -> None:
     """Print the maps and write the picture beside this file."""
     matplotlib.rcParams["svg.hashsalt"] = "skew"
-    figure = Figure(figsize=(11, 13), layout="constrained")
-    axes = figure.subplots(4, 3)
+    figure = Figure(figsize=(11, 16), layout="constrained")
+    axes = figure.subplots(5, 3)
     for line, (name, (laws, celsius)) in zip(axes, ROWS.items(), strict=False):
         found = over_osculation(laws, celsius)
         draw(line, INNER, OUTER, found, ("inner osculation", f"{name}\nouter osculation"))
@@ -114,6 +138,13 @@ def main() -> None:
     for one in axes[3]:
         one.set_xscale("log")
     print("over load", np.round(found.skew, 2).tolist())
+    found = over_thrust()
+    labels = ("axial over radial load", "Eyring, a spar presses\nspeed [rpm]")
+    draw(axes[4], np.arange(RATIOS.size), np.arange(SPEEDS.size), found, labels)
+    for one in axes[4]:
+        one.set_xticks(np.arange(RATIOS.size), [f"{x:g}" for x in RATIOS])
+        one.set_yticks(np.arange(SPEEDS.size), [f"{x:.3g}" for x in SPEEDS])
+    print("over thrust", *(np.round(values, 3).tolist() for values in found), sep="\n")
     for one, title in zip(
         axes[0], ("skew at rest [mrad]", "power / power without skew", "axial force / load [%]"), strict=True
     ):

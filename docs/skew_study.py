@@ -1,10 +1,11 @@
 """Numbers of skew.md: skew over the orbit of bundled cases, and what it adds to power and thrust.
 
-python docs/skew_study.py               # 12A, 14B, 18C and 24A, two rollers a row, the first 60 s
-python docs/skew_study.py 14B 24A
+python docs/skew_study.py 14B 24A 12A   # two rollers a row, the first 60 s
+python docs/skew_study.py all           # the 21 cases, under Eyring's law
 python docs/skew_study.py check 14B     # powers of a result against contacts at the slip that a skewed roller has
 python docs/skew_study.py speed 14B
-python docs/skew_study.py coupled 14B 24A   # rest under spars as they press on imposed orbits, and on coupled ones
+python docs/skew_study.py coupled 14B 24A   # imposed orbits, and the whole bearing
+python docs/skew_study.py ends 14B          # what the friction at stops would do to rollers
 python docs/skew_study.py damage 12B 14B    # wear and criteria of damage, three rollers a row, the whole case
 """
 
@@ -16,31 +17,45 @@ from dataclasses import replace
 
 import numpy as np
 
-from macroslip import Case, HubLoads, Laws, Traces, Window, simulate
+from macroslip import Case, HubLoads, Laws, Traces, Window, bundled_cases, simulate
 from macroslip.bearing.geometry import roller_radius
+from macroslip.case.case import DYNAMICS, WHOLE_BEARING
+from macroslip.compiled import jit
+from macroslip.constants import ZERO_CELSIUS
 from macroslip.contact.laws import prepare
 from macroslip.contact.skewed import resultants
+from macroslip.measures.skew import _power_of_ends
 from macroslip.result.damage import damage as criteria
 from macroslip.result.prepared import prepare as prepare_case
+from macroslip.roller.model import with_tables
 from macroslip.roller.skew import equilibrium, placed, pocket, raceways
-from macroslip.roller.skew_table import guide_of, skew_table, turned
 from macroslip.whole.cage import Cage
 
 END, ROLLERS = 60.0, [0, 14]
+#: u2 at 20.463 rpm [m/s].
+SPEED = -0.39594
 SKEWED = Laws.physical().but(skew="quasi-static")
 VARIANTS = {
     "eyring": {"laws": SKEWED},
     "limiting shear": {"laws": SKEWED.but(rheology="limiting-shear")},
     "half film": {"laws": SKEWED, "oil_supply": 0.5},
 }
+ORBITS = {
+    "imposed": {}, "coupled": {"dynamics": WHOLE_BEARING},
+    "coupled, cage braked by 10 N": {"dynamics": WHOLE_BEARING, "cage": Cage(guide_friction=10.0)},
+}  # fmt: skip
 CAGES = {"pressing spar": Cage(), "stop only": Cage(alignment="none")}
 
 
-def main(names: list[str]) -> None:
+def main(names: list[str], variants: list[str]) -> None:
     for name in names:
         loads = HubLoads.bundled(name)
-        base = Case(loads=loads, rollers=ROLLERS, window=Window(end=float(loads.time[0]) + END), contact_details=False)
-        for variant, changes in VARIANTS.items():
+        base = Case(
+            loads=loads, rollers=ROLLERS, window=Window(end=float(loads.time[0]) + END), contact_details=False,
+            traces=Traces(step=0.1),
+        )  # fmt: skip
+        for variant in variants:
+            changes = VARIANTS[variant]
             for cage, described in CAGES.items():
                 found = simulate(replace(base, cage=described, **changes))
                 energy = found.energy.sel(interface=["inner", "outer"]).sum(("interface", "roller")).values
@@ -53,7 +68,7 @@ def main(names: list[str]) -> None:
                 print(
                     f"{name} {variant:15s} {cage:14s} energy x {np.round(energy / (energy - added), 3)}  skew "
                     + " ".join(f"{a:.2f}..{b:.2f}" for a, b in zip(low, high, strict=True))
-                    + f" mrad  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN",
+                    + f" mrad  ends {float(found.stop_force.max()):.1f} N  thrust {np.round(thrust)} N = {np.round(100 * thrust / axial, 2)} % of {axial / 1e3:.0f} kN",
                     flush=True,
                 )
 
@@ -61,13 +76,15 @@ def main(names: list[str]) -> None:
 def speed(name: str) -> None:
     """Processor time of a case with all rollers, straight and skewed."""
     base = Case(loads=HubLoads.bundled(name), window=Window(end=2.0 * END), contact_details=False)
-    seconds = []
-    for laws in (Laws.physical(), SKEWED):
-        simulate(replace(base, laws=laws, rollers=[0]))  # its tables
-        began = time.process_time()
-        simulate(replace(base, laws=laws))
-        seconds.append(time.process_time() - began)
-    print(f"{name}: {seconds[0]:.2f} s straight, {seconds[1]:.2f} s with skew")
+    for dynamics in DYNAMICS:
+        seconds = []
+        for laws in (Laws.physical(), SKEWED):
+            case = replace(base, laws=laws, dynamics=dynamics)
+            simulate(replace(case, rollers=[0], window=Window(end=20.0)))  # its tables
+            began = time.process_time()
+            simulate(case)
+            seconds.append(time.process_time() - began)
+        print(f"{name} {dynamics}: {seconds[0]:.2f} s straight, {seconds[1]:.2f} s with skew")
 
 
 def check(name: str) -> None:
@@ -104,41 +121,72 @@ def check(name: str) -> None:
 
 
 def coupled(names: list[str]) -> None:
-    """Rest of the rollers under the spars' forces of imposed orbits and of the whole bearing, whose cage holds nothing else."""
+    """Rollers above 1 kN on imposed orbits and in the whole bearing, what holds them, and what both make of energies."""
     for name in names:
         loads = HubLoads.bundled(name)
-        start = float(loads.time[0])
-        for described, changes in {"imposed": {}, "coupled": {"dynamics": "whole-bearing"}}.items():
-            case = Case(
-                loads=loads, window=Window(start=start + 20.0, end=start + END), contact_details=False,
-                traces=Traces(step=0.05, start=start + 20.0), **changes,
-            )  # fmt: skip
-            ready, found = prepare_case(case), simulate(case)
-            prepared = prepare(SKEWED, case.bearing, case.oil, 1)
-            table = skew_table(prepared, case.bearing, ready.box)
-            stop = pocket(case.bearing, "conforming-pocket", case.cage.gap)
-            for row, side in (("downwind", 1), ("upwind", -1)):
-                guide = guide_of(stop, side)
-                one = found.sel(row=row).stack(state=("roller", "time"))
-                one = one.isel(state=np.flatnonzero(one.roller_load.values > 1e3))
-                if not one.sizes["state"]:
+        start = float(loads.time[0]) + 20.0
+        base = Case(
+            loads=loads, laws=SKEWED, window=Window(start=start, end=start + 40.0), contact_details=False,
+            traces=Traces(step=0.05, start=start),
+        )  # fmt: skip
+        for described, changes in ORBITS.items():
+            found = simulate(replace(base, **changes))
+            for row in found.row.values:
+                one = found.sel(row=row)
+                pressed = one.roller_load.values > 1e3
+                if not pressed.any():
                     continue
-                speed = one.spin_pure.values * roller_radius(case.bearing)
-                states = zip(one.roller_load.values, speed, one.cage_force.values, strict=True)
-                at = np.array(
-                    [
-                        (rest.skew, rest.inner_power + rest.outer_power)
-                        for rest in (turned(table, guide, *state) for state in states)
-                    ]
-                )
-                power = one.power.sel(interface=["inner", "outer"]).sum("interface").values
-                push, skew = np.abs(one.cage_force.values), np.abs(1e3 * at[:, 0])
+                push, skew = np.abs(one.cage_force.values[pressed]), 1e3 * np.abs(one.skew_angle.values[pressed])
+                inner, outer, cage = one.energy.sum("roller").values
+                ends, raceways = float(one.stop_energy.sum()), inner + outer
                 print(
                     f"{name} {described} {row}: spars press with {np.median(push):.2f} N (median; mean {push.mean():.2f}), skew "
                     f"{np.quantile(skew, [0.1, 0.5, 0.9]).round(2)} mrad (a tenth, half, nine tenths), at the stop "
-                    f"{100.0 * (skew > 0.999e3 * stop.largest).mean():.0f} %, power x {1.0 + at[:, 1].sum() / power.sum():.3f}",
+                    f"{100.0 * (one.stop_force.values[pressed] > 0.0).mean():.0f} %, energy of raceways x "
+                    f"{raceways / (raceways - float(one.skew_energy.sum())):.3f}; energies {raceways:.0f} J, cage {cage:.0f} J "
+                    f"with {ends:.0f} J of ends; thrust {float(one.frictional_thrust):.0f} N",
                     flush=True,
                 )
+
+
+def ends(name: str) -> None:
+    """What the friction of the ends that hold a roller at its stop would do to it, were it in the equations of motion."""
+    for celsius in (35.0, 80.0):
+        case = Case(loads=HubLoads.bundled(name), laws=SKEWED, temperature=celsius + ZERO_CELSIUS)
+        ready = prepare_case(case)
+        roller = with_tables(ready.models, ready.box)[0]["downwind"]
+        pair, stop = raceways(ready.model.laws, case.bearing, 1), pocket(case.bearing, "conforming-pocket", 0.5e-3)
+        for load in (5e3, 1e4, 2e4, 3.5e4, 5e4):
+            at = equilibrium(pair, ready.model.laws, load, SPEED, stop.largest)
+            force = abs(float(at.moment)) / stop.arm
+            power = power_of_ends(roller.body, roller.tables.ctypes.data, force, 3.0, SPEED)
+            brake = power / abs(SPEED)
+            tilt, _, middles = placed(pair, np.array([load]), at.tractions.reshape(2, 1))
+            # The roller's own slip, a little more for the slope of its spin, and as much less as the brake makes it lag.
+            more = np.array([0.0, 1e-6])
+            inner, outer = contacts(pair, load, at.slip + more, stop.largest, middles, tilt)
+            slope = np.diff(inner.spin + outer.spin)[0] / 1e-6
+            inner, outer = contacts(pair, load, at.slip - np.array([0.0, brake / slope]), stop.largest, middles, tilt)
+            moment = inner.moment + inner.pressure_moment + outer.moment + outer.pressure_moment
+            raceway = inner.power + outer.power
+            print(
+                f"{name} {celsius:.0f} degC {load / 1e3:.0f} kN: {force:.2f} N an end, brake {brake:.2f} N = "
+                f"{100 * brake / (0.04 * load):.2f} % of 4 % of the load; slip by {-1e3 * brake / slope:.4f} mm/s, moment by "
+                f"{100 * (moment[1] / moment[0] - 1):.2f} %, power of raceways by {100 * (raceway[1] / raceway[0] - 1):.2f} %; "
+                f"ends {power:.2f} W, raceways {raceway[0]:.2f} W"
+            )
+
+
+def contacts(pair, load, slip, skew, middles, tilt) -> list:
+    """Resultants of both raceways at several slips [m/s]."""
+    load, speed = np.full(slip.shape, load), np.full(slip.shape, SPEED)
+    return [resultants(one, load, speed, slip, skew, middle, tilt) for one, middle in zip(pair, middles, strict=True)]
+
+
+@jit
+def power_of_ends(body, tables, stop, push, speed):
+    """`_power_of_ends` from Python."""
+    return _power_of_ends((body[0], tables), stop, push, speed)[0]
 
 
 def damage(names: list[str]) -> None:
@@ -175,7 +223,10 @@ def damage(names: list[str]) -> None:
 if __name__ == "__main__":
     if sys.argv[1:2] in (["damage"], ["coupled"]):
         {"damage": damage, "coupled": coupled}[sys.argv[1]](sys.argv[2:])
-    elif sys.argv[1:2] in (["check"], ["speed"]):
-        {"check": check, "speed": speed}[sys.argv[1]](sys.argv[2])
+    elif sys.argv[1:2] in (["check"], ["speed"], ["ends"]):
+        {"check": check, "speed": speed, "ends": ends}[sys.argv[1]](sys.argv[2])
     else:
-        main(sys.argv[1:] or ["12A", "14B", "18C", "24A"])
+        every = sys.argv[1:] == ["all"]
+        main(
+            bundled_cases() if every else sys.argv[1:] or ["14B", "24A", "12A"], ["eyring"] if every else list(VARIANTS)
+        )

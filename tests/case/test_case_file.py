@@ -21,6 +21,7 @@ from macroslip import (
     InputError,
     Laws,
     Radau,
+    simulate,
 )
 from macroslip.case.case_file import case_schema, read_case
 
@@ -112,6 +113,21 @@ cage: {gap: 0.2 mm, impact: dry, damping: 30 s/m, arrangement: per-row, mass: 40
     )  # fmt: skip
     assert case.as_dict()["cage"]["gap"] == 2e-4
     assert not {"dynamics", "cage"} & set(read_case(write(LOADS)).as_dict())
+
+
+@pytest.mark.slow
+def test_a_whole_bearing_whose_rollers_skew(write):
+    """From file to result: both rows' rollers, and the case that the result holds."""
+    loads = "loads: {main_bearing: {force: [0 N, -60 kN, 40 kN], shaft_speed: 20 rpm, duration: 1 s}}\n"
+    text = (
+        "dynamics: whole-bearing\nlaws: {model: physical, skew: quasi-static}\ncage: {gap: 0.3 mm, skew_play: 4 mrad}\n"
+    )
+    found = simulate(read_case(write(loads + text)))
+    assert (found.status == 0).all() and found.attrs["dynamics"] == "whole-bearing"
+    told = json.loads(found.attrs["input"])
+    assert (told["cage"]["skew_play"], told["cage"]["gap"], told["laws"]["skew"]) == (4e-3, 3e-4, "quasi-static")
+    assert float(found.skew_energy.sum()) > 0.0 and float(found.stop_energy.sum()) > 0.0
+    assert np.nanmax(np.abs(found.skew_by_position)) <= 4e-3
 
 
 @pytest.mark.parametrize(

@@ -332,13 +332,6 @@ def _dynamics(case: Case) -> Iterator[InputError]:
         if skews:
             yield from _raised(case.cage.check_fit, case.bearing)
         return
-    if skews:
-        yield InputError(
-            "skew is computed on imposed orbits only: a pocket of the whole bearing has no ends that could hold a roller",
-            where="laws.skew",
-            allowed="none, with dynamics: whole-bearing",
-            remedy="Set dynamics: imposed-orbit, or laws.skew: none.",
-        )
     if isinstance(case.loads, RollerLoads):
         yield InputError(
             "loads of the rollers are given over their places, but in a whole bearing the rollers' places, and with them "

@@ -33,7 +33,7 @@ class RollerMeasures:
         self.row = row
         self.totals: Totals = new_totals(wanted.edges, wanted.highest_speed)
         self.film_times, self._states = np.zeros((2, 3)), Batch(END)
-        self.skew = SkewMeasures(row.skewing, wanted.edges[0]) if row.skewing else None
+        self.skew = SkewMeasures(row.skewing, row.roller, wanted.edges[0]) if row.skewing else None
         places = row.contacts, row.motion, start_angle, self.skew
         self.looker = Looker(wanted, row.roller, row.model.laws, *places) if wanted.details else None
         self._last: np.ndarray | np.void = np.zeros((), END)

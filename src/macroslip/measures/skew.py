@@ -7,10 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from macroslip.compiled import jit
+from macroslip.compiled import jit, jit_inline
+from macroslip.contact.look_up import log_speed
 from macroslip.contact.skewed import slip_lines
 from macroslip.measures.details import SECTORS
 from macroslip.measures.totals import RACEWAYS
+from macroslip.roller.forces import cage_contact
+from macroslip.roller.model import Roller
 from macroslip.roller.skew import Pair
 from macroslip.roller.skew_table import Guide, SkewTable, turned
 
@@ -26,27 +29,49 @@ class Skewing(NamedTuple):
     pair: Pair
 
 
+@jit_inline
+def _power_of_ends(roller, stop, push, speed):
+    """Power of friction that a stop adds at the cage, and the asperities' part of it [W].
+
+    Spars hold the roller with an end each, by the force `stop` [N]; one of them presses with `push` [N] beside. The roller's
+    surface passes them at `speed` [m/s].
+    """
+    body, tables = roller
+    power, rough = 0.0, 0.0
+    if stop > 0.0:
+        for load, sign in ((stop + abs(push), 1.0), (stop, 1.0), (abs(push), -1.0)):
+            found = cage_contact(body, tables, load, speed, log_speed(speed))
+            power -= sign * found.friction * speed
+            rough += sign * found.asperity_power
+    return power, rough
+
+
 @jit
-def _add(table, guide, steps, j, places, window, before, sums, by_place):
-    """Add skew's power to steps, and sum up; `before` holds what was added at the end of the last step [W]."""
+def _add(skewing, roller, steps, j, places, window, totals):
+    """Add skew's power to steps, and sum up; the first of `totals` holds what was added at the end of the last step [W]."""
+    (table, guide), (before, sums, by_place) = skewing, totals
     for n in range(steps.shape[0]):
         step = steps[n, j]
-        for i in range(2):
+        for i in range(3):
             step.power_before[i] += before[i]
         counted = step.start >= window and step.end > step.start
         for k in range(step.stages):
-            load, weight, inner, outer = step.elastic_load[k], step.weight[k], 0.0, 0.0
+            load, weight, inner, outer, ends = step.elastic_load[k], step.weight[k], 0.0, 0.0, 0.0
             if load > 0.0:
                 found = turned(table, guide, load, step.outer_speed[k], step.cage_load[k])
                 inner, outer = found.inner_power, found.outer_power
+                ends, rough = _power_of_ends(roller, abs(found.held) / guide.arm, step.cage_load[k], step.cage_speed[k])
                 step.power[k, 0] += inner
                 step.power[k, 1] += outer
+                step.power[k, 2] += ends
                 step.rough[k, 0] += found.inner_rough
                 step.rough[k, 1] += found.outer_rough
+                step.rough[k, 2] += rough
                 if counted:
                     sums[0] += weight * inner
                     sums[1] += weight * outer
                     sums[2] = max(sums[2], found.left)
+                    sums[3] += weight * ends
                     place = by_place[places[n, k]]
                     place[0] += weight
                     place[1] += weight * found.skew
@@ -54,7 +79,7 @@ def _add(table, guide, steps, j, places, window, before, sums, by_place):
                     place[3] += weight * (inner + outer)
             # Rows between the stages of a step come before it and have its start.
             if k == step.stages - 1 and not (step.weight[0] == 0.0 and step.end > step.start):
-                before[0], before[1] = inner, outer
+                before[0], before[1], before[2] = inner, outer, ends
 
 
 @jit
@@ -76,6 +101,8 @@ class SkewMeasures:
     Parameters
     ----------
     skewing : Skewing
+    roller : Roller
+        For friction at the cage.
     window : float
         Start of the window [s].
 
@@ -85,15 +112,16 @@ class SkewMeasures:
         Time under the rings' load [s], and integrals over it of ψ [rad s], axial force [N s] and added power [J].
     """
 
-    def __init__(self, skewing: Skewing, window: float):
-        self._skewing, self._window = skewing, window
-        self._sums, self._before = np.zeros(3), np.zeros(2)
+    def __init__(self, skewing: Skewing, roller: Roller, window: float):
+        self._skewing, self._roller, self._window = skewing, roller, window
+        self._sums, self._before = np.zeros(4), np.zeros(3)
         self.by_place = np.zeros((SECTORS, 1 + len(BY_PLACE)))
 
     def add(self, steps: np.ndarray, j: int, places: np.ndarray) -> None:
         """Add skew's power to the steps of roller `j`, whose stages are at these places on the orbit, in the buffer itself."""
-        table, guide, _ = self._skewing
-        _add(table, guide, steps, j, places, self._window, self._before, self._sums, self.by_place)
+        roller = self._roller.body[0], self._roller.tables.ctypes.data
+        totals = self._before, self._sums, self.by_place
+        _add(self._skewing[:2], roller, steps, j, places, self._window, totals)
 
     def turn(self, looks: np.ndarray) -> None:
         """Let the contacts of looks slide as those of the skewed roller, where the rings press it."""
@@ -114,6 +142,11 @@ class SkewMeasures:
     def residual(self) -> float:
         """Largest moment about the contact normal that a rest in the window leaves [N m]."""
         return float(self._sums[2])
+
+    @property
+    def stop_energy(self) -> float:
+        """Energy of friction that stops add at the cage in the window [J]."""
+        return float(self._sums[3])
 
     def traces(self, raw: np.ndarray) -> dict[str, np.ndarray]:
         """Traces by name, from states of `END`; skew and tilt are NaN where the rings do not press the roller."""

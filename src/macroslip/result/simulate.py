@@ -197,8 +197,11 @@ def _run_whole(ready: Prepared, wanted: Wanted, bearing, stop: threading.Event):
     case, motion = ready.case, ready.motion
     assembly, report = assembled(bearing, ready.box)
     count, names = case.bearing.rollers_per_row, row_names(case.bearing)
+    skews = skewing(case, ready.model.laws, ready.box)
     rows = {
-        row: Row(bearing.models[row], Roller(assembly.bodies[k : k + 1], assembly.tables), motion, wanted)
+        row: Row(
+            bearing.models[row], Roller(assembly.bodies[k : k + 1], assembly.tables), motion, wanted, skews.get(row)
+        )
         for k, row in enumerate(names)
     }
     chosen = [(row, number) for row in names for number in case.roller_numbers]

@@ -35,6 +35,11 @@ VARIABLES: dict[str, tuple[tuple[str, ...], str, str]] = {
         "N m",
         "largest moment about the contact normal in the window that neither spar nor stop carries at the rest that was found",
     ),
+    "stop_energy": (
+        ("row", "roller"),
+        "J",
+        "energy of friction at the two ends of spars that hold a roller at its stop in the window; part of the energy at the cage",
+    ),
     "frictional_thrust": (
         ("row",),
         "N",
@@ -87,8 +92,10 @@ def thrust_on_ring(case: Case, model: RollerModel, ring: RingGeometry, motion: M
 def values(case: Case, table: list[list[SkewMeasures]], failed: np.ndarray, span: float) -> dict[str, np.ndarray]:
     """Variables beside traces, of measures by row and roller, for a window of `span` [s]."""
     energy = np.array([[one.energy for one in line] for line in table])
-    residual = np.array([[one.residual for one in line] for line in table])
-    energy[failed] = residual[failed] = np.nan
+    residual, ends = (
+        np.array([[getattr(one, name) for one in line] for line in table]) for name in ("residual", "stop_energy")
+    )
+    energy[failed] = residual[failed] = ends[failed] = np.nan
     sums = np.array([[one.by_place for one in line] for line in table])
     sums[failed] = np.nan
     total = np.nansum(sums, axis=1)
@@ -97,5 +104,5 @@ def values(case: Case, table: list[list[SkewMeasures]], failed: np.ndarray, span
         share = case.bearing.rollers_per_row / (~failed).sum(axis=1)
     impulse = total[..., 1 + BY_PLACE.index("axial_force_by_position")].sum(axis=1)
     thrust = np.where(failed.all(axis=1), np.nan, impulse * share / span * math.cos(case.bearing.contact_angle))
-    found = {"skew_energy": energy, "skew_residual": residual, "frictional_thrust": thrust}
+    found = {"skew_energy": energy, "skew_residual": residual, "stop_energy": ends, "frictional_thrust": thrust}
     return found | dict(zip(BY_PLACE, np.moveaxis(means, -1, 0), strict=True))
