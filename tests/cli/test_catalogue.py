@@ -112,6 +112,8 @@ def test_a_bearing_file_to_start_from(folder, macroslip):
     own, base = (Bearing.read(name).model_dump() for name in ("bearing.yaml", "skf-240-600-bc"))
     assert own | {"name": "", "title": ""} == base | {"name": "", "title": ""}
     assert macroslip("bearing", "init").code == 2
+    assert macroslip("bearing", "init", "-o", "other.yaml").code == 0
+    assert Bearing.read("other.yaml").name == "other"
     assert macroslip("bearing", "init", "--force").code == 0
 
 
