@@ -186,15 +186,11 @@ def _print_rows(dataset: xr.Dataset) -> None:
     life = years(float(dataset.basic_life))
     modified = years(float(dataset.modified_reference_life.sel(load_along_roller="hertz")))
     below = number(100.0 * float(dataset.share_below_minimum_load))
-    loaded = ""
-    if "roller_load" in dataset:
-        shares = (100.0 * (dataset.roller_load > 0.0)).mean(("roller", "time"))
-        each = (f"{float(shares.sel(row=row)):.3g} % {row}" for row in dataset.row.values)
-        loaded = f"; rollers carry load {', '.join(each)}"
+    loaded = ", ".join(f"{100.0 * share:.3g} % {row}" for row, share in dataset.loaded_share.to_series().items())
     typer.echo(
         f"beside slip: static safety {safety}, L10h {life}, modified reference life {modified}, largest pressure "
         f"{number(float(dataset.largest_pressure.max()) / 1e9)} GPa, kappa {kappa}, below the minimum load {below} % of the "
-        f"time{loaded}"
+        f"time; rollers carry load {loaded}"
     )
 
 

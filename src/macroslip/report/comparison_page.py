@@ -105,7 +105,7 @@ def comparison_tables(found: pd.DataFrame) -> list[Table]:
     shown = [(key, *(_short(values[name]) for name in names)) for key, values in inputs[:_MOST_INPUTS]]
     more = f"; the first {_MOST_INPUTS} of {len(inputs)}" if len(inputs) > _MOST_INPUTS else ""
     return [
-        Table(headings, rows, _RANGE if any("(" in cell for row in rows for cell in row[1:]) else "Side by side"),
+        Table(headings, rows, _RANGE if any("(" in cell for row in rows for cell in row[1:]) else "Headline numbers"),
         Table(("input", *names), shown, f"Inputs that differ{more}"),
     ]
 
