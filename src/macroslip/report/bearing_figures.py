@@ -357,7 +357,7 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
     axes.set_rscale("log")
     axes.set_rlim(1e-1, max(10.0, 2.0 * float(values.max())))
     # Looking downwind +X0 is on the left, and φ runs clockwise.
-    return _round(axes, "W", ["+X0", "top", "−X0", "bottom"], f"{row} row [N]")
+    return _round(axes, "W", ["left", "top", "right", "bottom"], f"{row} row [N]")
 
 
 def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:

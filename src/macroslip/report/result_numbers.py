@@ -217,12 +217,14 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
     exponents = result.wohler_exponent.values.tolist()
     ranges = [
         (
-            f"{load} load",
+            load,
             *(rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one)) for one in exponents),
         )
         for load in result["load"].values.tolist()
     ]
-    loads = Table(("damage-equivalent load, range at 1 Hz", *(f"exponent {one:g}" for one in exponents)), ranges)
+    loads = Table(
+        ("load", *(f"exponent {one:g}" for one in exponents)), ranges, "Damage-equivalent load, range at 1 Hz"
+    )
     return [Table(("bearing", "value"), whole), Table(headings, raceways), loads]
 
 
