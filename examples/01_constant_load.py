@@ -17,6 +17,6 @@ print(f"lowest spin: {100 * float(roller.min_spin_ratio):.1f} % of pure rolling"
 for name in ("inner", "outer", "cage"):
     energy = float(roller.orbit_energy.sel(interface=name).mean())
     peak = float(roller.peak_power.sel(interface=name).max())
-    print(f"{name:5}: {1e3 * energy:8.3f} mJ an orbit, at most {peak:.3g} W")
+    print(f"{name:5}: {energy:.3g} J an orbit, at most {peak:.3g} W")
 unloaded = roller.time.values[roller.roller_load.values == 0.0]
 print(f"share of the time without load: {100 * unloaded.size / roller.time.size:.1f} %")

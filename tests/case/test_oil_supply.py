@@ -68,7 +68,7 @@ def test_old_keys_are_spoken_of_beside_a_result(laws):
         (case(laws, dynamics="whole-bearing", cage=cage), "cage.film_fullness"),
     ):
         result = xr.Dataset(attrs={"oil_supply_note": supply_note(one)})
-        assert doubtful_result(result) == [f"{keys}: {ADVICE}"]
+        assert doubtful_result(result) == [f"{keys}: {ADVICE}."]
     assert doubtful_result(xr.Dataset(attrs={"oil_supply_note": supply_note(case(laws))})) == []
 
 

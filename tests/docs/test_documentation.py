@@ -58,9 +58,9 @@ def test_studies_page_names_every_key_of_a_study():
     assert [name for name in choices if name not in quoted] == []
 
 
-def test_studies_page_has_a_sentence_on_every_outcome():
+def test_studies_page_has_a_line_for_every_outcome():
     text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
-    assert [outcome for outcome in Outcome if f"| `{outcome}` | " not in text] == []
+    assert [outcome for outcome in Outcome if f"| `{outcome}` |" not in text] == []
 
 
 def test_studies_pages_name_every_file_every_table_and_every_variable(tmp_path):

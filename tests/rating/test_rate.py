@@ -136,6 +136,9 @@ def test_a_bearing_without_load(bearing):
     found = rated(bearing, [0.0, 0.0, 0.0])
     assert math.isinf(found.static_safety) and math.isinf(found.basic_life) and np.isinf(found.reference_life).all()
     assert (found.share_below_minimum_load, found.largest_pressure.max()) == (1.0, 0.0)
+    assert found.loaded_share.values.tolist() == [0.0, 0.0]
+    # Under thrust alone one row carries all round, and the other nothing.
+    assert rated(bearing, [0.0, 0.0, 60e3]).loaded_share.values.tolist() == [1.0, 0.0]
 
 
 def test_speed_without_direction(bearing):

@@ -1,5 +1,6 @@
 """Loads and results that cannot be meant so are told in words, and loads as they should be are not."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -29,6 +30,21 @@ def test_bundled_loads_are_plausible():
 def test_what_cannot_be_meant_so_is_told(force, speed, words):
     (found,) = doubtful_loads(HubLoads.constant(force, MOMENT, speed, 1.0), BEARING)
     assert words in found
+
+
+def test_without_a_bearing_a_rotor_is_neither_a_hundredweight_nor_a_ship():
+    (found,) = doubtful_loads(HubLoads.constant((164.0, -2.0, -263.0), MOMENT, 2.14, 1.0))
+    assert found.startswith("the rotor weighs 0.263 kN, and rotors weigh 5 to 10,000 kN")
+
+
+def test_a_rating_by_an_estimated_c_is_told():
+    case = Case(loads=BearingLoads.constant([0.0, -300e3, 60e3], 2.1, 0.5), laws=Laws.paper(), rollers=[0])
+    result = with_rating(simulate(case), case)
+    assert not any("lives are 0.5 to 0.9" in line for line in doubtful_result(result))
+    given = json.loads(result.attrs["input"])
+    given["bearing"]["dynamic_load_rating"]["tag"] = "D"
+    result.attrs["input"] = json.dumps(given)
+    assert any("lives are 0.5 to 0.9" in line for line in doubtful_result(result))
 
 
 def test_means_count_and_not_samples():

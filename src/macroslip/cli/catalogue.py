@@ -191,11 +191,16 @@ def _estimate_bearing(
             f"C by ISO 281 from these dimensions is {ratio:.3f} of the published one; "
             "within one family of bearings that scatters by 1 to 2 %."
         )
+    else:
+        typer.echo("C is that of these dimensions, and lives are 0.5 to 0.9 of those by a maker's; give it by --c.")
+    for name in numbers["in the catalogue"]:
+        typer.echo(f"The catalogue has a bearing of this size: bearing: {name}")
     typer.echo(f"An estimate from published values, not the maker's drawing.\nwritten: {output}")
 
 
 def _numbers(found: EstimatedBearing) -> dict[str, Any]:
     """Every estimated value with its range, and the rating by ISO 281 over the published one, where there is one."""
+    from macroslip import Bearing
     from macroslip.bearing.load_ratings import dynamic_load_rating
 
     bearing, ratio = found.bearing, None
@@ -203,6 +208,8 @@ def _numbers(found: EstimatedBearing) -> dict[str, Any]:
     if published is not None and bearing.provenance["dynamic_load_rating"].tag == "V":
         roller = (bearing.rollers_per_row, bearing.roller_diameter, bearing.roller_length)
         ratio = dynamic_load_rating(2, *roller, bearing.contact_angle, 2 * bearing.pitch_radius) / published
+    known = [Bearing.read(name) for name in Bearing.catalogue()]
+    size = ("bore_diameter", "outside_diameter", "width")
     values = {
         key: {"median": origin.value, "unit": origin.unit, "10 to 90 %": [*origin.range]}
         for key, origin in bearing.provenance.items()
@@ -214,16 +221,21 @@ def _numbers(found: EstimatedBearing) -> dict[str, Any]:
         "bearings that fit the page": count,
         "values": values,
         "C by ISO 281 / published [1]": ratio,
+        "in the catalogue": [
+            one.name for one in known if all(getattr(one, key) == getattr(bearing, key) for key in size)
+        ],
     }
 
 
 def _init(
     path: Annotated[Path, typer.Argument(help="The bearing file to write.")] = Path("bearing.yaml"),
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="The same, as elsewhere.")] = None,
     force: Force = False,
 ) -> None:
     """Write a bearing file with every key explained, to change into your own: the base bearing's values."""
     from macroslip import Bearing
 
+    path = output or path
     check_new_file(path, force=force)
     _write(path, Bearing.read(_BASE).replace(name=path.stem, title=f"Started from {_BASE}"), force)
     typer.echo(

@@ -51,6 +51,7 @@ def compare(
         return
     if quiet:
         return
+    typer.echo(f"{found.attrs['about']}.")
     for note in found.attrs["notes"]:
         typer.echo(f"note: {note}")
     for one in comparison_tables(found):

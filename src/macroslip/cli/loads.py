@@ -89,7 +89,7 @@ def inspect(
     else:
         _print(found)
         for sentence in doubts:
-            to_stderr(f"doubtful: {sentence}.")
+            to_stderr(f"doubtful: {sentence}")
     if output is not None:
         figure = _picture(bearing, base, drivetrain)
         with new_file(output, force=force) as temporary:

@@ -94,7 +94,7 @@ def _computed(case: Path, bearing: str, threads: int | None, quiet: bool) -> xr.
     if not names_key(case, "traces"):
         checked = with_motion(checked)
     for sentence in [] if quiet else doubtful_loads(checked.loads, checked.bearing):
-        to_stderr(f"doubtful: {sentence}.")
+        to_stderr(f"doubtful: {sentence}")
     with command_progress(quiet=quiet) as report, _named(case, checked.loads.source):
         progress = report and (lambda done, total: report("rollers", done, total))
         return with_rating(simulate(checked, threads=threads, progress=progress), checked)
@@ -124,6 +124,7 @@ def _named(case: Path, loads: str) -> Iterator[None]:
 
 def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     from macroslip.report.result_numbers import row_numbers
+    from macroslip.result.plausibility import doubtful_result
 
     rows = {
         one["name"]: {words: math.nan if one[key] is None else one[key] for key, words in _OF_ROW.items()}
@@ -146,6 +147,7 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         found["cage slip [1]"] = {str(one.cage.item()): float(one) for one in dataset.cage_slip}
     if "books_warning" in dataset.attrs:
         found["warning"] = dataset.attrs["books_warning"]
+    found["doubtful"] = doubtful_result(dataset)
     from macroslip.result.damage import lines
 
     criteria, missing = lines(dataset)
@@ -185,15 +187,11 @@ def _print_rows(dataset: xr.Dataset) -> None:
     life = years(float(dataset.basic_life))
     modified = years(float(dataset.modified_reference_life.sel(load_along_roller="hertz")))
     below = number(100.0 * float(dataset.share_below_minimum_load))
-    loaded = ""
-    if "roller_load" in dataset:
-        shares = (100.0 * (dataset.roller_load > 0.0)).mean(("roller", "time"))
-        each = (f"{float(shares.sel(row=row)):.3g} % {row}" for row in dataset.row.values)
-        loaded = f"; rollers carry load {', '.join(each)}"
+    loaded = ", ".join(f"{100.0 * share:.3g} % {row}" for row, share in dataset.loaded_share.to_series().items())
     typer.echo(
         f"beside slip: static safety {safety}, L10h {life}, modified reference life {modified}, largest pressure "
         f"{number(float(dataset.largest_pressure.max()) / 1e9)} GPa, kappa {kappa}, below the minimum load {below} % of the "
-        f"time{loaded}"
+        f"time; rollers carry load {loaded}"
     )
 
 
@@ -202,8 +200,10 @@ def _tell_doubts(dataset: xr.Dataset, quiet: bool) -> bool:
     from macroslip.report.result_numbers import failures
     from macroslip.result.plausibility import doubtful_result
 
+    told = dataset.attrs["doubtful_loads"].splitlines()  # before it began
     for sentence in [] if quiet else doubtful_result(dataset):
-        to_stderr(f"doubtful: {sentence}.")
+        if sentence not in told:
+            to_stderr(f"doubtful: {sentence}")
     if "books_warning" in dataset.attrs:
         to_stderr(f"warning: {dataset.attrs['books_warning']}")
     failed = failures("", dataset)

@@ -34,10 +34,11 @@ def with_unit(value: object, unit: str) -> str:
 
     Examples
     --------
-    >>> with_unit(70, "mm"), with_unit(28, "1")
-    ('70 mm', '28')
+    >>> with_unit(70, "mm"), with_unit(28, "1"), with_unit(0.3614820474579369, "Pa s")
+    ('70 mm', '28', '0.361482 Pa s')
     """
-    return f"{value}" if unit == "1" else f"{value} {unit}"
+    text = f"{value:.6g}" if len(f"{value}") > 12 and isinstance(value, float) else f"{value}"
+    return text if unit == "1" else f"{text} {unit}"
 
 
 @dataclass(frozen=True)

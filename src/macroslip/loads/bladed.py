@@ -105,7 +105,7 @@ def _group_with(names: tuple[str, ...], groups: list[_Group], path: Path) -> _Gr
         where=str(path),
         allowed=f"a group with {', '.join(names)}, among the headers of the run: "
         f"{', '.join(group.header.name for group in groups) or 'none has a time axis'}",
-        remedy="Switch on the output of the drive train variables, or give the speed: loads.shaft_speed."
+        remedy="Switch on the output of the drive train variables, or give the speed: loads.shaft_speed, or --shaft-speed of loads inspect."
         if names == (_SPEED,)
         else "Switch on the output of the hub loads in the fixed frame, and run Bladed again.",
     )

@@ -281,7 +281,9 @@ def _contacts(history: _History) -> dict[str, tuple]:
             ratio = film(raceways[k], load[row][carried], speed) / bearing.composite_roughness
             quantiles = np.quantile(ratio, (0.05, 0.5), weights=weights[carried], method="inverted_cdf")
             low[row, k], middle[row, k] = quantiles
+    loaded = (load > 0.0).mean(axis=1) @ history.duration / history.duration.sum()
     return {
+        "loaded_share": _variable(loaded, "1", "share of time in which a roller carries load, mean of the row", "row"),
         "largest_roller_load": _variable(largest, "N", "largest roller load", "row"),
         "largest_pressure": _variable(pressure, "Pa", "largest Hertz pressure", "row", "raceway"),
         "film_ratio": _variable(middle, "1", "film ratio Lambda, median over loaded rollers", "row", "raceway"),

@@ -67,7 +67,9 @@ def plot_energy_over_orbit(axes: PolarAxes, energy: xr.DataArray, row: str) -> P
     theta = np.radians(np.append(one.angle.values, one.angle.values[0] + 360.0))
     for interface in one.interface.values.tolist():
         values = one.sel(interface=interface).values
-        label = f"{interface}: {three_digits(width * values.sum())} mJ per orbit"
+        total = width * values.sum()
+        orbit = f"{three_digits(1e-3 * total)} J" if total >= 1e3 else f"{three_digits(total)} mJ"
+        label = f"{interface}: {orbit} per orbit"
         axes.plot(theta, np.append(values, values[0]), label=label, linewidth=1.6, **INTERFACE[interface])
     axes.set_ylim(bottom=0.0)
     axes.yaxis.set_major_locator(MaxNLocator(3, prune="lower"))
@@ -99,6 +101,8 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
         axes.fill_between(angle, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
         axes.plot(angle, middle, label=interface, linewidth=1.6, **style)
     log_ticks(axes)
+    # Rollers without load have no film but play.
+    axes.set_ylim(top=min(axes.get_ylim()[1], 300.0))
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(_QUARTERS)
     scale = 1e-6 * float((orbit.film_parameter / orbit.film_thickness).median())
@@ -353,7 +357,7 @@ def plot_force_by_position(axes: PolarAxes, result: xr.Dataset, row: str) -> Pol
     axes.set_rscale("log")
     axes.set_rlim(1e-1, max(10.0, 2.0 * float(values.max())))
     # Looking downwind +X0 is on the left, and φ runs clockwise.
-    return _round(axes, "W", ["+X0", "top", "−X0", "bottom"], f"{row} row [N]")
+    return _round(axes, "W", ["left", "top", "right", "bottom"], f"{row} row [N]")
 
 
 def plot_residuals(axes: Axes, result: xr.Dataset) -> Axes:

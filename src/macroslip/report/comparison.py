@@ -11,11 +11,13 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from macroslip.constants import ZERO_CELSIUS
 from macroslip.errors import InputError
 from macroslip.input.units import with_unit
 from macroslip.report.accessor import open_result
 from macroslip.report.result_numbers import estimated_values
 from macroslip.report.style import scaled
+from macroslip.result.plausibility import doubtful_result
 from macroslip.result.run_input import stored_settings
 from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
@@ -28,6 +30,8 @@ _PIECES = 10
 _NOT_DESIGN = {"loads.": "loads", "window.": "windows", "laws.": "models of the contacts", "dynamics": "dynamics"}
 #: Designs that a sentence names beside the best.
 _MOST_RANKED = 4
+#: Labels of a run, and words for several of each.
+SEVERAL = {"loads": "load histories", "bearing": "bearings", "lubricant": "lubricants", "model": "models"}
 ENERGY = CRITERIA["energy"][2]
 COLUMNS = ("quantity", "units", "design", "value", "difference [%]", "low [%]", "high [%]")
 
@@ -49,7 +53,7 @@ def compare(*results: xr.Dataset | str | Path, by: Sequence[str] | str | None = 
         A line a quantity and design: `quantity`, `units`, `design`, `value`, `difference [%]` from the first design, and
         `low [%]` to `high [%]`, the 95 % range of the energy's difference by the scatter of the wind, which both designs
         have in common; NaN where there is none. `attrs`: `notes`, what restricts the comparison; `inputs`, what differs, by
-        key and design; `ranking`, a sentence.
+        key and design; `ranking`, a sentence; `about`, the results by their titles, or the runs, model and oil of the study.
 
     Raises
     ------
@@ -101,8 +105,9 @@ def compare_results(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
             variance = pieces.var(ddof=1) / pieces.size
             ranges[name] = _half_range(variance, pieces.size - 1, values[first][ENERGY, "J/h"])
     frame = _frame(values, ranges)
-    shown = {key: one for key, one in differ.items() if key != "loads.sha256"}
-    frame.attrs = {"notes": _notes(results, differ), "inputs": shown, "ranking": _ranking(frame)}
+    shown = {key: one for key, one in differ.items() if key not in ("loads.sha256", "oil_gap")}
+    about = "; ".join(f"{name}: {one.attrs['title']}" for name, one in results.items() if "title" in one.attrs)
+    frame.attrs = {"notes": _notes(results, differ), "inputs": shown, "ranking": _ranking(frame), "about": about}
     return frame
 
 
@@ -132,6 +137,7 @@ def _notes(results: Mapping[str, xr.Dataset], differ: Mapping[str, Any]) -> list
     if failed := [name for name, one in results.items() if bool((one.status != 0).any())]:
         found.append(f"Rollers failed in {', '.join(failed)}; every mean that they enter is missing.")
     estimates = [estimated_values(one) for one in results.values()]
+    found += [f"Doubtful in {name}: {line}" for name, one in results.items() for line in doubtful_result(one)]
     if any(some for some, _ in estimates):
         most, of = max(estimates)
         found.append(
@@ -223,8 +229,26 @@ def compare_designs(
         ranges[name] = _pooled_range(rates, place, bins.probabilities(weights), total)
     frame = _frame(values, ranges)
     inputs = {one: {name: str(parts[name][one].values[0]) for name in names} for one in by}
-    frame.attrs = {"notes": notes, "inputs": inputs, "ranking": _ranking(frame)}
+    frame.attrs = {"notes": notes, "inputs": inputs, "ranking": _ranking(frame), "about": study_about(study)}
     return frame
+
+
+def study_about(study: xr.Dataset) -> str:
+    """How many runs of which loads, bearings, lubricants and models a study has, and how warm their oil is."""
+    values = {name: np.unique(study[name].values) for name in SEVERAL if name in study.coords}
+    told = {name: one[0] for name, one in values.items()}
+    if not any(str(name).startswith("laws.") for name in study.coords):
+        told |= {name: study.attrs[name] for name in ("model",) if name in study.attrs}
+    parts = [f"{one.size} {SEVERAL[name]}" if one.size > 1 else f"{name} {told[name]}" for name, one in values.items()]
+    if "inlet_temperature" in study and "lubricant" in study.coords:
+        # Of one run of each lubricant and temperature; every run would open every result.
+        labels = [study[name].values.astype(str) for name in ("lubricant", "temperature") if name in study.coords]
+        _, some = np.unique(np.stack(labels), axis=1, return_index=True)
+        warm = study.inlet_temperature[np.sort(some)].values - ZERO_CELSIUS
+        if np.isfinite(warm).any():
+            ends = f"{np.nanmin(warm):.3g}", f"{np.nanmax(warm):.3g}"
+            parts.append(f"oil at {' to '.join(dict.fromkeys(ends))} °C")
+    return f"{study.sizes['case']} runs, {', '.join(parts)}"
 
 
 def _alike(parts: Mapping[str, xr.Dataset]) -> str:
@@ -295,16 +319,20 @@ def _ranking(frame: pd.DataFrame) -> str:
         told.append(f"{len(others) - len(shown)} others between them")
     found = [f"{'; '.join(told)}."] + ([f"The energy of {', '.join(unknown)} is not known."] if unknown else [])
     first = lines[0]["design"]
+    unsure, close = [], []
     for one in [one for one in [best, *shown] if one["design"] != first]:
-        between, low, high = f"between {first} and {one['design']}", one["low [%]"], one["high [%]"]
+        name, low, high = one["design"], one["low [%]"], one["high [%]"]
         change = f"{one['difference [%]']:.3g} %"
         if not np.isfinite(low):
-            found.append(f"How sure the difference {between} is cannot be told from these results.")
+            unsure.append(name)
         elif low <= 0.0 <= high:
-            half = 0.5 * (high - low)
-            found.append(
-                f"The difference {between}, {change}, is smaller than its scatter of {half:.2g} %: they are not told apart."
-            )
+            close.append(f"{name}, {change}, is smaller than its scatter of {0.5 * (high - low):.2g} %")
         else:
-            found.append(f"From {first} to {one['design']} it changes by {change} ({low:.3g} to {high:.3g} %).")
+            found.append(f"From {first} to {name} it changes by {change} ({low:.3g} to {high:.3g} %).")
+    if close:
+        found.append(f"The difference between {first} and {'; and '.join(close)}: they are not told apart.")
+    if unsure:
+        found.append(
+            f"How sure the difference between {first} and {', '.join(unsure)} is cannot be told from these results."
+        )
     return " ".join(found)

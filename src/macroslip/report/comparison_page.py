@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _TEMPLATE = "comparison.html"
+_RANGE = "In brackets: 95 % range by the scatter of the wind that they have in common"
 #: Inputs that a page names, letters of one, and designs that its heading names.
 _MOST_INPUTS, _LENGTH, _MOST_NAMED = 40, 60, 4
 
@@ -39,9 +40,9 @@ def comparison_page(found: pd.DataFrame, results: Mapping[str, xr.Dataset] | Non
     opening = Opening(text.answer(found.attrs["ranking"], found.attrs["notes"]), pictures)
     bodies = {"side": text.shown(numbers)} | ({"inputs": text.shown(inputs)} if inputs.rows else {})
     if maps := _maps(results or {}):
-        bodies["maps"] = text.maps(maps)
+        bodies["maps"] = text.maps(maps, any(" − " in one.words for one in maps))
     title = title or f"Comparison of {', '.join(found['design'].unique()[:_MOST_NAMED])}"
-    return render(title, f"{found['design'].nunique()} compared.", opening, sections(_TEMPLATE, bodies))
+    return render(title, f"{found.attrs['about']}.", opening, sections(_TEMPLATE, bodies))
 
 
 def _maps(results: Mapping[str, xr.Dataset]) -> list[Picture]:
@@ -104,7 +105,7 @@ def comparison_tables(found: pd.DataFrame) -> list[Table]:
     shown = [(key, *(_short(values[name]) for name in names)) for key, values in inputs[:_MOST_INPUTS]]
     more = f"; the first {_MOST_INPUTS} of {len(inputs)}" if len(inputs) > _MOST_INPUTS else ""
     return [
-        Table(headings, rows, "In brackets: 95 % range by the scatter of the wind that they have in common"),
+        Table(headings, rows, _RANGE if any("(" in cell for row in rows for cell in row[1:]) else "Headline numbers"),
         Table(("input", *names), shown, f"Inputs that differ{more}"),
     ]
 

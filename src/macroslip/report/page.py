@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from jinja2 import Environment
     from markupsafe import Markup
 
-_NUMBER = re.compile(r"[−-]?[\d,]*\.?\d+(e[+-]?\d+)?$|–$")
+_NUMBER = re.compile(r"([<>] )?[−-]?[\d,]*\.?\d+(e[+-]?\d+)?$|–$")
 
 
 @dataclass(frozen=True, slots=True)

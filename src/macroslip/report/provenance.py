@@ -95,7 +95,7 @@ def _loads(given: Mapping[str, Mapping[str, Any]]) -> Table:
 def _text(value: Any) -> str:
     if isinstance(value, dict):
         return ", ".join(f"{key} {_text(one)}" for key, one in value.items())
-    return "none" if value is None else str(value)
+    return "none" if value is None else with_unit(value, "1")
 
 
 def bibtex(citations: Iterable[str]) -> str:

@@ -44,6 +44,7 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
         peak = row.get("window_peak_power", orbits)
         if orbits is not None and "interface" in orbits.dims:
             orbits = orbits.max("interface")
+        loaded = row.get("loaded_share", (row.roller_load > 0.0).mean() if "roller_load" in row else None)
         share = row.get("outside_film_range")
         raceways = None if share is None else share.sel(interface=share.interface.isin(["inner", "outer"]))
         thin = np.array(np.nan)
@@ -61,7 +62,7 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
                 "peak": None if peak is None else _known(peak.max()),
                 "typical": None if orbits is None else _known(orbits.median()),
                 "spin": _known(row.min_spin_ratio.min()) if "min_spin_ratio" in row else None,
-                "loaded": 100.0 * float((row.roller_load > 0.0).mean()) if "roller_load" in row else None,
+                "loaded": None if loaded is None else _known(100.0 * loaded),
                 "outside": None if raceways is None else _known(100.0 * raceways.mean("roller").max()),
                 "outside_most": None if share is None else _known(100.0 * share.max()),
                 "mixed": 100.0 * float(np.nanmax(thin)) if np.isfinite(thin).any() else None,
@@ -211,12 +212,14 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
     exponents = result.wohler_exponent.values.tolist()
     ranges = [
         (
-            f"{load} load",
+            load,
             *(rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one)) for one in exponents),
         )
         for load in result["load"].values.tolist()
     ]
-    loads = Table(("damage-equivalent load, range at 1 Hz", *(f"exponent {one:g}" for one in exponents)), ranges)
+    loads = Table(
+        ("load", *(f"exponent {one:g}" for one in exponents)), ranges, "Damage-equivalent load, range at 1 Hz"
+    )
     return [Table(("bearing", "value"), whole), Table(headings, raceways), loads]
 
 
@@ -278,6 +281,7 @@ def criteria_table(lines: list[dict[str, Any]]) -> Table:
     for one in lines:
         reference = f"{usual_units(one['reference'], one['unit'])}, " if np.isfinite(one["reference"]) else ""
         value, ratio = usual_units(one["value"], one["unit"]), number(one["ratio"], 2)
+        ratio = "< 0.001" if 0.0 < one["ratio"] < 1e-3 else ratio
         rows.append((one["title"], value, f"{reference}{one['compared with']}", ratio, one["how sure"]))
     return Table(("criterion", "value", "compared with", "ratio", "how sure"), rows)
 

@@ -135,8 +135,9 @@ def _sentences(result: xr.Dataset, *, short: bool) -> Markup:
     rows, peak = numbers.row_numbers(result), numbers.largest_peak(result)
     idle, orbits = result.attrs.get("oil_supply_note", "").startswith("oil_supply "), result.sizes.get("orbit", 1)
     sentences = words(_TEMPLATE).answer(rows, seconds, orbits, peak, *known[0], *known[1], short, idle)
-    # The range of the films has its sentence already.
-    return sentences + words(_TEMPLATE).doubts(doubtful_result(result.drop_vars("outside_film_range", errors="ignore")))
+    # In full the range of the films has its sentence already.
+    judged = result if short else result.drop_vars("outside_film_range", errors="ignore")
+    return sentences + words(_TEMPLATE).doubts(doubtful_result(judged))
 
 
 def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
@@ -162,7 +163,8 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
     sentences = words(_TEMPLATE).comparison(
         len(results), *failed, *(extremes.get(key) for key in ("energy", "peak", "spin"))
     )
-    return Opening(sentences, pictures)
+    doubts = [f"{name}: {line}" for name, one in results.items() for line in doubtful_result(one)]
+    return Opening(sentences + words(_TEMPLATE).doubts(doubts), pictures)
 
 
 def view_section(profiles: Mapping[str, Profile]) -> Section:
@@ -259,7 +261,7 @@ def _damage(result: xr.Dataset) -> Markup:
     if found:
         criteria = damage(result)
         about = "Criteria of damage over what each is compared with"
-        shown.append(picture(draw.plot_criteria, about, criteria, width=6.4, height=3.4))
+        shown.append(picture(draw.plot_criteria, about, criteria, height=3.4))
         if "worn_depth" in criteria:
             rows = criteria.row.values.tolist()
             about = "Depth of wear of the {} row along the roller over the years"

@@ -11,7 +11,7 @@ import xarray as xr
 from macroslip.constants import HOURS_A_YEAR
 from macroslip.errors import InputError
 from macroslip.loads.source_file import without_folders
-from macroslip.report.comparison import compare_designs
+from macroslip.report.comparison import SEVERAL, compare_designs, study_about
 from macroslip.report.page import Opening, Table, number, render, sections, words
 from macroslip.report.provenance import provenance_section
 from macroslip.report.result_numbers import rating_summary
@@ -24,7 +24,8 @@ from macroslip.report.study_figures import (
     plot_exceedance,
     plot_lifetime,
 )
-from macroslip.report.style import OPENING, Picture, picture
+from macroslip.report.style import OPENING, Picture, picture, scaled
+from macroslip.result.plausibility import JUDGED, doubtful_result
 from macroslip.result.surface_maps import energy_density
 from macroslip.study.effects import effects, sampled_parameters
 from macroslip.study.exceedance import exceedance
@@ -53,7 +54,6 @@ _EXTREMES = {
     "peak_power_max": "largest frictional power [W]",
     "lowest_spin_ratio": "lowest spin / pure rolling [–]",
 }
-_SEVERAL = {"loads": "load histories", "bearing": "bearings", "lubricant": "lubricants", "model": "models"}
 #: Columns of the table of designs: factor to the unit that is shown, and heading.
 _SHOWN = {
     "energy": (1e-6, "energy, both rows [MJ/year]"),
@@ -130,7 +130,8 @@ def study_page(study: xr.Dataset, *, title: str, weights: Weibull | Given | None
         if len(pictures) < 4 and name in extremes:
             pictures.append(picture(_plot_extremes, f"By run: {label}", base, order, name, label, **OPENING))
     counts = {one.name: int((study.outcome.values == str(one)).sum()) for one in Outcome}
-    answer = text.answer(counts, ranking, told, list(extremes.values()), driver)
+    judged = study[[name for name in JUDGED if name in study]].median("case")
+    answer = text.answer(counts, ranking, told, list(extremes.values()), driver, doubtful_result(judged))
     opening = Opening(answer, pictures, table=_designs(table, names, _MOST_DESIGNS))
     return render(title, _subtitle(study, title), opening, found)
 
@@ -150,10 +151,8 @@ def _without_folders(study: str) -> str:
 
 
 def _subtitle(study: xr.Dataset, title: str) -> str:
-    values = {name: np.unique(study[name].values) for name in _SEVERAL}
-    parts = [f"{one.size} {_SEVERAL[name]}" if one.size > 1 else f"{name} {one[0]}" for name, one in values.items()]
     own = f"{study.attrs['title']}: " if study.attrs["title"] not in ("", title) else ""
-    return f"{own}{study.sizes['case']} runs, {', '.join(parts)}."
+    return f"{own}{study_about(study)}."
 
 
 def _ranking(study: xr.Dataset, wind: Weibull | Given | None) -> str:
@@ -234,13 +233,13 @@ def _year(found: xr.Dataset, names: list[str]) -> Table:
         for place in range(found.sizes["bin"]):
             here = found.isel(group=group, bin=place)
             share = 100.0 * here.energy.sum("row", skipna=False) / here.total.sum("row", skipna=False)
-            cells = [here.hours, *here.energy, share, *here.per_hour, here.peak.max()]
+            cells = [here.hours, *(1e-6 * here.energy), share, *here.per_hour, here.peak.max()]
             if "entries" in here:
                 cells.append(here.entries.sum(skipna=False))
             cells += [more[name][1] * here[name].max(skipna=False) for name in ("wear", "mixed_time") if name in here]
             rows.append((names[group], situation(found, place), *(number(float(value)) for value in cells)))
     sides = found.row.values.tolist()
-    headings = ("design", "situation", "hours a year", *(f"energy {row} [J]" for row in sides), "share of it [%]",
+    headings = ("design", "situation", "hours a year", *(f"energy {row} [MJ]" for row in sides), "share of it [%]",
                 *(f"in an hour {row} [J]" for row in sides), "largest power [W]",
                 *(heading for name, (heading, _) in more.items() if name in found))  # fmt: skip
     return Table(headings, rows[:_MOST_LINES], "A year: energies of a mean roller; wear and Λ < 1 of the worse row")
@@ -251,7 +250,7 @@ def case_names(study: xr.Dataset) -> list[str]:
     labels = [
         str(name) for name in study.coords if study[name].dims == ("case",) and not is_parameter(study, str(name))
     ]
-    fields = [name for name in labels if name not in (*_LEFT_OUT, *_SEVERAL, "temperature")]
+    fields = [name for name in labels if name not in (*_LEFT_OUT, *SEVERAL, "temperature")]
     loads = study.loads.values.astype(str)
     if fields and any("." in one for one in loads):  # names of files
         part = xr.Dataset(coords={name: ("group", study[name].values, study[name].attrs) for name in fields})
@@ -263,7 +262,7 @@ def case_names(study: xr.Dataset) -> list[str]:
 
 def run_names(study: xr.Dataset) -> list[str]:
     """Name of every run: its case, and its design where there are several."""
-    labels = [name for name in study.coords if name in (*_SEVERAL, "temperature") or is_parameter(study, str(name))]
+    labels = [name for name in study.coords if name in (*SEVERAL, "temperature") or is_parameter(study, str(name))]
     coords = {name: ("group", study[name].values, study[name].attrs) for name in labels if name != "loads"}
     designed = design_names(xr.Dataset(coords=coords), 3)
     return [", ".join(filter(None, one)) for one in zip(case_names(study), designed, strict=True)]
@@ -314,7 +313,7 @@ def _worst(study: xr.Dataset) -> list[Table]:
     for name in _WORST:
         found = as_table(worst(study, name, count=_WORST_COUNT), [name])
         found = found.drop(columns=[one for one in _LEFT_OUT if one in found])
-        tables.append(_table(found, f"By {name}: {study[name].attrs['long_name']}"))
+        tables.append(_table(found, f"By {study[name].attrs['long_name']}"))
     return tables
 
 
@@ -332,6 +331,9 @@ def _table(frame: pd.DataFrame, caption: str) -> Table:
     def cell(value: Any) -> str:
         return number(float(value)) if isinstance(value, (float, np.floating)) else str(value)
 
+    for name in [name for name in frame if str(name).endswith("[J]")]:
+        factor, units = scaled(float(frame[name].max()), "J")
+        frame = frame.assign(**{name: factor * frame[name]}).rename(columns={name: f"{name[:-3]}[{units}]"})
     rows = [tuple(map(cell, line)) for line in frame.head(_MOST_LINES).itertuples(index=False)]
     more = f"; the first {_MOST_LINES} of {len(frame)}" if len(frame) > _MOST_LINES else ""
-    return Table(tuple(map(str, frame.columns)), rows, f"{caption}{more}")
+    return Table([str(name).replace("_", " ") for name in frame], rows, f"{caption}{more}")

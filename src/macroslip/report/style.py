@@ -216,8 +216,8 @@ def _svg(figure: Figure, axes: Axes, legend: str) -> str:
 
     handles, labels = axes.get_legend_handles_labels()
     if legend == "above":
-        # Long names do not fit beside each other.
-        legend_above(figure, axes, ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 else 2))
+        # Long names do not fit beside each other, and four are two by two.
+        legend_above(figure, axes, ncols=min(len(labels), 3 if sum(map(len, labels)) < 36 and len(labels) != 4 else 2))
     elif legend:
         figure.legend(handles, labels, loc="outside lower center", frameon=False, fontsize=SMALL)
     content = io.BytesIO()

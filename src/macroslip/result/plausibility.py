@@ -19,12 +19,15 @@ if TYPE_CHECKING:
 
 #: Static load rating over rotor weight of main bearings, generously: 62 for the base bearing.
 _WEIGHTS = (5.0, 2000.0)
+#: Weights of rotors [N], where no bearing is known.
+_ROTORS = (5e3, 1e7)
 #: Highest plausible shaft speed [rad/s]: 40 rpm. Largest static safety and contact pressure [Pa] of a bearing in use.
 _FASTEST, _SAFEST, _PRESSURE = 40.0 * np.pi / 30.0, 100.0, 4e9
 _RPM = 30.0 / np.pi
 #: Share of the rollers' load that films may carry without the balance of the rings.
 _FILMS = 0.05
-_JUDGED = ("static_safety", "largest_pressure", "share_below_minimum_load")
+#: Numbers of a rating that are judged.
+JUDGED = ("static_safety", "largest_pressure", "share_below_minimum_load")
 #: Share of the time, or of the loaded time, beyond which a range counts as left.
 _MOST = 0.5
 
@@ -32,7 +35,7 @@ _MOST = 0.5
 def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearing | None = None) -> list[str]:
     """Sentences on loads that cannot be meant so; none where all is plausible.
 
-    The rotor's weight is compared with the static load rating of a bearing, if one is given.
+    The rotor's weight is compared with the static load rating of a bearing; without one, with 5 kN to 10 MN.
 
     Examples
     --------
@@ -63,46 +66,61 @@ def doubtful_loads(loads: HubLoads | BearingLoads | RollerLoads, bearing: Bearin
     rating = bearing.static_load_rating if bearing is not None else None
     if rating and lift < 0.0 and not _WEIGHTS[0] <= rating / -lift <= _WEIGHTS[1]:
         found.append(
-            f"the rotor weighs {-lift / 1e3:.3g} kN, which is 1/{rating / -lift:.3g} of the bearing's static load rating C0, "
-            f"and main bearings have 1/{_WEIGHTS[0]:g} to 1/{_WEIGHTS[1]:g}; are the forces in another unit?"
+            f"the rotor weighs {_plain(-lift / 1e3)} kN, which is 1/{_plain(rating / -lift)} of the bearing's static load "
+            f"rating C0, and main bearings have 1/{_WEIGHTS[0]:g} to 1/{_WEIGHTS[1]:g}; are the forces in another unit?"
+        )
+    elif not rating and lift < 0.0 and not _ROTORS[0] <= -lift <= _ROTORS[1]:
+        found.append(
+            f"the rotor weighs {_plain(-lift / 1e3)} kN, and rotors weigh 5 to 10,000 kN; are the forces in another unit?"
         )
     return found
+
+
+def _plain(value: float) -> str:
+    return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
 
 
 def doubtful_result(result: xr.Dataset) -> list[str]:
     """Sentences on numbers of a result and its rating that cannot be meant so, or that its laws do not reach.
 
-    With those on keys of earlier versions.
+    With those on its loads and on keys of earlier versions.
     """
     notes = result.attrs.get("oil_supply_note", "").splitlines()
-    found = [line for line in notes if not line.startswith("oil_supply ")]
-    known = {name: float(result[name].max()) for name in _JUDGED if name in result}
+    found = [f"{line}." for line in notes if not line.startswith("oil_supply ")]
+    found += result.attrs.get("doubtful_loads", "").splitlines()
+    known = {name: float(result[name].max()) for name in JUDGED if name in result}
     if "outside_film_range" in result:
         known["outside"] = float(result.outside_film_range.sel(interface=["inner", "outer"]).mean("roller").max())
     if (safety := known.get("static_safety", 0.0)) > _SAFEST:
         found.append(
-            f"the static safety is {safety:.3g}, and main bearings in use have 2 to 50: the loads are too small for "
-            "this bearing, or in another unit"
+            f"the static safety is {_plain(safety)}, and main bearings in use have 2 to 50: the loads are too small for "
+            "this bearing, or in another unit."
         )
     if (pressure := known.get("largest_pressure", 0.0)) > _PRESSURE:
         found.append(
             f"the largest pressure is {pressure / 1e9:.3g} GPa, beyond the 4 GPa that the static load rating stands "
-            "for: the loads are too large for this bearing, or in another unit"
+            "for: the loads are too large for this bearing, or in another unit."
         )
     if (share := known.get("share_below_minimum_load", 0.0)) > _MOST:
         found.append(
-            f"the load is below the minimum that the maker requires for {100.0 * share:.3g} % of the time: rollers skid"
+            f"the load is below the minimum that the maker requires for {100.0 * share:.3g} % of the time: rollers skid."
         )
     if (share := known.get("outside", 0.0)) > _MOST:
         found.append(
             f"the film's formula is outside its range for {100.0 * share:.3g} % of the loaded time at a raceway: film "
-            "thickness and traction are extrapolated there"
+            "thickness and traction are extrapolated there."
+        )
+    bearing = json.loads(result.attrs.get("input", "{}")).get("bearing", {})
+    if "basic_life" in result and bearing.get("dynamic_load_rating", {}).get("tag") == "D":
+        found.append(
+            "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of what makers publish: lives are "
+            "0.5 to 0.9 of those by the maker's C."
         )
     loss = result.attrs.get("clearance_loss", 0.0)
-    if loss > 0.0 and json.loads(result.attrs["input"])["bearing"]["diametral_clearance"]["value"] <= 0.0:
+    if loss > 0.0 and bearing["diametral_clearance"]["value"] <= 0.0:
         found.append(
             f"the inner ring is so much warmer that it takes all of the clearance and more ({1e6 * loss:.3g} um): preload is not "
-            "modelled; give the bearing more clearance, or check heat.ring_conductance"
+            "modelled; give the bearing more clearance, or check heat.ring_conductance."
         )
     if "mean_film_load" in result and "mean_elastic_load" in result.attrs:
         films, elastic = float(result.mean_film_load.mean()), float(result.attrs["mean_elastic_load"])
@@ -110,6 +128,6 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
             found.append(
                 f"films of oil carry {100.0 * films / (films + elastic):.3g} % of the rollers' load, and the balance of the rings "
                 "does not know them: in oil so thick the rings stand further apart, and loads, energies and torque are less than "
-                "computed; take a warmer or thinner oil, or a larger load"
+                "computed; take a warmer or thinner oil, or a larger load."
             )
     return found

@@ -18,6 +18,7 @@ from macroslip.contact.registry import check_own_laws, film_range_notes
 from macroslip.contact.table import Box, table_box
 from macroslip.errors import InputError
 from macroslip.loads import RollerLoads
+from macroslip.result.plausibility import doubtful_loads
 from macroslip.result.skew import thrust_on_ring
 from macroslip.ring.motion import elastic_loads, own_motions, ring_motion
 from macroslip.ring.orbit import Motion, orbit_times
@@ -74,6 +75,7 @@ class Prepared:
             "mean_elastic_load": float(pressed.mean()),
             "truncated_share": truncated_share(self.largest, truncation_load(case.bearing, case.oil)),
             "oil_supply_note": supply_note(case),
+            "doubtful_loads": "\n".join(doubtful_loads(case.loads, case.bearing)),
             "contact_evaluation": "tables",
             "table_error_typical": tables.typical_error,
             "table_error_worst": tables.worst_error,
