@@ -6,21 +6,12 @@ import numpy as np
 import pytest
 
 from macroslip import Laws
-from macroslip.contact.patch import Chords, Patch, patch_traction
-from macroslip.contact.traction import HIGHEST_PRESSURE, LOWEST_LOG_SLIP, LOWEST_PRESSURE, chord_table, prepare_fluid
+from macroslip.contact.patch import Patch, patch_traction
+from macroslip.contact.traction import chord_table, prepare_fluid
 from validation import thrust_friction as friction
 from validation.thrust_bearing import ROLLER_81107, ThrustBearing, friction_torque, interface_of
 
 BEARING = ThrustBearing(20, 4.2e-3, 5e-3, 21.75e-3, True, 0.0, 0.05)
-
-
-def chords_of(fluid):
-    table = chord_table(fluid)
-    return Chords(
-        fluid.rheology, fluid.characteristic, fluid.heating, LOWEST_PRESSURE, HIGHEST_PRESSURE, table.pressure_spacing,
-        table.lowest_film, table.film_spacing, LOWEST_LOG_SLIP, table.slip_spacing, table.coefficients.shape,
-        table.coefficients.ravel(), table.log_viscosities,
-    )  # fmt: skip
 
 
 @pytest.mark.slow
@@ -40,7 +31,7 @@ def test_crowned_roller_is_the_programs_patch():
 
     film = masjedi_khonsari_moes(contact, load, washer) * inlet_heating_factor(thermal_loading(contact) * washer**2)
     parts = np.empty(4)
-    patch_traction(patch, chords_of(fluid), load, film, 0.0, washer, 0.0, parts)
+    patch_traction(patch, chord_table(fluid), load, film, 0.0, washer, 0.0, parts)
     power = -washer / BEARING.pitch_radius * parts[2]
     assert found == pytest.approx(2 * 20 * power / speed, rel=2e-3)
 
