@@ -51,6 +51,13 @@ def test_the_end_of_a_step_may_be_its_peak(number):
     assert one.verdict == "agrees" and one.peak_error < 1e-3, one
 
 
+@pytest.mark.parametrize("number", [10001, 10018])
+def test_a_grip_finer_than_a_table_can_tell_is_no_reason_for_tiny_steps(number):
+    """Cold oil that does not heat up holds rollers at a slip of 1e-14 m/s and less, by which a table's places are rounded."""
+    one = compare(number, tight=2e-5, physical=0.1, wide=0.5)
+    assert one.verdict == "agrees" and one.energy_error < 2e-4, one
+
+
 @pytest.mark.deep
 @examples(1)
 @given(number=st.integers(0, 2**20), whole=st.sampled_from([0.0, 1.0]))

@@ -272,11 +272,24 @@ def _correct(work, change, first, shifted):
 
 
 @jit_inline
+def _grain(body):
+    """Part of the ring's speed by which a slip near zero may change without a change of its place in a table [-].
+
+    A film without heating may hold a roller at a slip of 1e-13 of that speed.
+    """
+    if body.closed_form:
+        return 0.0
+    inner, outer = body.inner.traction, body.outer.traction
+    return tuning.PLACE_ROUNDING * max(inner.scale / inner.ratio.per_spacing, outer.scale / outer.ratio.per_spacing)
+
+
+@jit_inline
 def solve_stages(path, work):
     """Solve the stage equations of a step of three stages from the first guess in `work.v`."""
     scale, limits = work.scale, path.limits
     force_part = force_tolerance(limits.tolerance, path.body.microslip)
     round_off = 4e-15 * scale * (limits.speed_scale + abs(work.slip))
+    grain = _grain(path.body) * limits.speed_scale
     # Without microslip a roller that grips slips too little for its forces to bend in the same way twice.
     smooth = path.body.microslip or work.zone == FREE
     work.converged, work.left, change, foreseen = 0, math.inf, 0.0, math.inf
@@ -286,7 +299,9 @@ def solve_stages(path, work):
         rest = residuals(scale, work.s[0], work.s[1], work.s[2], net_force(one), net_force(two), net_force(three))
         size, solved = max(abs(rest[0]), abs(rest[1]), abs(rest[2])), True
         for k in range(3):
-            solved = solved and abs(rest[k]) <= force_part * magnitude(work.stage_forces[k]) + round_off
+            forces = work.stage_forces[k]
+            allowed = force_part * magnitude(forces) + grain * abs(forces.slope) + round_off
+            solved = solved and abs(rest[k]) <= allowed
         if solved:
             work.converged, work.left = 1, size
             return
