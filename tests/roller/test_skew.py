@@ -78,6 +78,14 @@ def test_conditions_hold_with_contacts_where_the_roller_puts_them():
     assert couple == pytest.approx(0.0, abs=0.01)
 
 
+@pytest.mark.parametrize("guidance", ["conforming-pocket", "straight-bars"])
+def test_a_pocket_without_play_holds_a_roller_with_a_finite_force(guidance):
+    """Roughness leaves an arm: 1 N m takes a wedge's force, 0.2 kN between conforming and 1.5 kN between straight spars."""
+    held = pocket(BEARING, guidance, 0.0)
+    assert 0.0 < held.largest < 2e-3
+    assert 50.0 < 1.0 / held.arm < 2000.0
+
+
 def test_mixed_film_has_an_equilibrium():
     """Where asperities press, the slope of the spin moment falls on both sides of its zero."""
     laws = prepare(Laws.physical(), BEARING, OIL.at("50 degC"), 1)

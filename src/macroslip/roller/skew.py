@@ -230,6 +230,8 @@ def pocket(bearing: Bearing, guidance: str, gap: float, play: float | None = Non
     effective = nearer * (nearer / curvature - r)
     if play is not None:
         return Pocket(play, 2.0 * half * nearer, effective)
+    # Without play spars would hold a roller with no arm; rough surfaces leave it some.
+    gap = max(gap, bearing.composite_roughness)
     inside = float(np.sqrt(gap / effective))
     if inside * nearer / curvature < half:
         return Pocket(inside, 2.0 * effective * inside, effective)
