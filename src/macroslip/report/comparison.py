@@ -21,7 +21,7 @@ from macroslip.result.run_input import stored_settings
 from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
 from macroslip.study.weights import YEAR, Given, Weibull, binned, weights_in_use
-from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, designs, year
+from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, designs, file_names, year
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -238,7 +238,7 @@ def compare_designs(
 def study_about(study: xr.Dataset) -> str:
     """How many runs of which loads, bearings, lubricants and models a study has, and how warm their oil is."""
     values = {name: np.unique(study[name].values) for name in SEVERAL if name in study.coords}
-    told = {name: one[0] for name, one in values.items()}
+    told = {name: file_names([str(one[0])])[0] for name, one in values.items()}
     if not any(str(name).startswith("laws.") for name in study.coords):
         told |= {name: study.attrs[name] for name in ("model",) if name in study.attrs}
     parts = [f"{one.size} {SEVERAL[name]}" if one.size > 1 else f"{name} {told[name]}" for name, one in values.items()]
