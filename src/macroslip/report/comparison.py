@@ -242,14 +242,14 @@ def study_about(study: xr.Dataset) -> str:
     if not any(str(name).startswith("laws.") for name in study.coords):
         told |= {name: study.attrs[name] for name in ("model",) if name in study.attrs}
     parts = [f"{one.size} {SEVERAL[name]}" if one.size > 1 else f"{name} {told[name]}" for name, one in values.items()]
-    if "inlet_temperature" in study and "lubricant" in study.coords:
+    if "inlet_temperature" in study:
         # Of one run of each lubricant and temperature; every run would open every result.
         labels = [study[name].values.astype(str) for name in ("lubricant", "temperature") if name in study.coords]
-        _, some = np.unique(np.stack(labels), axis=1, return_index=True)
-        warm = study.inlet_temperature[np.sort(some)].values - ZERO_CELSIUS
-        if np.isfinite(warm).any():
-            ends = f"{np.nanmin(warm):.3g}", f"{np.nanmax(warm):.3g}"
-            parts.append(f"oil at {' to '.join(dict.fromkeys(ends))} °C")
+        warm = study.inlet_temperature[np.sort(np.unique(labels, axis=1, return_index=True)[1])] - ZERO_CELSIUS
+        if bool(warm.notnull().any()):
+            parts.append(
+                f"oil at {' to '.join(dict.fromkeys(f'{float(one):.3g}' for one in (warm.min(), warm.max())))} °C"
+            )
     return f"{study.sizes['case']} runs, {', '.join(parts)}"
 
 
