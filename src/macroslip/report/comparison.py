@@ -22,7 +22,7 @@ from macroslip.result.run_input import stored_settings
 from macroslip.study.effects import sampled_parameters
 from macroslip.study.reader import is_study, open_study
 from macroslip.study.weights import YEAR, Given, Weibull, binned, weights_in_use
-from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, designs, year
+from macroslip.study.year import CRITERIA, LIVES, coverage, design_names, designs, file_names, year
 
 #: Pieces of a history whose differences are taken as independent of each other, at most.
 _PIECES = 10
@@ -236,18 +236,18 @@ def compare_designs(
 def study_about(study: xr.Dataset) -> str:
     """How many runs of which loads, bearings, lubricants and models a study has, and how warm their oil is."""
     values = {name: np.unique(study[name].values) for name in SEVERAL if name in study.coords}
-    told = {name: one[0] for name, one in values.items()}
+    told = {name: file_names([str(one[0])])[0] for name, one in values.items()}
     if not any(str(name).startswith("laws.") for name in study.coords):
         told |= {name: study.attrs[name] for name in ("model",) if name in study.attrs}
     parts = [f"{one.size} {SEVERAL[name]}" if one.size > 1 else f"{name} {told[name]}" for name, one in values.items()]
-    if "inlet_temperature" in study and "lubricant" in study.coords:
+    if "inlet_temperature" in study:
         # Of one run of each lubricant and temperature; every run would open every result.
         labels = [study[name].values.astype(str) for name in ("lubricant", "temperature") if name in study.coords]
-        _, some = np.unique(np.stack(labels), axis=1, return_index=True)
-        warm = study.inlet_temperature[np.sort(some)].values - ZERO_CELSIUS
-        if np.isfinite(warm).any():
-            ends = f"{np.nanmin(warm):.3g}", f"{np.nanmax(warm):.3g}"
-            parts.append(f"oil at {' to '.join(dict.fromkeys(ends))} °C")
+        warm = study.inlet_temperature[np.sort(np.unique(labels, axis=1, return_index=True)[1])] - ZERO_CELSIUS
+        if bool(warm.notnull().any()):
+            parts.append(
+                f"oil at {' to '.join(dict.fromkeys(f'{float(one):.3g}' for one in (warm.min(), warm.max())))} °C"
+            )
     return f"{study.sizes['case']} runs, {', '.join(parts)}"
 
 

@@ -154,7 +154,6 @@ class Picture:
     words: str
     width: int
     height: int
-    wide: bool = False
 
 
 def picture(plot: Callable[..., object], about: str, *data: Any, **options: Any) -> Picture:
@@ -168,7 +167,7 @@ def picture(plot: Callable[..., object], about: str, *data: Any, **options: Any)
         The content, for those who cannot see it.
     **options
         width, height : [inches]. polar : whether the axes are polar. legend : "" for none, "above", or "below" (one
-        entry a line). wide : whether the picture keeps its width where the page is narrower, and is moved sideways.
+        entry a line).
     """
     return compared(plot, {about: data}, **options)[0]
 
@@ -181,7 +180,6 @@ def compared(
     height: float = HEIGHT,
     polar: bool = False,
     legend: str = "",
-    wide: bool = False,
 ) -> list[Picture]:
     """Pictures that are compared, and so share their scales: colours of maps, otherwise the vertical or radial axis.
 
@@ -192,7 +190,7 @@ def compared(
         plot(axes, *data)
     _share_scales([axes for _, (axes,) in drawn])
     return [
-        Picture(_svg(figure, axes, legend), about, round(96 * width), round(96 * height), wide)
+        Picture(_svg(figure, axes, legend), about, round(96 * width), round(96 * height))
         for (figure, (axes,)), about in zip(drawn, panels, strict=True)
     ]
 

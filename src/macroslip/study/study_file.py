@@ -94,10 +94,10 @@ class Study:
     temperatures: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
-        return (
-            f"<study {self.title!r}: {len(self)} runs of {len(self.loads.loads)} load histories, {len(self.bearings)} bearings, "
-            f"{len(self.lubricants)} lubricants, {len(self.models)} models, {len(self.variations)} combinations of parameters>"
-        )
+        counts = {"load histories": self.loads.loads, "bearings": self.bearings, "lubricants": self.lubricants,
+                  "models": self.models, "combinations of parameters": self.variations}  # fmt: skip
+        several = [f"{len(one)} {what}" for what, one in counts.items() if len(one) > 1]
+        return f"<study {self.title!r}: {len(self)} runs{' of ' if several else ''}{', '.join(several)}>"
 
     def __len__(self) -> int:
         """Number of runs."""

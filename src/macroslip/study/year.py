@@ -185,11 +185,25 @@ def design_names(found: xr.Dataset | xr.DataArray, digits: int = 12) -> list[str
         unit = "" if units in ("", "1") else f" {units}"
         values = one.values.ravel().tolist()
         texts = [f"{value:.{digits}g}" if isinstance(value, float) else str(value) for value in values]
+        if name in ("bearing", "lubricant"):
+            texts = file_names(texts)
         if one.dims == ("group",) and len(set(texts)) > 1:
             # A parameter that only other models set has no value.
             head = "" if name in CHOICES else f"{str(name).rpartition('.')[2].replace('_', ' ')} "
             parts.append(["" if text in ("", "nan") else f"{head}{text}{unit}" for text in texts])
     return [", ".join(filter(None, name)) for name in zip(*parts, strict=True)] or [""] * found.sizes["group"]
+
+
+def file_names(paths: list[str]) -> list[str]:
+    """Names of bearing or lubricant files without folder and ending, where that tells them apart.
+
+    Examples
+    --------
+    >>> file_names(["../own.yaml", "skf-240-600-bc"]), file_names(["a/own.yaml", "b/own.yaml"])
+    (['own', 'skf-240-600-bc'], ['a/own.yaml', 'b/own.yaml'])
+    """
+    short = [path.replace("\\", "/").rpartition("/")[2].removesuffix(".yaml") for path in paths]
+    return short if len(set(short)) == len(set(paths)) else paths
 
 
 def coverage(found: xr.Dataset) -> str:
