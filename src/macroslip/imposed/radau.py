@@ -280,7 +280,11 @@ def _grain(body):
     if body.closed_form:
         return 0.0
     inner, outer = body.inner.traction, body.outer.traction
-    return tuning.PLACE_ROUNDING * max(inner.scale / inner.ratio.per_spacing, outer.scale / outer.ratio.per_spacing)
+    one, other = (
+        inner.scale * inner.ratio.cells / inner.ratio.per_spacing,
+        outer.scale * outer.ratio.cells / outer.ratio.per_spacing,
+    )
+    return tuning.PLACE_ROUNDING * max(one, other)
 
 
 @jit_inline
