@@ -125,6 +125,12 @@ def test_bad_csv(tmp_path, text, words):
     _message(path, *words)
 
 
+def test_names_of_columns_that_are_no_utf8(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"\xff\xfe" + (",".join(HUB) + "\n" + "0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,7\n").encode())
+    _message(path, "not readable as a CSV table", "text as UTF-8")
+
+
 def test_csv_as_people_write_it(tmp_path):
     """A byte-order mark, spaces after the commas, Windows line ends, whole numbers, no final line end."""
     path = tmp_path / "a.csv"

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from macroslip.report.skew_figure import plot_skew_over_orbit
+from macroslip.report.bearing_figures import plot_skew_over_orbit
 
 
 def test_the_bottom_of_the_bearing_is_at_the_left_of_the_picture():

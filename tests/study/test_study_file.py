@@ -381,6 +381,12 @@ def test_what_it_does_not_take_is_refused_in_its_words(key, value, unit, message
         check(key, value, unit)
 
 
+def test_a_unit_that_does_not_exist_is_refused_with_its_place():
+    grid = {"bearing.diametral_clearance": {"values": [0.1, 0.2], "unit": "kg"}}
+    with pytest.raises(InputError, match=r"variations\.grid\.bearing\.diametral_clearance: unit 'kg' does not exist"):
+        study_of({"loads": {"bundled": ["14B"]}, "variations": {"grid": grid}})
+
+
 def test_a_replaced_value_is_the_users_and_the_others_keep_their_origin():
     before = Lubricant.read("vg460-pao")
     key = next(key for key, origin in before.provenance.items() if origin.unit != "degC")

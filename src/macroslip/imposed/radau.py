@@ -279,12 +279,11 @@ def _grain(body):
     """
     if body.closed_form:
         return 0.0
-    inner, outer = body.inner.traction, body.outer.traction
-    one, other = (
-        inner.scale * inner.ratio.cells / inner.ratio.per_spacing,
-        outer.scale * outer.ratio.cells / outer.ratio.per_spacing,
+    one, other = body.inner.traction, body.outer.traction
+    widest = max(
+        one.scale * one.ratio.cells / one.ratio.per_spacing, other.scale * other.ratio.cells / other.ratio.per_spacing
     )
-    return tuning.PLACE_ROUNDING * max(one, other)
+    return tuning.PLACE_ROUNDING * widest
 
 
 @jit_inline

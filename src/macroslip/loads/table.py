@@ -140,15 +140,19 @@ def open_table(path: Path):
 
     try:
         if path.suffix.lower() == ".csv":
-            return _csv(path)
-        import pyarrow.parquet as pq
+            table = _csv(path)
+        else:
+            import pyarrow.parquet as pq
 
-        with pq.ParquetFile(path) as file:
-            return file.read()
+            with pq.ParquetFile(path) as file:
+                table = file.read()
+        table.column_names  # noqa: B018  # names that are no UTF-8 fail here
+        return table
     except (pa.ArrowException, OSError, ValueError) as error:
         kind = "CSV" if path.suffix.lower() == ".csv" else "Parquet"
         what = f"not readable as a {kind} table ({error})"
-        raise InputError(what, where=str(path), remedy="Write or copy the file again, if it was cut off.") from error
+        remedy = "Write or copy the file again, if it was cut off, and text as UTF-8."
+        raise InputError(what, where=str(path), remedy=remedy) from error
 
 
 def _csv(path: Path):

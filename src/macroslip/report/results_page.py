@@ -13,7 +13,6 @@ from macroslip.report import result_numbers as numbers
 from macroslip.report.bearing_view import scene_data
 from macroslip.report.page import Opening, Section, render, sections, words
 from macroslip.report.provenance import provenance_section
-from macroslip.report.skew_figure import plot_skew_over_orbit
 from macroslip.report.study_figures import plot_by_result
 from macroslip.report.style import OPENING, ROUND, Picture, compared, picture, row_pictures
 from macroslip.result.damage import damage, lines
@@ -211,7 +210,7 @@ def roller_sections(
         least = numbers.least_film_ratios(orbit)
     if "skew_by_position" in result:
         about = "Skew of pressed rollers over the orbit, and what it adds to their power"
-        shown.append(picture(plot_skew_over_orbit, about, result, legend="above"))
+        shown.append(picture(draw.plot_skew_over_orbit, about, result, legend="above"))
     if "mechanism_energy" in result:
         about = "Bars of a mean roller's energy by mechanism and row"
         shown.append(picture(draw.plot_by_mechanism, about, result.mechanism_energy, legend="above"))

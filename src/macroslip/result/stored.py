@@ -26,6 +26,8 @@ _TRACES = [
 ]
 #: Largest block [bytes] with one checksum; larger variables are divided by the library.
 _LARGEST_BLOCK = 2**26
+#: Angle of a roller [rad] beyond which there is none: a thousand turns.
+_LARGEST_ANGLE = 6e3
 
 
 def to_netcdf(result: xr.Dataset) -> bytes:
@@ -100,6 +102,10 @@ def _values(result: xr.Dataset) -> str:
     energy = result.energy.where(result.status == Status.COMPLETED, 0.0).values
     if not (np.isfinite(energy) & (energy >= 0.0)).all():
         return "energy is negative or not finite for a roller that was completed"
+    if "start_angle" in result.variables:
+        angles = result.start_angle.values
+        if angles.dtype.kind not in "fiu" or np.abs(angles).max(initial=0.0) > _LARGEST_ANGLE:
+            return "start_angle holds no angles"
     return ""
 
 

@@ -140,11 +140,8 @@ def _of_results(directory: Path, runs: pd.DataFrame) -> tuple[dict[str, Any], di
     example = examples[0]
     coordinates["roller"] = ("roller", np.array(rollers), example.roller.attrs)
     coordinates["orbit"] = ("orbit", np.arange(sizes["orbit"]), example.orbit.attrs)
-    return (
-        variables,
-        coordinates,
-        {name: example.attrs[name] for name in ("citations", "model") if name in example.attrs},
-    )
+    attributes = {name: example.attrs[name] for name in ("citations", "model") if name in example.attrs}
+    return variables, coordinates, attributes
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from macroslip.case.case_file import build_case
 from macroslip.case.load_source import LoadSource
 from macroslip.errors import InputError
 from macroslip.input.fields import FORM_ONLY, Choice, Quantity, Text, Whole
-from macroslip.input.files import Place, Source
+from macroslip.input.files import Source
 from macroslip.input.messages import shown, unknown_key
 from macroslip.input.record import Record, dimensions, read_entry
 from macroslip.input.section import Field, MappingOf, OrWord, form_of, input_section, keys_of, read_value, word_of
@@ -114,7 +114,8 @@ class Setting:
         try:
             read_entry(key, self.entry, known[key], Source())
         except InputError as problem:
-            raise Place(Source()).blamed(problem) from None
+            part = f"{problem.where.rpartition('.')[2]} " if problem.where else ""
+            raise InputError(part + problem.what, allowed=problem.allowed, remedy=problem.remedy) from None
 
 
 def _field_key(key: str) -> str:
