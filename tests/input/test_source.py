@@ -114,6 +114,11 @@ def test_pipes_and_devices_are_refused_without_waiting(tmp_path):
         Bearing.read("/dev/zero")
 
 
+def test_a_key_that_cannot_be_looked_up():
+    with pytest.raises(InputError, match=r"mine\.yaml: this is not valid YAML \(a key is a mapping of mappings\)"):
+        parse("title: mine\n? {a: {b: 1}}\n: 2\n", "mine.yaml")
+
+
 @pytest.mark.parametrize("name", ["a\0b.yaml", "a\ud800.yaml"])
 def test_a_name_that_no_file_can_have(name):
     with pytest.raises(InputError, match=r"no bearing can be read from 'a\\.*\(no file can have this name\)") as caught:

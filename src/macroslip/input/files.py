@@ -143,6 +143,8 @@ def parse(
         raise not_yaml(" ".join(str(part) for part in (error.context, error.problem) if part), where) from None
     except (YAMLError, ValueError) as error:  # forbidden characters; dates that do not exist
         raise not_yaml(str(error).split("\n")[0], file) from None
+    except TypeError:  # a key cannot be looked up
+        raise not_yaml("a key is a mapping of mappings", file) from None
     if not isinstance(data, CommentedMap):
         # Not its content: the file may be another one than was meant, and nothing for others to see.
         what = f"the file holds {_KINDS.get(type(data), 'text or a number')}"
