@@ -125,3 +125,16 @@ def gather(prepared, assembly, motion, begin, times, **choices) -> Simulated:
         part.status, prepared, assembly, np.concatenate(steps), np.concatenate(whole), np.concatenate(offset),
         part.memory, books,
     )  # fmt: skip
+
+
+def losses_of_closed_books(result) -> dict[str, float]:
+    """What raceways and friction at the cages lose in the window [J] by the books of a result, which have to be closed."""
+    impulses = [result[name] for name in result if str(name).startswith("book_") and str(name).endswith("impulse")]
+    assert abs(result.momentum_residual).max() < 1e-6 * max(float(abs(one).max()) for one in impulses)
+    edges = [result.attrs["window_start"], result.attrs["window_end"]]
+    lost = {
+        name: float(np.diff(result[f"book_{name}"].sel(book_time=edges).values)[0])
+        for name in ("raceway_loss", "friction_loss")
+    }
+    assert abs(result.energy_residual).max() < 2e-4 * sum(lost.values())
+    return lost

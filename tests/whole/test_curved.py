@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from macroslip import BearingLoads, Case, Laws, simulate
+from tests.whole.conftest import losses_of_closed_books
 
 pytestmark = pytest.mark.slow
 
@@ -50,14 +51,7 @@ def test_every_mechanism_and_the_asperities_dissipate(result):
 
 def test_books_close(result):
     """The couple that keeps rollers from skewing is an outside one: its power is no part of the books."""
-    impulses = [result[name] for name in result if str(name).startswith("book_") and str(name).endswith("impulse")]
-    assert abs(result.momentum_residual).max() < 1e-6 * max(float(abs(one).max()) for one in impulses)
-    edges = [result.attrs["window_start"], result.attrs["window_end"]]
-    lost = {
-        name: float(np.diff(result[f"book_{name}"].sel(book_time=edges).values)[0])
-        for name in ("raceway_loss", "friction_loss")
-    }
-    assert abs(result.energy_residual).max() < 2e-4 * sum(lost.values())
+    lost = losses_of_closed_books(result)
     spent = (result.energy + result.rolling_energy).sum(("row", "roller"))
     skew = result.mechanism_energy.sel(mechanism="contact angle").sum(("row", "roller"))
     booked = (spent - skew).sel(interface=["inner", "outer"]).sum()

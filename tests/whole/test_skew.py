@@ -17,6 +17,7 @@ from macroslip.result.skew import skewing
 from macroslip.roller.model import with_tables
 from macroslip.roller.skew import equilibrium, pocket, raceways
 from macroslip.whole.cage import Cage
+from tests.whole.conftest import losses_of_closed_books
 
 pytestmark = pytest.mark.slow
 
@@ -67,14 +68,7 @@ def test_without_play_all_but_the_friction_of_the_ends_is_that_of_straight_rolle
 def test_what_skew_adds_stands_beside_closed_books():
     """Books are those of the equations of motion; raceways and ends of spars add to them what the result says."""
     found = simulate(case(traces=None))
-    impulses = [found[name] for name in found if str(name).startswith("book_") and str(name).endswith("impulse")]
-    assert abs(found.momentum_residual).max() < 1e-6 * max(float(abs(one).max()) for one in impulses)
-    edges = [found.attrs["window_start"], found.attrs["window_end"]]
-    lost = {
-        name: float(np.diff(found[f"book_{name}"].sel(book_time=edges).values)[0])
-        for name in ("raceway_loss", "friction_loss")
-    }
-    assert abs(found.energy_residual).max() < 2e-4 * sum(lost.values())
+    lost = losses_of_closed_books(found)
     spent = (found.energy + found.rolling_energy).sum(("row", "roller"))
     beside = float(found.mechanism_energy.sel(RACEWAYS).sel(mechanism="contact angle").sum() + found.skew_energy.sum())
     assert float(spent.sel(RACEWAYS).sum()) - beside == pytest.approx(lost["raceway_loss"], rel=1e-6)

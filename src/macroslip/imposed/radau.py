@@ -73,10 +73,11 @@ class Path(NamedTuple):
 #: cold_slip : slip below which traction rises with slip at every load of the history [m/s]
 #: firm : interference from which on the roller is firmly held [m]
 #: window : start of the window [s]
+#: grain : change of a slip near zero that does not change its place in a table [m/s]; 0 without tables of traction
 LIMITS = np.dtype(
     [
         ("tolerance", "f8"), ("max_steps", "i8"), ("speed_scale", "f8"), ("energy_scale", "f8"), ("longest_step", "f8"),
-        ("cold_slip", "f8"), ("firm", "f8"), ("window", "f8"),
+        ("cold_slip", "f8"), ("firm", "f8"), ("window", "f8"), ("grain", "f8"),
     ]
 )  # fmt: skip
 
@@ -272,27 +273,11 @@ def _correct(work, change, first, shifted):
 
 
 @jit_inline
-def _grain(body):
-    """Part of the ring's speed by which a slip near zero may change without a change of its place in a table [-].
-
-    A film without heating may hold a roller at a slip of 1e-13 of that speed.
-    """
-    if body.closed_form:
-        return 0.0
-    one, other = body.inner.traction, body.outer.traction
-    widest = max(
-        one.scale * one.ratio.cells / one.ratio.per_spacing, other.scale * other.ratio.cells / other.ratio.per_spacing
-    )
-    return tuning.PLACE_ROUNDING * widest
-
-
-@jit_inline
 def solve_stages(path, work):
     """Solve the stage equations of a step of three stages from the first guess in `work.v`."""
     scale, limits = work.scale, path.limits
     force_part = force_tolerance(limits.tolerance, path.body.microslip)
     round_off = 4e-15 * scale * (limits.speed_scale + abs(work.slip))
-    grain = _grain(path.body) * limits.speed_scale
     # Without microslip a roller that grips slips too little for its forces to bend in the same way twice.
     smooth = path.body.microslip or work.zone == FREE
     work.converged, work.left, change, foreseen = 0, math.inf, 0.0, math.inf
@@ -303,7 +288,7 @@ def solve_stages(path, work):
         size, solved = max(abs(rest[0]), abs(rest[1]), abs(rest[2])), True
         for k in range(3):
             forces = work.stage_forces[k]
-            allowed = force_part * magnitude(forces) + grain * abs(forces.slope) + round_off
+            allowed = force_part * magnitude(forces) + limits.grain * abs(forces.slope) + round_off
             solved = solved and abs(rest[k]) <= allowed
         if solved:
             work.converged, work.left = 1, size

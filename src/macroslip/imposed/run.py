@@ -61,7 +61,13 @@ def radau_limits(
         longest = min(longest, tuning.LONGEST_TURN / fastest)
     cold = surely_rising(body, tables, heaviest, heaviest, speed) if heaviest > 0.0 else np.inf
     firm = firm_interference(body, tables.ctypes.data, speed)
-    return np.array([(tolerance, max_steps, speed, speed**2 / body["mobility"], longest, cold, firm, window)], LIMITS)
+    energy, grain = speed**2 / body["mobility"], 0.0
+    if not body["closed_form"]:
+        # A film without heating may hold a roller at a slip of 1e-13 of the rings' speed.
+        contacts = (body[name]["traction"] for name in ("inner", "outer"))
+        widest = max(one["scale"] * one["ratio"]["cells"] / one["ratio"]["per_spacing"] for one in contacts)
+        grain = tuning.PLACE_ROUNDING * widest * speed
+    return np.array([(tolerance, max_steps, speed, energy, longest, cold, firm, window, grain)], LIMITS)
 
 
 def fixed_step(

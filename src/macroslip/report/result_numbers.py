@@ -44,7 +44,9 @@ def row_numbers(result: xr.Dataset) -> list[dict[str, Any]]:
         peak = row.get("window_peak_power", orbits)
         if orbits is not None and "interface" in orbits.dims:
             orbits = orbits.max("interface")
-        loaded = row.get("loaded_share", (row.roller_load > 0.0).mean() if "roller_load" in row else None)
+        loaded = row.get("loaded_share")
+        if loaded is None and "roller_load" in row:
+            loaded = (row.roller_load > 0.0).mean()
         share = row.get("outside_film_range")
         raceways = None if share is None else share.sel(interface=share.interface.isin(["inner", "outer"]))
         thin = np.array(np.nan)

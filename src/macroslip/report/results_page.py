@@ -136,7 +136,7 @@ def _sentences(result: xr.Dataset, *, short: bool) -> Markup:
     sentences = words(_TEMPLATE).answer(rows, seconds, orbits, peak, *known[0], *known[1], short, idle)
     # In full the range of the films has its sentence already.
     judged = result if short else result.drop_vars("outside_film_range", errors="ignore")
-    return sentences + words(_TEMPLATE).doubts(doubtful_result(judged))
+    return sentences + words("parts.html").doubts(doubtful_result(judged))
 
 
 def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
@@ -163,7 +163,7 @@ def results_opening(results: Mapping[str, xr.Dataset]) -> Opening:
         len(results), *failed, *(extremes.get(key) for key in ("energy", "peak", "spin"))
     )
     doubts = [f"{name}: {line}" for name, one in results.items() for line in doubtful_result(one)]
-    return Opening(sentences + words(_TEMPLATE).doubts(doubts), pictures)
+    return Opening(sentences + words("parts.html").doubts(doubts), pictures)
 
 
 def view_section(profiles: Mapping[str, Profile]) -> Section:
