@@ -40,6 +40,9 @@ ENERGY, PEAK = 1e-3, 0.02
 ROW_ENERGY = 5e-3
 #: Relative change of the pockets' gap, and the part of a difference that it has to make where touches are chaotic.
 _WIDENED, _CHAOTIC = 1e-9, 1.0 / 3.0
+#: Tolerance of the first reference, and the part of an allowed error up to which it decides: tables of contacts for a
+#: tighter one take ten times as long as the run that is judged.
+_FIRST, _CLEAR = 5e-5, 0.3
 #: Energies [J] and powers [W] below which only the absolute error counts: a millionth of what a roller dissipates.
 SMALL_ENERGY, SMALL_POWER = 1e-6, 1e-4
 HISTORIES = ("constant", "waves", "bundled", "thrust reversal", "load through zero", "stop and go", "shaft reversal")
@@ -254,13 +257,19 @@ def compare(number: int, seed: int = 1, tight: float = TIGHT, **shares: float) -
     if bool((found.status != 0).any()):
         codes = sorted({int(code) for code in np.unique(found.status) if code})
         return Outcome(*about, f"failed with status {codes}", *[nothing] * 4, seconds, nothing)
-    exact, tight_seconds = timed(tight)
-    if bool((exact.status != 0).any()):
-        return Outcome(*about, "no reference", *[nothing] * 4, seconds, tight_seconds)
     energy, peak = _judged(found, case.dynamics)
-    reference, peak_reference = _judged(exact, case.dynamics)
-    energy_error, at = _largest(energy - reference, reference, SMALL_ENERGY)
-    peak_error, peak_at = _largest(peak - peak_reference, peak_reference, SMALL_POWER)
+    tight_seconds, most = 0.0, ROW_ENERGY if case.dynamics == WHOLE_BEARING else ENERGY
+    for tolerance in (max(_FIRST, tight), tight):
+        exact, spent = timed(tolerance)
+        tight_seconds += spent
+        if bool((exact.status != 0).any()):
+            return Outcome(*about, "no reference", *[nothing] * 4, seconds, tight_seconds)
+        reference, peak_reference = _judged(exact, case.dynamics)
+        energy_error, at = _largest(energy - reference, reference, SMALL_ENERGY)
+        peak_error, peak_at = _largest(peak - peak_reference, peak_reference, SMALL_POWER)
+        near = case.dynamics == WHOLE_BEARING or peak_error <= _CLEAR * PEAK
+        if near and energy_error <= _CLEAR * most:
+            break
     if case.dynamics == WHOLE_BEARING:
         verdict = "agrees" if energy_error <= ROW_ENERGY else "off: energy"
         if energy_error > ROW_ENERGY and "books_warning" in found.attrs:

@@ -25,6 +25,9 @@ PAPER = "paper"  # the model of the paper, under which the numerical experiments
 DETAILED_CASE = "14B"  # the case of the single rollers and the torque; its means are the static load
 #: Cases to which the paper refers energy (figure 4) and peak power (figure 5).
 ENERGY_REFERENCE, PEAK_REFERENCE = "12C", "14A"
+#: Of the sample, whose results spread by factors: ten times the default one, with tables an eighth as large. Of 17 points
+#: energies and torque change by 0.02 % at most, peak powers by 0.6 %, the energy of an orbit at one interface by 1.5 %.
+SAMPLE_TOLERANCE = 2e-3
 
 
 def content(stage: str, model: str) -> dict[str, Any]:
@@ -39,7 +42,13 @@ def content(stage: str, model: str) -> dict[str, Any]:
         return {"title": "One case in detail", "case": case, "loads": {"bundled": DETAILED_CASE}}
     return {
         "title": "Study under values drawn from their ranges",
-        "case": case | {"drivetrain": {"shaft_mass_station": "1.73 m"}, "rollers": [0], "loads": {"end": "100 s"}},
+        "case": case
+        | {
+            "drivetrain": {"shaft_mass_station": "1.73 m"},
+            "rollers": [0],
+            "loads": {"end": "100 s"},
+            "integrator": {"tolerance": SAMPLE_TOLERANCE},
+        },
         "loads": {"bundled": ["12B", "24B"]},
         "keep": ["energy"],
         "variations": {"list": sample_points()},

@@ -157,6 +157,27 @@ def test_report_of_a_changed_result(folder, result, data):
     ends_well(folder, file, "report", file, "-o", page, "--force", "--quiet")
 
 
+@pytest.mark.deep
+@pytest.mark.parametrize("value", [np.nan, 0.0, -1.0])
+def test_page_of_any_variable_without_meaning(folder, result, value):
+    for name in result.variables:
+        if result[name].dtype.kind in "fiu":
+            values = np.full_like(result[name].values, value, dtype=float)
+            changed = result.assign({name: (result[name].dims, values, result[name].attrs)})
+            (folder / "mine.nc").write_bytes(to_netcdf(changed))
+            (folder / "page.html").touch()
+            ends_well(
+                folder,
+                folder / "mine.nc",
+                "report",
+                folder / "mine.nc",
+                "-o",
+                folder / "page.html",
+                "--force",
+                "--quiet",
+            )
+
+
 @pytest.mark.parametrize("name", ["energy", "status", "slip", "roller_load", "start_angle"])
 def test_what_is_missing_is_named(folder, result, name):
     assert f"the dataset has no {name}" in _read(folder, to_netcdf(result.drop_vars(name)))
@@ -172,6 +193,10 @@ def test_what_is_missing_is_named(folder, result, name):
             lambda one: one.assign_coords(start_angle=-1e300 + one.start_angle),
             "start_angle holds no angles",
         ),
+        (lambda one: one.assign_coords(start_angle=np.nan * one.start_angle), "start_angle holds no angles"),
+        (lambda one: one.assign(roller_load=one.roller_load + np.inf), "roller_load holds numbers beyond 1e+30"),
+        (lambda one: one.assign(power=one.power + 1e308), "power holds numbers beyond 1e+30"),
+        (lambda one: one.assign_coords(time=one.time * np.inf), "the coordinate time does not rise"),
         (lambda one: one.assign(status=one.status + 99), "status holds numbers without a meaning"),
         (lambda one: one.assign(slip=one.slip.transpose("time", "roller", "row")), "slip is over"),
         (lambda one: one.assign(power=one.power.astype(str)), "power holds no numbers"),

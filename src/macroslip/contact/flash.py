@@ -131,7 +131,9 @@ def transient_flash(time, power_per_length, half_width, speed_1, speed_2, effusi
     >>> float(round(transient_flash(time, 136.0 * one, 0.63e-3 * one, 0.37 * one, 0.37 * one, steel, steel), 3))
     0.272
     """
-    hottest, widest = 0.0, half_width.max()
+    hottest = widest = 0.0
+    for width in half_width:
+        widest = max(widest, width)
     for n in range(time.size):
         speed = abs(speed_2[n])
         if power_per_length[n] <= 0.0 or speed == 0.0:

@@ -1,9 +1,10 @@
 """Look-ups in the tables of a contact, for compiled code: traction of a raceway, oil, film, and the cage's contact.
 
 A raceway's traction depends on load Q, ring speed u2 and slip v. With U = |u2|, c = v sign u2, the speed
-w = √(U² + c²/4 + w0²) and the slip ratio y = c/w, which is between −2 and 2 whatever the roller does, a table has the
-coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0), and the quantities pull/Q, lag/Q^(5/3), skew/Q^(4/3) and power of
-asperities/(Q^(5/3) w). Traction is odd under (u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
+w = √(U² + c²/4 + w0²) and the slip ratio y = 2 c/(w + U), which is between −4 and 4 whatever the roller does and smooth where a
+ring comes to rest, a table has the coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0), and the quantities pull/Q,
+lag/Q^(5/3), skew/Q^(4/3) and power of asperities/(Q^(5/3) w). Small slips have y = v/u2. Traction is odd under
+(u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
 
 Other tables are planes over ln Q and the logarithm of a speed. Beyond the lightest load and the slowest speed of a table its
 values there serve; `macroslip.contact.table` makes tables that hold all heavier and faster states of a case.
@@ -102,8 +103,8 @@ def traction(table, tables, load, log_load, ring_speed, slip):
     sign = math.copysign(1.0, ring_speed)
     along, sliding = abs(ring_speed), slip * sign
     speed = math.sqrt(along * along + 0.25 * sliding * sliding + REST_SPEED * REST_SPEED)
-    per_speed = 1.0 / speed
-    ratio = sliding * per_speed
+    per_speed, per_sum = 1.0 / speed, 1.0 / (speed + along)
+    ratio = 2.0 * sliding * per_sum
     z = (ratio - table.middle) / table.scale
     size = math.sqrt(z * z + 1.0)
     root_speed, root = math.sqrt(math.sqrt(speed)), math.exp(log_load * (1.0 / 3.0))
@@ -121,8 +122,8 @@ def traction(table, tables, load, log_load, ring_speed, slip):
     if along == 0.0 and slip == 0.0:
         # At rest nothing slips; the table has its slowest speed.
         value = (0.0, 0.0, 0.0, 0.0)
-    w_by_slip, w_by_speed = 0.25 * ratio, along * per_speed
-    y_by_slip, y_by_speed = per_speed * (1.0 - 0.25 * ratio * ratio), -ratio * along * per_speed * per_speed
+    w_by_slip, w_by_speed = 0.25 * sliding * per_speed, along * per_speed
+    y_by_slip, y_by_speed = per_sum * (2.0 - ratio * w_by_slip), -ratio * per_sum * (1.0 + w_by_speed)
     pull_by_w, pull_by_y = load * second[0] * speed_slope, load * third[0] * ratio_slope
     heavy = load * root * root
     lag_by_w, lag_by_y = heavy * second[1] * speed_slope, heavy * third[1] * ratio_slope

@@ -32,6 +32,8 @@ _STRETCH = 0.6
 _LEAST_LOAD, _LIGHTEST = 0.05, 1e-3
 #: Slip ratio by which asinh is scaled with microslip, which varies by as much over a contact.
 _MICROSLIP = 6e-4
+#: Slip ratio of a roller that spins while the ring is at rest.
+_LARGEST_RATIO = 4.0
 #: Part of the Newtonian force that is missing at the slip by which asinh is scaled without microslip.
 _BENT = 0.05
 #: Distances between nodes of ln Q and ln u of planes, and their least speed as part of the fastest.
@@ -185,9 +187,15 @@ class _Grid(NamedTuple):
             logarithm -= (logarithm + self.stretch * root - coordinates) / (1.0 + self.stretch * root / 3.0)
         return np.exp(logarithm)
 
-    def ratios(self, coordinates: np.ndarray) -> np.ndarray:
-        """Slip ratios y of coordinates."""
-        return np.clip(self.middle + self.scale * np.sinh(coordinates), -2.0, 2.0)
+    def slips(self, coordinates: np.ndarray) -> np.ndarray:
+        """Slips as part of w, from −2 to 2, of coordinates."""
+        ratio = np.clip(self.middle + self.scale * np.sinh(coordinates), -_LARGEST_RATIO, _LARGEST_RATIO)
+        return ratio / (1.0 + 0.0625 * ratio * ratio)
+
+    def coordinates(self, slip: np.ndarray | float) -> np.ndarray:
+        """Coordinates of slips as part of w."""
+        ratio = 2.0 * slip / (1.0 + np.sqrt(1.0 - 0.25 * np.square(slip)))
+        return np.arcsinh((ratio - self.middle) / self.scale)
 
 
 def _grid(contact: ContactLaws, box: Box) -> _Grid:
@@ -202,7 +210,7 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
-    least, most = (math.asinh((y - middle) / scale) for y in (-2.0, 2.0))
+    least, most = (math.asinh((y - middle) / scale) for y in (-_LARGEST_RATIO, _LARGEST_RATIO))
     # Speeds of sheets are those of all cases whose fastest speed is of the same order.
     spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
     first = max(math.floor(box.slowest**0.25 / spacing) - _BEYOND, 0)
@@ -229,10 +237,10 @@ def _bent_ratio(contact: ContactLaws, box: Box) -> float:
 def _sheet(contact: ContactLaws, grid: _Grid, speed: float) -> np.ndarray:
     """Quantities at all loads and slip ratios at one speed w [m/s], and last the processor time it took [s]."""
     began = time.thread_time()
-    load, ratio = np.meshgrid(grid.loads(grid.load.nodes), grid.ratios(grid.ratio.nodes), indexing="ij")
+    load, slip = np.meshgrid(grid.loads(grid.load.nodes), grid.slips(grid.ratio.nodes), indexing="ij")
     speed = max(speed, REST_SPEED)
-    along = speed * np.sqrt(np.maximum(1.0 - 0.25 * ratio * ratio, 0.0))
-    pull, lag, skew, rough = tractions(contact, load, along, speed * ratio)
+    along = speed * np.sqrt(np.maximum(1.0 - 0.25 * slip * slip, 0.0))
+    pull, lag, skew, rough = tractions(contact, load, along, speed * slip)
     root = np.cbrt(load)
     heavy = load * root * root
     found = np.stack([pull / load, lag / heavy, skew / (load * root), rough / (heavy * speed)], axis=-1)
@@ -294,7 +302,7 @@ def _traction(contact: ContactLaws, grid: _Grid, box: Box, key: str) -> _Made:
 
 
 def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
-    """Slip ratio up to which the moment on the roller rises with slip on either side, over loads and speeds.
+    """Slip as part of w up to which the moment on the roller rises with slip on either side, over loads and speeds.
 
     Of each node the least of it and its neighbours'.
     """
@@ -302,12 +310,12 @@ def _rising(grid: _Grid, nodes: np.ndarray) -> np.ndarray:
 
     load = grid.loads(grid.load.nodes)
     spin = nodes[..., 0] - nodes[..., 1] * np.cbrt(load)[:, None, None] ** 2
-    ratio = grid.ratios(grid.ratio.nodes)
+    slip = grid.slips(grid.ratio.nodes)
     falls = np.diff(spin, axis=-1) < 0.0
-    centre = int(np.searchsorted(ratio, grid.middle))
+    centre = int(np.searchsorted(slip, grid.middle))
     above, below = falls[..., centre:], falls[..., :centre][..., ::-1]
-    upper = np.append(ratio[centre:-1], 2.0)
-    lower = np.append(-ratio[centre:0:-1], 2.0)
+    upper = np.append(slip[centre:-1], 2.0)
+    lower = np.append(-slip[centre:0:-1], 2.0)
     up = np.where(above.any(-1), upper[above.argmax(-1)], 2.0)
     down = np.where(below.any(-1), lower[below.argmax(-1)], 2.0)
     return minimum_filter(np.minimum(up, down), size=3)
@@ -325,32 +333,32 @@ def _errors(contact: ContactLaws, grid: _Grid, coefficients: np.ndarray, box: Bo
     speed = random.uniform(max(box.slowest, 0.02 * box.fastest), box.fastest, (_STATES, 1))
     held = load > _HELD_LOAD
     low, high = (
-        np.arcsinh((np.where(held, edge, light) - grid.middle) / grid.scale)
+        grid.coordinates(np.where(held, edge, light))
         for edge, light in ((-_HELD_RATIO, -1e-3), (_HELD_RATIO, _MOST_RATIO))
     )
-    ratio = grid.ratios(random.uniform(low, high, (_STATES, _SLIPS)))
-    load, speed = np.broadcast_to(load, ratio.shape), np.broadcast_to(speed, ratio.shape)
+    slip = grid.slips(random.uniform(low, high, (_STATES, _SLIPS)))
+    load, speed = np.broadcast_to(load, slip.shape), np.broadcast_to(speed, slip.shape)
     root = np.cbrt(load)
     places = [
         (coordinate - one.first) * one.per_spacing + 1.0
         for one, coordinate in (
             (grid.load, np.log(load) + grid.stretch * root),
             (grid.speed, speed**0.25),
-            (grid.ratio, np.arcsinh((ratio - grid.middle) / grid.scale)),
+            (grid.ratio, grid.coordinates(slip)),
         )
     ]
     found = [
         map_coordinates(coefficients[..., channel], places, order=3, prefilter=False) for channel in range(CHANNELS)
     ]
-    along = speed * np.sqrt(1.0 - 0.25 * ratio * ratio)
-    expected = tractions(contact, load, along, speed * ratio)
+    along = speed * np.sqrt(1.0 - 0.25 * slip * slip)
+    expected = tractions(contact, load, along, speed * slip)
     scales = (load, load * root * root, load * root, load * root * root * speed)
     shape = contact.shape
     curvature = shape.curvature_ratio * shape.roller_radius if shape.microslip else 0.0
 
     def spin_and_power(values: list[np.ndarray] | tuple[np.ndarray, ...]) -> tuple[np.ndarray, np.ndarray]:
         pull, lag, skew, _ = values
-        return pull - lag, speed * ratio * (pull - lag) + along * (curvature * lag - abs(shape.spin_ratio) * skew)
+        return pull - lag, speed * slip * (pull - lag) + along * (curvature * lag - abs(shape.spin_ratio) * skew)
 
     spin, power = spin_and_power(expected)
     other, other_power = spin_and_power([one * scale for one, scale in zip(found, scales, strict=True)])

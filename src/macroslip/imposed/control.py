@@ -172,7 +172,7 @@ def energy_error(path, work):
     slip = 0.0 if work.zone == FIRM else work.there_slip
     evaluate(path, work.there, slip, work.push)
     work.count[2] += 1
-    power = powers(path.body, work.there, work.push, slip, work.push_powers)
+    power = powers(path.body, work.there, work.push, slip, work.push_powers[:])
     missed = abs(power - cubic(tuning.CUSP_LOOK, totals[0], totals[1], totals[2], totals[3]))
     return max(error, tuning.CUSP_WEIGHT * work.length * missed)
 

@@ -102,7 +102,7 @@ def integrate_fixed_step(path, work, steps):
             work.unbalanced = max(work.unbalanced, unbalanced)
         else:
             row.time[0] = work.time
-            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
+            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers[:])
             work.spin += span * body.mobility / body.radius * net_force(work.forces)
         slip = work.stage_at[0].ring_speed - body.radius * work.spin
         if not math.isfinite(slip):
@@ -117,5 +117,5 @@ def integrate_fixed_step(path, work, steps):
         work.stretch = work.count[0]
         if rule.implicit:
             row.time[0] = after
-            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers)
+            write_stage(row, 0, body, work.at, work.forces, work.slip, work.powers[:])
     return UNDER_WAY, steps.size

@@ -130,7 +130,7 @@ def start_at(path, work):
     """Find station, forces and powers of the roller now."""
     locate(path, work.time, work.interval, work.at)
     evaluate(path, work.at, work.slip, work.forces)
-    powers(path.body, work.at, work.forces, work.slip, work.powers)
+    powers(path.body, work.at, work.forces, work.slip, work.powers[:])
     work.count[2] += 1
 
 
@@ -147,7 +147,7 @@ def write_point(path, work, row):
     """Write a row without weight of the roller now."""
     frame(work, row, 1, work.time)
     row.time[0], row.weight[0], row.sampled = work.time, 0.0, 1
-    write_stage(row, 0, path.body, work.at, work.forces, work.slip, work.powers)
+    write_stage(row, 0, path.body, work.at, work.forces, work.slip, work.powers[:])
 
 
 @jit_inline

@@ -32,7 +32,7 @@ from macroslip.imposed.radau import (
 )
 from macroslip.imposed.status import COMPLETED, NOT_FINITE, OUTSIDE_TABLES, STEP_TOO_SMALL, TOO_MANY_STEPS, UNDER_WAY
 from macroslip.imposed.zones import EDGE, FIRM, FREE, edge_time
-from macroslip.ring.orbit import Motion, interval_of
+from macroslip.ring.orbit import Motion, interval_of, last_before
 from macroslip.roller.forces import net_force, powers
 from macroslip.roller.step import write_stage
 
@@ -87,7 +87,7 @@ def _next_stretch(path, stops, classes, work):
     # With microslip the power of a held roller has a kink at every sample; without, that of a cage that carries little.
     kinks = zone == FIRM and (not jumps or _follows_acceleration(work))
     if zone != EDGE and work.step > 2.0 * sample_step and not kinks:
-        last = max(interval, min(work.run_end, np.searchsorted(motion.time, stop) - 1))
+        last = max(interval, min(work.run_end, last_before(motion.time, stop)))
         if zone == FIRM and last > interval and motion.time[last + 1] > stop:
             # The last step before a stop crosses no sample, so that tractions at the stop are those of the instant.
             last -= 1
@@ -184,10 +184,10 @@ def _write_samples(path, work, resolved, rows):
         if abs(slip) <= resolved:
             continue
         evaluate(path, work.there, slip, work.push)
-        powers(path.body, work.there, work.push, slip, work.push_powers)
+        powers(path.body, work.there, work.push, slip, work.push_powers[:])
         one = rows[row]
         one.time[stage], one.weight[stage] = work.time + k / tuning.PEAK_PARTS * work.length, 0.0
-        write_stage(one, stage, path.body, work.there, work.push, slip, work.push_powers)
+        write_stage(one, stage, path.body, work.there, work.push, slip, work.push_powers[:])
         stage += 1
         frame(work, one, stage, one.time[stage - 1])
         if stage == 3:
@@ -224,6 +224,16 @@ def _accept(path, work, end, rows):
     return count + 1
 
 
+@jit_inline
+def _begin(path, work, row):
+    """Start at the first sample, at which no step ends: it has a row of its own."""
+    work.begun, work.time, work.interval = 1, path.motion.time[0], 0
+    work.step, work.barrier = min(path.limits.longest_step, tuning.FIRST_STEP), work.time
+    work.zone, work.run_end, work.exponent, work.bend = -1, -1, tuning.LIMIT_EXPONENT, math.inf
+    start_at(path, work)
+    write_point(path, work, row)
+
+
 @jit
 def integrate(path, stops, classes, work, steps):
     """Integrate the slip of one roller, until its history ends or the buffer is full.
@@ -238,12 +248,7 @@ def integrate(path, stops, classes, work, steps):
     path = Path(path.body, path.tables, uncounted(path.flat), motion, path.start_angle, path.limits)
     limits, count = path.limits, 0
     if work.begun == 0:
-        work.begun, work.time, work.interval = 1, path.motion.time[0], 0
-        work.step, work.barrier = min(limits.longest_step, tuning.FIRST_STEP), work.time
-        work.zone, work.run_end, work.exponent, work.bend = -1, -1, tuning.LIMIT_EXPONENT, math.inf
-        start_at(path, work)
-        # No step ends at the first sample.
-        write_point(path, work, steps[0])
+        _begin(path, work, steps[0])
         count = 1
     while count + _ROWS <= steps.size:
         if work.time >= work.barrier:

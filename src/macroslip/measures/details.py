@@ -512,7 +512,7 @@ class Looker:
             self._skew.turn(looks)
         looks["turned"] = angle_at(self._motion, np.stack([looks["since"], looks["time"]], axis=1))
         found, steel = self.details, self._contacts[0].effusivity
-        roller = self._roller.body[0], self._roller.tables
+        roller = self._roller.body[0], self._roller.tables.ctypes.data
         _look(looks, self._contacts, roller, self._start_angle, found.maps[0], found.extreme, found.entry_extreme)
         inside = looks["orbit"] >= 0
         power, half, own, other = np.moveaxis(looks["hot"][inside], -1, 0)

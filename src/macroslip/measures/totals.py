@@ -10,6 +10,7 @@ import numpy as np
 
 from macroslip.compiled import jit, jit_inline
 from macroslip.contact.laws import ContactLaws, RollerLaws
+from macroslip.ring.orbit import last_before
 from macroslip.roller.forces import LOWEST_SPEED
 
 #: Meaning of `Totals.mechanism_energy` by position: what makes surfaces slide.
@@ -124,7 +125,7 @@ def orbit_at(edges, time, likely):
         return likely
     if time < edges[0] or time >= edges[-1]:
         return -1
-    return np.searchsorted(edges, time, side="right") - 1
+    return last_before(edges, time)
 
 
 @jit

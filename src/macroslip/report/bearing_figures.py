@@ -100,11 +100,13 @@ def plot_film_over_orbit(axes: Axes, orbit: xr.Dataset, row: str) -> Axes:
         style = INTERFACE[interface]
         axes.fill_between(angle, low, high, color=style["color"], alpha=0.18, linewidth=0.0)
         axes.plot(angle, middle, label=interface, linewidth=1.6, **style)
+    axes.set_xlim(0.0, 360.0)
+    axes.set_xticks(_QUARTERS)
+    if not (one > 0.0).any():
+        return finish(axes, _ANGLE, "film thickness [µm]", f"{row} row, never touched")
     log_ticks(axes)
     # Rollers without load have no film but play.
     axes.set_ylim(top=min(axes.get_ylim()[1], 300.0))
-    axes.set_xlim(0.0, 360.0)
-    axes.set_xticks(_QUARTERS)
     scale = 1e-6 * float((orbit.film_parameter / orbit.film_thickness).median())
     right = axes.secondary_yaxis(
         "right", functions=(lambda h: np.multiply(h, scale), lambda ratio: np.divide(ratio, scale))

@@ -28,6 +28,8 @@ _TRACES = [
 _LARGEST_BLOCK = 2**26
 #: Angle of a roller [rad] beyond which there is none: a thousand turns.
 _LARGEST_ANGLE = 6e3
+#: Number beyond which none is of a bearing; its square can still be computed.
+_LARGEST = 1e30
 
 
 def to_netcdf(result: xr.Dataset) -> bytes:
@@ -89,8 +91,8 @@ def _labels(result: xr.Dataset) -> str:
     for name in ("roller", "time"):
         if name in result.dims:
             values = result[name].values
-            rising = values.dtype.kind in "fiu" and values.size > (name == "time") and bool((np.diff(values) > 0).all())
-            if not (rising and np.isfinite(values).all()):
+            numbers = values.dtype.kind in "fiu" and values.size > (name == "time") and np.isfinite(values).all()
+            if not (numbers and (np.diff(values) > 0).all()):
                 return f"the coordinate {name} does not rise from value to value"
     return ""
 
@@ -104,8 +106,12 @@ def _values(result: xr.Dataset) -> str:
         return "energy is negative or not finite for a roller that was completed"
     if "start_angle" in result.variables:
         angles = result.start_angle.values
-        if angles.dtype.kind not in "fiu" or np.abs(angles).max(initial=0.0) > _LARGEST_ANGLE:
+        if angles.dtype.kind not in "fiu" or not (np.abs(angles) <= _LARGEST_ANGLE).all():
             return "start_angle holds no angles"
+    for name, variable in result.variables.items():
+        # Where an integration failed its slip may be anything.
+        if name != "end_slip" and variable.dtype.kind == "f" and (np.abs(variable.values) > _LARGEST).any():
+            return f"{name} holds numbers beyond {_LARGEST:g}"
     return ""
 
 

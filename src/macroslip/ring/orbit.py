@@ -47,6 +47,19 @@ class Instant(NamedTuple):
 
 
 @jit_inline
+def last_before(times, time):
+    """Index of the last of rising times that is not after `time`; −1 if there is none."""
+    low, high = 0, times.size
+    while low < high:
+        middle = (low + high) // 2
+        if times[middle] <= time:
+            low = middle + 1
+        else:
+            high = middle
+    return low - 1
+
+
+@jit_inline
 def interval_of(motion, time, start):
     """Index of the sample interval that holds `time` [s], searched from interval `start` in either direction."""
     last = motion.time.size - 2
