@@ -58,6 +58,19 @@ def test_a_grip_finer_than_a_table_can_tell_is_no_reason_for_tiny_steps(number):
     assert one.verdict == "agrees" and one.energy_error < 2e-4, one
 
 
+@pytest.mark.parametrize("number", [30669, 30968])
+def test_power_has_its_peak_where_the_film_ends(number):
+    """While rings turn round, entrainment of a sliding roller passes zero, between two steps."""
+    one = compare(number, tight=2e-5, physical=0.1, wide=0.5)
+    assert one.verdict == "agrees" and one.peak_error < 5e-3, one
+
+
+def test_a_grip_at_the_middle_of_a_table_is_as_fine_as_its_laws():
+    """Cold oil that does not heat up, at 1.7 GPa, moves by 1e-19 m/s a newton."""
+    one = compare(30965, tight=5e-5, physical=0.1, wide=0.5)
+    assert one.verdict == "agrees" and one.energy_error < 3e-4, one
+
+
 @pytest.mark.deep
 @examples(1)
 @given(number=st.integers(0, 2**20), whole=st.sampled_from([0.0, 1.0]))

@@ -58,14 +58,14 @@ class Traction(NamedTuple):
 @jit_inline
 def cell_of(axis, coordinate):
     """Cell of a coordinate, the place in it, and its derivative by the coordinate: 0 beyond the ends, where it stays there."""
-    place = (coordinate - axis.first) * axis.per_spacing
-    last = float(axis.cells)
-    if place <= 0.0:
+    first, place = axis.first * axis.per_spacing, coordinate * axis.per_spacing
+    if place <= first:
         return 0, 0.0, 0.0
-    if place >= last:
+    if place >= first + axis.cells:
         return axis.cells - 1, 1.0, 0.0
-    cell = int(place)
-    return cell, place - cell, axis.per_spacing
+    cell = int(place - first)
+    # Exact near 0, so that slips are told apart that are tiny beside the axis: cold oil may grip at 1e-19 of the rings' speed.
+    return cell, place - (first + cell), axis.per_spacing
 
 
 @jit_inline
@@ -110,7 +110,7 @@ def traction(table, tables, load, log_load, ring_speed, slip):
     root_speed, root = math.sqrt(math.sqrt(speed)), math.exp(log_load * (1.0 / 3.0))
     i, t, load_slope = cell_of(table.load, log_load + table.stretch * root)
     k, s, speed_slope = cell_of(table.speed, root_speed)
-    j, u, ratio_slope = cell_of(table.ratio, math.copysign(math.log(abs(z) + size), z))
+    j, u, ratio_slope = cell_of(table.ratio, math.copysign(math.log1p(abs(z) + z * z / (1.0 + size)), z))
     inner = CHANNELS * (table.ratio.cells + 3)
     outer = inner * (table.speed.cells + 3)
     start = table.start + i * outer + k * inner + CHANNELS * j

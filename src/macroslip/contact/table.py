@@ -210,7 +210,9 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
-    least, most = (math.asinh((y - middle) / scale) for y in (-_LARGEST_RATIO, _LARGEST_RATIO))
+    # A node at no slip, where the splines are exact: errors beside it hide the force of a roller that cold oil grips.
+    fine = _RATIO_SPACING * box.fineness
+    below, above = (math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle))
     # Speeds of sheets are those of all cases whose fastest speed is of the same order.
     spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
     first = max(math.floor(box.slowest**0.25 / spacing) - _BEYOND, 0)
@@ -218,7 +220,7 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     return _Grid(
         axis(light, heavy, _LOAD_SPACING * box.fineness),
         Axis(first * spacing, 1.0 / spacing, last - first),
-        axis(least, most, _RATIO_SPACING * box.fineness),
+        Axis(-below * fine, 1.0 / fine, below + above),
         stretch,
         middle,
         scale,

@@ -65,7 +65,7 @@ def radau_limits(
     if not body["closed_form"]:
         # A film without heating may hold a roller at a slip of 1e-13 of the rings' speed.
         contacts = (body[name]["traction"] for name in ("inner", "outer"))
-        widest = max(one["scale"] * one["ratio"]["cells"] / one["ratio"]["per_spacing"] for one in contacts)
+        widest = max(one["scale"] / one["ratio"]["per_spacing"] for one in contacts)
         grain = tuning.PLACE_ROUNDING * widest * speed
     return np.array([(tolerance, max_steps, speed, energy, longest, cold, firm, window, grain)], LIMITS)
 

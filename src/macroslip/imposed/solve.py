@@ -172,27 +172,37 @@ def _may_peak_inside(path, work, resolved):
 
 
 @jit_inline
-def _write_samples(path, work, resolved, rows):
+def _film_ends_at(work):
+    """Part of the step at which entrainment passes zero, 1 where it does not: the film ends there, and power has a cusp."""
+    before, after = work.at.ring_speed - 0.5 * work.slip, work.stage_at[2].ring_speed - 0.5 * work.v[2]
+    return before / (before - after) if before * after < 0.0 else 1.0
+
+
+@jit_inline
+def _write_samples(path, work, resolved, cusp, rows):
     """Write rows without weight at places between the stages, where power may have a peak; returns how many.
 
-    A slip that is small against what a step may be off says nothing of the power there.
+    One of them is at the part `cusp` of the step. A slip that is small against what a step may be off says nothing of the
+    power there.
     """
-    row, stage = 0, 0
-    for k in range(1, tuning.PEAK_PARTS + 1):
-        look_between(path, work, k / tuning.PEAK_PARTS)
+    row, stage, parts = 0, 0, tuning.PEAK_PARTS
+    for k in range(1, parts + 1):
+        near = abs(cusp * parts - k) <= 0.5 or (k == 1 and cusp * parts < 0.5)
+        part = cusp if near else k / parts
+        look_between(path, work, part)
         slip = work.there_slip
         if abs(slip) <= resolved:
             continue
         evaluate(path, work.there, slip, work.push)
         powers(path.body, work.there, work.push, slip, work.push_powers[:])
         one = rows[row]
-        one.time[stage], one.weight[stage] = work.time + k / tuning.PEAK_PARTS * work.length, 0.0
+        one.time[stage], one.weight[stage] = work.time + part * work.length, 0.0
         write_stage(one, stage, path.body, work.there, work.push, slip, work.push_powers[:])
         stage += 1
         frame(work, one, stage, one.time[stage - 1])
         if stage == 3:
             row, stage = row + 1, 0
-    work.count[2] += tuning.PEAK_PARTS
+    work.count[2] += parts
     return row + (1 if stage > 0 else 0)
 
 
@@ -200,9 +210,10 @@ def _write_samples(path, work, resolved, rows):
 def _accept(path, work, end, rows):
     """Write a step, which ends at `end` [s], and go on to there; returns the number of rows."""
     resolved, count = tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale, 0
-    sampled = _may_peak_inside(path, work, resolved)
+    cusp = _film_ends_at(work)
+    sampled = cusp < 1.0 or _may_peak_inside(path, work, resolved)
     if sampled:
-        count = _write_samples(path, work, resolved, rows)
+        count = _write_samples(path, work, resolved, cusp, rows)
     row = rows[count]
     frame(work, row, 3, end)
     row.sampled = 1 if sampled else 0
