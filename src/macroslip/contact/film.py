@@ -129,8 +129,8 @@ def masjedi_khonsari_notes(interface: Interface) -> list[str]:
     ]
 
 
-def moes_thickness(load, material):
-    """Dimensionless film thickness N = (h/R) (2U)^−½ of a smooth line contact.
+def log_moes(log_rigid, log_load, log_material):
+    """Ln of the dimensionless film N = (h/R) (2U)^−½ of a smooth line contact, from ln H_RI, ln M and ln L.
 
     N = {(H_RI^(7/3) + H_EI^(7/3))^(3s/7) + (H_RP^(−7/2) + H_EP^(−7/2))^(−2s/7)}^(1/s), s = (7 + 8 exp(−2 H_EI/H_RI))/5,
     H_RI = 3/M, H_EI = 2.621 M^(−1/5), H_RP = 1.287 L^(2/3), H_EP = 1.311 M^(−1/8) L^(3/4)
@@ -138,30 +138,14 @@ def moes_thickness(load, material):
     N [-] is the film where the pressure is highest, which is the film that the volume flow fills. In a rigid contact it
     is 1.226 times the smallest film, in an elastic one the film of the flat middle. In these terms 3/M and 1.287
     L^(2/3) are exact limits of Reynolds' equation, to the digits given. M = W (2U)^(−½) > 0 and L = G (2U)^¼ ≥ 0, with
-    W = w/(E'R), U = η0 u_e/(E'R) and G = α_p E'.
+    W = w/(E'R), U = η0 u_e/(E'R) and G = α_p E'. The rigid, isoviscous limit H_RI may be that of another gap than a line
+    contact's; logarithms may be of numbers beyond all that are stored.
 
     Smooth surfaces, flooded inlet, isothermal, Barus' law, incompressible. Within 5 % of full numerical solutions of
     that problem for M = 0.05 to 20 at L = 0 and 4, M = 0.05 to 2 at L = 8, and M = 0.05 to 1 at L = 15.
 
     Moes, Lubrication and Beyond, lecture notes, University of Twente (2000). The coefficients are those also given by
     Gelinck and Schipper, Tribol. Int. 33 (2000) 175, doi:10.1016/S0301-679X(00)00024-4.
-
-    Examples
-    --------
-    >>> float(round(moes_thickness(1.0, 10.0), 4))
-    6.9701
-    >>> float(round(moes_thickness(1e-3, 0.0) * 1e-3, 3))
-    3.0
-    """
-    with np.errstate(divide="ignore"):
-        log_load, log_material = np.log(load), np.log(material)
-    return np.exp(log_moes(math.log(3.0) - log_load, log_load, log_material))
-
-
-def log_moes(log_rigid, log_load, log_material):
-    """Ln N of `moes_thickness` with any rigid, isoviscous limit H_RI, which of a line contact is 3/M.
-
-    From ln H_RI, ln M and ln L, which may lie beyond all numbers.
 
     Examples
     --------
@@ -189,10 +173,9 @@ def joined(first, second, order):
 
 
 def moes(interface: Interface, load, entrainment_speed):
-    """Film thickness h [m] by `moes_thickness` at loads [N] and speeds [m/s], in range or not."""
-    return np.exp(
-        _log_moes_film(line_groups(interface), interface.rolling_radius, np.log(load), np.log(entrainment_speed))
-    )
+    """Film thickness h [m] by `log_moes` at loads [N] and speeds [m/s], in range or not."""
+    groups = line_groups(interface)
+    return np.exp(_log_moes_film(groups, interface.rolling_radius, np.log(load), np.log(entrainment_speed)))
 
 
 def _log_moes_film(groups: LineGroups, radius: float, log_load, log_speed):

@@ -1,10 +1,9 @@
 """Look-ups in the tables of a contact, for compiled code: traction of a raceway, oil, film, and the cage's contact.
 
 A raceway's traction depends on load Q, ring speed u2 and slip v. With U = |u2|, c = v sign u2, the speed
-w = √(U² + c²/4 + w0²) and the slip ratio y = 2 c/(w + U), which is between −4 and 4 whatever the roller does and smooth where a
-ring comes to rest, a table has the coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0), and the quantities pull/Q,
-lag/Q^(5/3), skew/Q^(4/3) and power of asperities/(Q^(5/3) w). Small slips have y = v/u2. Traction is odd under
-(u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
+w = √(U² + c²/4 + w0²) and the slip ratio y = 2 c/(w + U), between −4 and 4 and smooth where a ring comes to rest, a table has
+the coordinates ln Q + k Q^(1/3), w^(1/4) and asinh((y − y_m)/y_0), and the quantities pull/Q, lag/Q^(5/3), skew/Q^(4/3) and
+power of asperities/(Q^(5/3) w). Traction is odd under (u2, v) → (−u2, −v). Near rest, w ≪ w0, it goes with slip.
 
 Other tables are planes over ln Q and the logarithm of a speed. Beyond the lightest load and the slowest speed of a table its
 values there serve; `macroslip.contact.table` makes tables that hold all heavier and faster states of a case.

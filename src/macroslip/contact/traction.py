@@ -166,26 +166,6 @@ def _hot_stress(rheology: int, ratio: np.ndarray, heat: np.ndarray) -> np.ndarra
     return limited_stress(rheology, ratio * _thinning(c), 1.0)
 
 
-def thermal_reduction(heating):
-    """Factor asinh(√B)/√(B(1 + B)) by which shear heating lowers the effective viscosity [-], for B ≥ 0.
-
-    Exact solution of k T'' = −τ²/η(T) between cool walls with η = η_s exp(−β(T − T_wall)); valid as long as conduction
-    across the film is the only way for heat to leave and walls stay at inlet temperature. B = β η_s Δu²/(8k) is Crook's
-    heating number; the middle of the film is ln(1 + B)/β above its walls.
-
-    Crook, Phil. Trans. R. Soc. A 254 (1961) 237, doi:10.1098/rsta.1961.0014.
-
-    Examples
-    --------
-    >>> float(round(thermal_reduction(1.0), 9)), float(thermal_reduction(0.0))
-    (0.62322524, 1.0)
-    """
-    heating = np.asarray(heating, dtype=float)
-    hot = np.maximum(heating, 1e-8)
-    found = np.arcsinh(np.sqrt(hot)) / np.sqrt(hot * (1.0 + hot))
-    return np.where(heating < 1e-8, 1.0 - heating * 2.0 / 3.0, found)[()]
-
-
 class Fluid(NamedTuple):
     """Properties of a lubricant that set the shear stress of its film."""
 

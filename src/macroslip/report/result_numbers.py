@@ -213,10 +213,7 @@ def rating_tables(result: xr.Dataset) -> list[Table]:
     )  # fmt: skip
     exponents = result.wohler_exponent.values.tolist()
     ranges = [
-        (
-            load,
-            *(rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one)) for one in exponents),
-        )
+        (load, *(rating_text(result.damage_equivalent_load.sel(load=load, wohler_exponent=one)) for one in exponents))
         for load in result["load"].values.tolist()
     ]
     loads = Table(

@@ -101,10 +101,7 @@ class Cage:
     ] = 50.0  # fmt: skip
     weight: Annotated[bool, Flag("weight of the cage")] = True
     axis: Annotated[str | None, Choice("whether the cage's axis moves", lambda: AXES)] = None
-    guide_friction: Annotated[
-        float,
-        Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6),
-    ] = 0.0
+    guide_friction: Annotated[float, Quantity("force at the pitch radius that brakes each cage", FORCE, 0.0, 1e6)] = 0.0
     guided_by: Annotated[str, Choice("what holds the cage in the middle", lambda: GUIDED_BY)] = "rollers"
     land_diameter: Annotated[float | None, Quantity("diameter of the land that guides", LENGTH, 1e-3, 10.0)] = None
     land_width: Annotated[float | None, Quantity("width of both lands together", LENGTH, 1e-4, 1.0)] = None
