@@ -34,6 +34,8 @@ _LEAST_LOAD, _LIGHTEST = 0.05, 1e-3
 _MICROSLIP = 6e-4
 #: Slip ratio of a roller that spins while the ring is at rest.
 _LARGEST_RATIO = 4.0
+#: Slip ratio at which rolling comes to rest, v = 2 u2.
+_NO_ENTRAINMENT = 4.0 * (math.sqrt(2.0) - 1.0)
 #: Part of the Newtonian force that is missing at the slip by which asinh is scaled without microslip.
 _BENT = 0.05
 #: Distances between nodes of ln Q and ln u of planes, and their least speed as part of the fastest.
@@ -210,8 +212,12 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     else:
         scale = _bent_ratio(contact, box)
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
-    # A node at no slip, where the splines are exact: errors beside it hide the force of a roller that cold oil grips.
+    # A node at no slip, where the splines are exact: errors beside it hide the force of a roller that cold oil grips. And the
+    # slip without entrainment in the middle between two: there the film ends, and a node would spread that over its cells.
     fine = _RATIO_SPACING * box.fineness
+    scale = (_NO_ENTRAINMENT - middle) / math.sinh(
+        fine * (math.floor(math.asinh((_NO_ENTRAINMENT - middle) / scale) / fine) + 0.5)
+    )
     below, above = (math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle))
     # Speeds of sheets are those of all cases whose fastest speed is of the same order.
     spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
