@@ -369,15 +369,6 @@ def test_factors_of_the_inlet(contacts):
     assert heated / flooded == pytest.approx(inlet_heating_of_rolling(loading), rel=0.01)
 
 
-def test_pushes_go_with_curvature(laws, contacts):
-    for where, larger in (("inner", 0.0), ("outer", 1.0)):
-        numbers, (_, shape, roller_radius) = laws["inlet", where], contacts[where]
-        assert numbers.share_1 == pytest.approx(shape.rolling_radius / roller_radius)
-        assert numbers.share_1 + numbers.share_2 == pytest.approx(1.0, rel=1e-15)
-        # The outer raceway is concave: the push on the ring is against the motion.
-        assert (numbers.share_1 > 1.0) == bool(larger)
-
-
 def free_ratio(numbers, gap, speed=SPEED):
     """No load, no cage: the roller's surface speed at which nothing turns it, over pure rolling."""
     _, conductance, per_speed = contact_at_gap(numbers, gap)

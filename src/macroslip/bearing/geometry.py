@@ -217,7 +217,6 @@ class Envelope(NamedTuple):
     #: Axial distance from the bearing's mid-plane [m]; a row that crosses the mid-plane has a negative `nearest`.
     nearest: float
     farthest: float
-    raceway_start: float  #: Axial distance from the mid-plane at which the outer raceway contact can begin [m]
     inside: float  #: Distance from the bearing axis, at the end that is farther from the mid-plane [m]
 
 
@@ -230,14 +229,13 @@ def envelope(bearing: Bearing) -> Envelope:
     --------
     >>> from macroslip.bearing import Bearing
     >>> [round(place, 4) for place in envelope(Bearing.read("skf-240-600-bc"))]
-    [0.0159, 0.1321, 0.0281, 0.3315]
+    [0.0159, 0.1321, 0.3315]
     """
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     half, end = bearing.roller_length / 2, roller_end_radius(bearing)
     return Envelope(
         nearest=bearing.row_offset - half * cosine - end * sine,
         farthest=bearing.row_offset + half * cosine + end * sine,
-        raceway_start=bearing.row_offset - half * cosine + end * sine,
         inside=bearing.pitch_radius - half * sine - end * cosine,
     )
 

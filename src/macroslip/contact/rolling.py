@@ -189,9 +189,6 @@ class RollingNumbers(NamedTuple):
     half_length: float  #: l/2 [m]
     across: float  #: a per Q^(1/3) [m/N^(1/3)]
     area: float  #: π a b per Q^(2/3) [m²/N^(2/3)]
-    #: R/R_1 of the roller and R/R_2 of its counterpart; their sum is 1.
-    share_1: float
-    share_2: float
     #: Gap where inlets begin to be full [m], which starves every contact by its own film; infinite where flooded.
     oil_gap: float = math.inf
     plug: Plug = Plug()
@@ -250,8 +247,6 @@ def prepare_rolling(
         half_length=0.5 * shape.length,
         across=across,
         area=math.pi * across * interface.hertz.semi_axis_along,
-        share_1=radius / roller_radius,
-        share_2=1.0 - radius / roller_radius,
         oil_gap=oil_gap,
         plug=Plug(shape.length * (oil.grease_yield_stress or 0.0), 2.0 * shape.rolling_radius, roller_radius),
     )

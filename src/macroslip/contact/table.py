@@ -214,10 +214,8 @@ def _grid(contact: ContactLaws, box: Box) -> _Grid:
     light, heavy = (math.log(q) + stretch * q ** (1.0 / 3.0) for q in (_LEAST_LOAD, box.load))
     # A node at no slip, where the splines are exact: errors beside it hide the force of a roller that cold oil grips. And the
     # slip without entrainment in the middle between two: there the film ends, and a node would spread that over its cells.
-    fine = _RATIO_SPACING * box.fineness
-    scale = (_NO_ENTRAINMENT - middle) / math.sinh(
-        fine * (math.floor(math.asinh((_NO_ENTRAINMENT - middle) / scale) / fine) + 0.5)
-    )
+    fine, beyond = _RATIO_SPACING * box.fineness, _NO_ENTRAINMENT - middle
+    scale = beyond / math.sinh(fine * (math.floor(math.asinh(beyond / scale) / fine) + 0.5))
     below, above = (math.ceil(math.asinh((_LARGEST_RATIO + y) / scale) / fine) for y in (middle, -middle))
     # Speeds of sheets are those of all cases whose fastest speed is of the same order.
     spacing = _SPEED_SPACING * box.fineness * 2.0 ** (0.25 * math.ceil(math.log2(box.fastest)))
