@@ -407,3 +407,11 @@ def test_none_is_nothing_and_unknown_names_are_refused(contacts):
     assert prepare_rolling("none", *contacts["inner"]) is None
     with pytest.raises(InputError, match="no rolling law 'some'"):
         prepare_rolling("some", *contacts["inner"])
+
+
+def test_pushes_go_with_curvature(laws, contacts):
+    for where, larger in (("inner", 0.0), ("outer", 1.0)):
+        numbers, (_, shape, roller_radius) = laws["inlet", where], contacts[where]
+        assert numbers.share_1 == pytest.approx(shape.rolling_radius / roller_radius)
+        # The outer raceway is concave: the push on the ring is against the motion.
+        assert (numbers.share_1 > 1.0) == bool(larger)

@@ -189,6 +189,7 @@ class RollingNumbers(NamedTuple):
     half_length: float  #: l/2 [m]
     across: float  #: a per Q^(1/3) [m/N^(1/3)]
     area: float  #: π a b per Q^(2/3) [m²/N^(2/3)]
+    share_1: float  #: R/R_1 of the roller; that of its counterpart makes 1 of it
     #: Gap where inlets begin to be full [m], which starves every contact by its own film; infinite where flooded.
     oil_gap: float = math.inf
     plug: Plug = Plug()
@@ -247,6 +248,7 @@ def prepare_rolling(
         half_length=0.5 * shape.length,
         across=across,
         area=math.pi * across * interface.hertz.semi_axis_along,
+        share_1=radius / roller_radius,
         oil_gap=oil_gap,
         plug=Plug(shape.length * (oil.grease_yield_stress or 0.0), 2.0 * shape.rolling_radius, roller_radius),
     )
