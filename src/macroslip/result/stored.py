@@ -109,8 +109,9 @@ def _values(result: xr.Dataset) -> str:
         if angles.dtype.kind not in "fiu" or not (np.abs(angles) <= _LARGEST_ANGLE).all():
             return "start_angle holds no angles"
     for name, variable in result.variables.items():
-        # Where an integration failed its slip may be anything.
-        if name != "end_slip" and variable.dtype.kind == "f" and (np.abs(variable.values) > _LARGEST).any():
+        # Where an integration failed its slip may be anything; and lives of the rating may be endless.
+        known = (name in VARIABLES or name in result.coords) and name != "end_slip" and variable.dtype.kind == "f"
+        if known and (np.abs(variable.values) > _LARGEST).any():
             return f"{name} holds numbers beyond {_LARGEST:g}"
     return ""
 
