@@ -39,11 +39,11 @@ def bar_with_time_left(console: Console) -> Progress:
     """A bar with counts of done and all, and the time left; it disappears when all is done."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    words = (
+    columns = (
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
         TimeRemainingColumn(),
         TextColumn("left"),
     )
-    return Progress(*words, console=console, transient=True, speed_estimate_period=600.0)
+    return Progress(*columns, console=console, transient=True, speed_estimate_period=600.0)

@@ -41,14 +41,6 @@ from macroslip.lubricant import Lubricant
 
 OIL = Lubricant.read("vg460-pao")
 FULL = Laws.physical()
-
-
-def crook_reduction(heating):
-    """Factor by which heat lowers the stress of a Newtonian film between cool walls (doi:10.1098/rsta.1961.0014)."""
-    root = np.sqrt(heating)
-    return np.arcsinh(root) / (root * np.sqrt(1.0 + heating))
-
-
 LIMITED = FULL.but(rheology="limiting-shear")
 #: Laws, and the errors promised of the table: everywhere without skids, at the 99th percentile with skids, and at worst.
 CHOICES = {
@@ -66,6 +58,12 @@ bounded = pytest.mark.parametrize("rheology", [LIMITING_SHEAR, EYRING])
 any_rheology = st.sampled_from(sorted(RHEOLOGIES.values()))
 LIMIT = 4.2e7
 VISCOSITY, BETA, CONDUCTIVITY, FILM = 0.7, 0.05, 0.13, 1.3e-6
+
+
+def crook_reduction(heating):
+    """Factor by which heat lowers the stress of a Newtonian film between cool walls (doi:10.1098/rsta.1961.0014)."""
+    root = np.sqrt(heating)
+    return np.arcsinh(root) / (root * np.sqrt(1.0 + heating))
 
 
 def decades(low, high):

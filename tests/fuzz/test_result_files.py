@@ -160,22 +160,13 @@ def test_report_of_a_changed_result(folder, result, data):
 @pytest.mark.deep
 @pytest.mark.parametrize("value", [np.nan, 0.0, -1.0])
 def test_page_of_any_variable_without_meaning(folder, result, value):
+    file, page = folder / "mine.nc", folder / "page.html"
     for name in result.variables:
         if result[name].dtype.kind in "fiu":
             values = np.full_like(result[name].values, value, dtype=float)
-            changed = result.assign({name: (result[name].dims, values, result[name].attrs)})
-            (folder / "mine.nc").write_bytes(to_netcdf(changed))
-            (folder / "page.html").touch()
-            ends_well(
-                folder,
-                folder / "mine.nc",
-                "report",
-                folder / "mine.nc",
-                "-o",
-                folder / "page.html",
-                "--force",
-                "--quiet",
-            )
+            file.write_bytes(to_netcdf(result.assign({name: (result[name].dims, values, result[name].attrs)})))
+            page.touch()
+            ends_well(folder, file, "report", file, "-o", page, "--force", "--quiet")
 
 
 @pytest.mark.parametrize("name", ["energy", "status", "slip", "roller_load", "start_angle"])

@@ -132,7 +132,7 @@ def transient_flash(time, power_per_length, half_width, speed_1, speed_2, effusi
     0.272
     """
     hottest = widest = 0.0
-    for width in half_width:
+    for width in half_width:  # NumPy's maximum would compile longer than all the rest
         widest = max(widest, width)
     for n in range(time.size):
         speed = abs(speed_2[n])

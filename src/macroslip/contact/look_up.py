@@ -27,7 +27,7 @@ _LEAST_SPEED, _LEAST_LOAD = 1e-12, 1e-12
 AXIS = np.dtype([("first", "f8"), ("per_spacing", "f8"), ("cells", "i8")])
 #: Where a plane stands in the flat array of tables, and its axes.
 PLANE = np.dtype([("start", "i8"), ("load", AXIS), ("speed", AXIS)])
-#: The same of a raceway's traction; `rising` is where the slip ratios stand up to which it rises, over loads and speeds, `stretch` is k [N^(−1/3)], `middle` y_m, `scale` y_0, and `side` the sign of the tilt of the
+#: The same of a raceway's traction; `rising` is where the slips v/w stand up to which it rises, over loads and speeds, `stretch` is k [N^(−1/3)], `middle` y_m, `scale` y_0, and `side` the sign of the tilt of the
 #: roller's axis, which is that of the skew moment.
 TRACTION = np.dtype(
     [

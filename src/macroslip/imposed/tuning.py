@@ -66,8 +66,8 @@ FORCE_TOLERANCE = 1e-9
 #: The same with microslip, whose power does not hang on the balance of two large forces: half of the integration's
 #: tolerance, and at most this. At 2e-4, errors of energy on the bundled histories are 1e-5 with it.
 MICROSLIP_FORCE_SHARE, MICROSLIP_FORCE_TOLERANCE = 0.5, 1e-4
-#: Rounding of a place in a table, as part of its axis. With a seventh of it rollers that cold oil without heating grips
-#: at 1e-17 m/s stop in steps of nanoseconds.
+#: Rounding of a place in a table, as part of a cell. Asked for less than rounding leaves, rollers that cold oil without
+#: heating grips at 1e-17 m/s stop in steps of nanoseconds.
 PLACE_ROUNDING = 5e-16
 #: Safety factor on the residual predicted from the curvature of the forces in earlier steps, and what is left of that
 #: curvature when a newer one is smaller. With them a held roller takes 3.7 evaluations a step on average, not 6.
