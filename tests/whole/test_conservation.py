@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from macroslip import BearingLoads, Cage, Case, Laws, Radau, simulate
+from macroslip import Bearing, BearingLoads, Cage, Case, Laws, Lubricant, Radau, Window, simulate
 from macroslip.result.prepared import prepare
 from macroslip.roller.model import with_tables as rollers_with_tables
 from macroslip.whole.books import FLOWS
@@ -186,3 +186,20 @@ def test_rollers_that_drop_faster_than_the_rings_creep_stay_in_the_tables():
     assert (found.status == 0).all()
     drop = found.book_body_work.max() + found.book_cage_weight_work.max()
     assert np.abs(found.energy_residual).max() < 5e-3 * drop
+
+
+def test_a_shaft_that_starts_under_load_gives_rollers_no_energy_of_their_own():
+    """A contact at rest has no slopes, and friction at its limit none by slip: beyond either, rollers ran away by them."""
+    time = np.linspace(0.0, 1.2, 129)
+    shaft = np.clip(2.36 * (time - 0.244), 0.0, 1.88)
+    force = np.outer(1.0 + 15.0 * time, [0.0, -5.0e3, -8.6e2])
+    case = Case(
+        loads=BearingLoads(time, shaft, force, "start"), bearing=Bearing.read("skf-230-900-ca"),
+        lubricant=Lubricant.read("skf-lgwm-1"), temperature=292.0, laws=Laws.physical(), dynamics="whole-bearing",
+        rating=False, contact_details=False, gravity=False, window=Window(start=0.0, end=0.28),
+    )  # fmt: skip
+    found = simulate(case)
+    assert (found.status == 0).all()
+    assert (found.energy > -1e-9).all()
+    # Nothing but the shaft and falling rollers can move a raceway's rollers.
+    assert float(found.book_kinetic_energy.sum()) < float((found.book_shaft_work + found.book_body_work).sum())

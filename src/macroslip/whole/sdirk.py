@@ -133,9 +133,8 @@ class Part(NamedTuple):
 
 def pure_rolling(bearing: WholeBearing, cage: Cage) -> Start:
     """All rollers in pure rolling at their initial offsets, cages with them."""
-    count = bearing.places.size
-    offset = cage.start_offsets(count)
-    return Start(offset, np.zeros(count), np.zeros(count), np.zeros(bearing.cages))
+    still = np.zeros(bearing.places.size)
+    return Start(cage.start_offsets(still.size), still, still, np.zeros(bearing.cages))
 
 
 def steps_of(
@@ -195,8 +194,9 @@ def steps_of(
 def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) -> np.ndarray:
     """Bounds for a relative tolerance and the largest raceway speed of the history."""
     bearing, body = assembly.bearing[0], assembly.bodies[0]
-    scale = float(np.abs(motion.shaft_speed).max()) * bearing["orbit_ratio"] * bearing["outer_radius"]
-    scale = max(float(scale), tuning.LEAST_SPEED)
+    scale = max(
+        float(np.abs(motion.shaft_speed).max() * bearing["orbit_ratio"] * bearing["outer_radius"]), tuning.LEAST_SPEED
+    )
     dry = bearing["pocket"]["film"] == 0.0
     if not body["microslip"]:
         tolerance *= tuning.GRIPPED
@@ -420,9 +420,8 @@ def _refresh(assembly, limits, time, space, power_scale):
         one = rests[j]
         if good and one.due:
             factor = tuning.REST_SAFETY / math.sqrt(max(one.ratio, 1e-4))
-            one.rest = min(
-                limits.longest_rest, (time - known[j].when) * max(tuning.REST_PART, min(factor, tuning.REST_GROWTH))
-            )
+            factor = max(tuning.REST_PART, min(factor, tuning.REST_GROWTH)) if one.ratio <= tuning.FAR_OFF else 0.0
+            one.rest = min(limits.longest_rest, (time - known[j].when) * factor)
     return good
 
 

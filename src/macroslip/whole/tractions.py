@@ -193,14 +193,20 @@ def shear_from(sheet, load, speed, slip):
 
 
 @jit_inline
+def _reaches(sheet, load, speed, slip):
+    """Whether a contact's slopes serve at another load [N], ring speed and slip [m/s]; at rest it has none."""
+    if sheet.slip == 0.0 and sheet.speed == 0.0 and (slip != 0.0 or speed != 0.0):
+        return False
+    change = sheet.pull_by_slip * (slip - sheet.slip)
+    return abs(load - sheet.load) <= tuning.LOAD_REACH * sheet.load and abs(change) <= tuning.SLIP_REACH * load
+
+
+@jit_inline
 def is_out_of_reach(sheet, at, slips):
     """Whether a raceway's load or slip [m/s] has changed too much for the slopes."""
-    inner, outer = sheet.inner, sheet.outer
-    return (
-        abs(at.inner_load - inner.load) > tuning.LOAD_REACH * inner.load
-        or abs(at.outer_load - outer.load) > tuning.LOAD_REACH * outer.load
-        or abs(inner.pull_by_slip * (slips[0] - inner.slip)) > tuning.SLIP_REACH * at.inner_load
-        or abs(outer.pull_by_slip * (slips[1] - outer.slip)) > tuning.SLIP_REACH * at.outer_load
+    return not (
+        _reaches(sheet.inner, at.inner_load, at.inner_speed, slips[0])
+        and _reaches(sheet.outer, at.outer_load, at.outer_speed, slips[1])
     )
 
 
