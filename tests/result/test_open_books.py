@@ -24,6 +24,7 @@ def books(**flows):
         ({"shaft_work": 100.7, "raceway_loss": 60.0, "friction_loss": 40.0}, "energy to 0.7 % of what is dissipated"),
         ({"shaft_work": 93.0, "raceway_loss": 100.0}, "energy to 7 % of what is dissipated"),
         ({"outer_impulse": 50.0, "inner_impulse": -50.2}, ""),
+        ({"outer_impulse": 1e-12, "inner_impulse": -3e-12}, ""),  # rounding at standstill
         ({"outer_impulse": 50.0, "inner_impulse": -51.0}, "angular momentum to 2 % of what passes"),
     ],
 )

@@ -46,6 +46,8 @@ _SDIRK = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006, doi:10.1137/0714068"
 _TIME = {"units": "s", "long_name": "time"}
 #: Part of momentum and energy that may be missing in the books of a whole bearing without a word.
 LARGEST_REST = 0.005
+#: Energy [J] and impulse [N m s] of which no part is missed: those of a bearing at rest are rounding.
+_SLIGHT = 1e-4
 
 
 class Measured(NamedTuple):
@@ -108,7 +110,7 @@ def _open_books(books: Books) -> str:
         ("energy", books.energy_residual(), spent, "of what is dissipated"),
         ("angular momentum", books.momentum_residual(), through, "of what passes through the bearing"),
     ):
-        if (share := np.abs(rest).max() / max(of, 1e-300)) > LARGEST_REST:
+        if (share := np.abs(rest).max() / max(of, _SLIGHT)) > LARGEST_REST:
             found.append(f"{what} to {100.0 * share:.2g} % {beside}")
     if not found:
         return ""
