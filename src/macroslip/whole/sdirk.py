@@ -226,14 +226,6 @@ def _clock_at(motion, time, start):
 
 
 @jit_inline
-def _copy(target, source):
-    """Copy an array of two dimensions."""
-    for j in range(target.shape[0]):
-        for i in range(target.shape[1]):
-            target[j, i] = source[j, i]
-
-
-@jit_inline
 def _guess(y, k, step, span, lost):
     """Write y* of stage `k`, and a first guess, into the unknowns `y` of a roller or cage.
 
@@ -304,7 +296,7 @@ def _solve_stages(assembly, motion, limits, start, end, space, row, whole):
         stages, step = 1, _INSTANT
     else:
         tolerance = limits.force + assembly.bearing[0].roller_mass / step * limits.rounding
-    _copy(space.numbers[0], space.numbers[1])
+    space.numbers[0] = space.numbers[1]
     rests = space.rests
     for j in range(rests.size):
         rests[j].fresh = limits.rests == 0 or rests[j].rest < h or h == 0.0
@@ -536,8 +528,7 @@ def _advance(end, space, row):
         for k in range(2):
             memory.spent += row[j].weight[k] * (row[j].power[k, 0] + row[j].power[k, 1])
         if rests[j].due:
-            for i in range(numbers.shape[2]):
-                numbers[1, j, i] = numbers[0, j, i]
+            numbers[1, j] = numbers[0, j]
         _take_over(rollers[j].y)
     for c in range(cages.size):
         _take_over(cages[c].y)
@@ -590,7 +581,7 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         row, whole = steps[rows], wholes[rows]
         worst, solved = _solve_stages(assembly, motion, limits, start, end, space, row, whole)
         if memory.begun == 0:
-            _copy(space.numbers[1], space.numbers[0])
+            space.numbers[1] = space.numbers[0]
             _write_end(assembly, start, end, space, row, whole, offsets[rows])
             memory.begun, rows = 1, rows + 1
             continue
