@@ -40,5 +40,13 @@ def test_what_the_bearing_holds_is_not_missing():
     assert _open_books(found) == ""
 
 
+def test_friction_that_drives_is_told():
+    found = books(shaft_work=100.0, raceway_loss=100.0)
+    found.driven = 0.05
+    assert _open_books(found) == ""
+    found.driven = 0.4
+    assert _open_books(found).startswith("friction gave back 0.4 % of what is dissipated, which it cannot; results")
+
+
 def test_books_that_ended_early_say_nothing():
     assert _open_books(Books(None, np.array([0.0, 1.0]))) == ""  # the status of its rollers does

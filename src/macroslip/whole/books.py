@@ -85,19 +85,24 @@ class Books:
     flows, stocks : ndarray, shape (m, 13) and (m, 3)
         Impulses [N m s] and energies [J] since the start, by `FLOWS`; and what the bearing holds, by `STOCKS`. NaN where
         the integration did not arrive.
+    driven : float
+        Energy of the steps in which friction gave more than it took [J], which only an error can do.
     """
 
     def __init__(self, bearing: WholeBearing, times: np.ndarray):
         self.times = times
         self.flows = np.full((times.size, len(FLOWS)), np.nan)
         self.stocks = np.full((times.size, len(STOCKS)), np.nan)
-        self._bearing, self._sum = bearing, np.zeros(len(FLOWS))
+        self._bearing, self._sum, self.driven = bearing, np.zeros(len(FLOWS)), 0.0
 
     def add(self, part: Part) -> None:
         """Book a part of the integration."""
         if not part.bearing.size:
             return
-        sums = self._sum + np.cumsum(part.bearing["flows"], axis=0)
+        flows = part.bearing["flows"]
+        lost = flows[:, FLOWS.index("raceway_loss")] + flows[:, FLOWS.index("friction_loss")]
+        self.driven -= float(np.minimum(lost, 0.0).sum())
+        sums = self._sum + np.cumsum(flows, axis=0)
         self._sum = sums[-1]
         _, rows, places = np.intersect1d(part.bearing["end"], self.times, return_indices=True)
         self.flows[places] = sums[rows]

@@ -219,13 +219,6 @@ def _interval_of(motion, time, start):
 
 
 @jit_inline
-def _clock_at(motion, time, start):
-    """The clock at `time` [s], searched from sample interval `start`."""
-    interval = _interval_of(motion, time, start)
-    return Clock(time, interval, instant(motion, interval, time).shaft_speed)
-
-
-@jit_inline
 def _guess(y, k, step, span, lost):
     """Write y* of stage `k`, and a first guess, into the unknowns `y` of a roller or cage.
 
@@ -575,7 +568,9 @@ def integrate(assembly, motion, stops, bounds, space, steps, wholes, offsets):
         if h <= 4e-16 * abs(start.time) + 1e-300:
             status = STEP_TOO_SMALL
             break
-        end = _clock_at(motion, stop if h == left else start.time + h, start.interval)
+        time = stop if h == left else start.time + h
+        interval = _interval_of(motion, time, start.interval)
+        end = Clock(time, interval, instant(motion, interval, time).shaft_speed)
         if memory.begun == 0:
             end = start
         row, whole = steps[rows], wholes[rows]

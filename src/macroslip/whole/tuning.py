@@ -18,8 +18,7 @@ UNSOLVED_PART, SAFETY = 0.25, 0.85
 #: Longest step [s]. The error of a step does not see which of the rollers that no ring presses carry the cage: at 0.05 s, the
 #: sample interval of the bundled loads, rows of such rollers were off by up to 4 %, at a quarter of it by .4 %.
 LONGEST_STEP = 0.0125
-#: Part of the deepest indentation below which a dry impact has just begun, and part of it in the first step then. Judgement;
-#: a test compares the restitution of single impacts.
+#: Part of the deepest indentation below which a dry impact has just begun, and part of it in the first step then. Judgement.
 BEGUN, IMPACT_PART = 0.1, 0.5
 
 # --- Error ------------------------------------------------------------------------------------------------------------
@@ -34,10 +33,9 @@ RINGING = 2.0
 #: Factor on the tolerance without microslip: rollers that grip wander through their pockets, and which of them touch depends on
 #: small errors. At 1/4 the rows of one random case in twenty are off by 0.3 to 0.5 % at the default tolerance, with it by 0.1 %.
 GRIPPED = 1.0 / 16.0
-#: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale. Judgement.
-LEAST_SPEED = 1e-3
-#: Time [s] in which an error of speed becomes one of place. Judgement.
-PLACE_TIME = 0.02
+#: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale, and time [s] in which an error
+#: of speed becomes one of place. Judgement.
+LEAST_SPEED, PLACE_TIME = 1e-3, 0.02
 
 # --- Stage equations --------------------------------------------------------------------------------------------------
 
@@ -50,10 +48,9 @@ PREDICTED_REST = 1e-3
 
 # --- Tractions between evaluations ------------------------------------------------------------------------------------
 
-#: Longest time between evaluations of a roller's tractions [s]. Judgement: the sample interval of the bundled loads.
-LONGEST_REST = 0.05
-#: Most and least factor by which the time between evaluations changes, and the safety factor on it. Judgement.
-REST_GROWTH, REST_PART, REST_SAFETY = 2.0, 0.3, 0.8
+#: Longest time between evaluations of a roller's tractions [s], the sample interval of the bundled loads; the most and the
+#: least factor by which it changes, and the safety factor on it. Judgement.
+LONGEST_REST, REST_GROWTH, REST_PART, REST_SAFETY = 0.05, 2.0, 0.3, 0.8
 #: How many times its allowance a predicted force may be off before no slopes serve in the repeated or next step. Judgement.
 FAR_OFF = 30.0
 #: Relative change of a raceway's load over which the time between evaluations shortens, and that beyond which slopes no
@@ -62,7 +59,6 @@ LOAD_CHANGE, LOAD_REACH = 0.2, 0.25
 #: Change of a raceway's force by slip over its load beyond which slopes no longer serve: as much as the largest coefficients
 #: of friction. Beyond a peak of traction slopes are negative, and rollers ran away by them to speeds that no ring has.
 SLIP_REACH = 0.03
-#: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most.
-CAGE_REACH = 0.1
-#: Force of the cage that never matters [N]. Judgement.
-LIGHT = 1e-7
+#: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most. Force of the
+#: cage that never matters [N]. Judgement.
+CAGE_REACH, LIGHT = 0.1, 1e-7
