@@ -116,8 +116,8 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
     reverses = "min_spin_ratio" in result and bool((result.min_spin_ratio.isnull() & (result.status == 0)).any())
     if reverses and not given.get("laws", {}).get("heating", True):
         found.append(
-            "without heating (laws.heating: false) nothing bounds friction where a film ends as the shaft turns round or stops: a "
-            "single peak power there may be off by 10 %; energies are not."
+            "without heating (laws.heating: false) nothing bounds friction where a film ends as the shaft turns round: a single "
+            "peak power there may be off by 10 %, a roller's energy by 0.5 %."
         )
     if "basic_life" in result and bearing.get("dynamic_load_rating", {}).get("tag") == "D":
         found.append(
