@@ -483,7 +483,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(120)
 ANGLES, ANGLE_WEIGHTS = 0.25 * np.pi * (1.0 + NODES), 0.5 * np.pi * WEIGHTS
 
 
-def stress_integral(interface, load, film, slip):
+def stress_integral(interface, load, film, slip, *, heated=True):
     """∬ τ dx dy over the ellipse at the Hertz pressure, Barus viscosity and Crook's stress, all written here.
 
     x = b sin θ, y = a cos θ sin ψ makes dx dy = a b cos² θ cos ψ and the pressure p0 cos θ cos ψ: smooth everywhere.
@@ -494,19 +494,20 @@ def stress_integral(interface, load, film, slip):
     pressure = hertz.pressure * size * np.outer(cosine, cosine)
     area = hertz.semi_axis_across * hertz.semi_axis_along * size**2 * np.outer(cosine**2, cosine)
     viscosity = oil.viscosity * np.exp(oil.pressure_viscosity * pressure)
-    root = np.sqrt(oil.temperature_viscosity * viscosity / (8 * oil.thermal_conductivity)) * slip
+    root = np.sqrt(oil.temperature_viscosity * viscosity / (8 * oil.thermal_conductivity)) * slip * heated
     reduction = np.where(root < 1e-3, 1 - root**2 * (2 / 3 - 8 / 15 * root**2), 0.0)
     hot = np.maximum(root, 1e-3)
     reduction = np.where(root < 1e-3, reduction, np.arcsinh(hot) / (hot * np.sqrt(1 + hot**2)))
     return np.einsum("i,j,ij->", ANGLE_WEIGHTS, ANGLE_WEIGHTS, viscosity * reduction * slip / film * area)
 
 
+@pytest.mark.parametrize("heated", [True, False])
 @pytest.mark.parametrize("number", [0, 1, 2], ids=["inner", "outer", "cage"])
-def test_closed_form_is_the_integral_of_the_stress(base, number):
-    law = prepare_barus_crook(base[number])
+def test_closed_form_is_the_integral_of_the_stress(base, number, heated):
+    law = prepare_barus_crook(base[number], heated=heated)
     for load in (0.1, 30.0, 1e3, 2e4, 1e5, 2e5):
         for slip in (1e-13, 1e-8, 1e-4, 0.03, 1.0, 20.0):
-            force = stress_integral(base[number], load, 1.2e-6, slip)
+            force = stress_integral(base[number], load, 1.2e-6, slip, heated=heated)
             ahead, behind = barus_crook_traction(law, load, 1.2e-6, np.array([slip, -slip]))
             assert ahead == pytest.approx(force, rel=1e-11, abs=0.0) and behind == -ahead
     assert barus_crook_traction(law, 1e4, 1e-6, 0.0) == 0.0

@@ -86,12 +86,3 @@ def test_films_that_carry_what_the_rings_do_not_know_are_told(load, doubted):
     assert (result.mean_film_load.values > 0.0).all()
     everything = simulate(replace(case, rollers="all", laws=Laws.paper(), traces=Traces(step=0.02)))
     assert everything.attrs["mean_elastic_load"] == pytest.approx(float(everything.roller_load.mean()), rel=1e-2)
-
-
-@pytest.mark.parametrize(("slowest", "doubted"), [(-0.3, True), (0.3, False)])
-def test_peaks_at_the_end_of_films_without_heating_are_told(slowest, doubted):
-    loads = BearingLoads.constant([0.0, -2e5, 4e4], 1.0, 0.6)
-    loads = replace(loads, shaft_speed=np.linspace(1.0, slowest, loads.time.size))
-    laws = Laws.paper().but(heating=False)
-    case = Case(loads=loads, laws=laws, rollers=[0], window=Window(start=0.0), contact_details=False)
-    assert any("a single peak power there" in one for one in doubtful_result(simulate(case))) == doubted

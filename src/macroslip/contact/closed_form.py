@@ -1,4 +1,4 @@
-"""The paper's traction in closed form: a Newtonian Barus film with Crook's shear heating, over the Hertz ellipse.
+"""The paper's traction in closed form: a Newtonian Barus film, with Crook's shear heating or without, over the Hertz ellipse.
 
 With p = p0 √(1 − ρ²) the integral over the ellipse is one-dimensional: F = 2π a b (η0 Δu/h) Φ, with
 
@@ -170,16 +170,17 @@ class BarusCrook(NamedTuple):
 
     conductance: float  #: 2π a b η0 per Q^(2/3) [N^(1/3) s]: force per slip at unit film, without the patch integral
     pressure_exponent: float  #: P = α_p p0 per Q^(1/3) [N^(-1/3)]
-    heating: float  #: √(β η0/(8k)) [s/m], so that q0 = heating·|Δu|
+    heating: float  #: √(β η0/(8k)) [s/m], so that q0 = heating·|Δu|; zero without heating
 
 
-def prepare_barus_crook(interface: Interface) -> BarusCrook:
+def prepare_barus_crook(interface: Interface, *, heated: bool) -> BarusCrook:
     """The law for an interface of given Hertz coefficients and lubricant."""
     hertz, oil = interface.hertz, interface.lubricant
+    heating = math.sqrt(oil.temperature_viscosity * oil.viscosity / (8.0 * oil.thermal_conductivity))
     return BarusCrook(
         conductance=2.0 * math.pi * hertz.semi_axis_across * hertz.semi_axis_along * oil.viscosity,
         pressure_exponent=oil.pressure_viscosity * hertz.pressure,
-        heating=math.sqrt(oil.temperature_viscosity * oil.viscosity / (8.0 * oil.thermal_conductivity)),
+        heating=heating if heated else 0.0,
     )
 
 

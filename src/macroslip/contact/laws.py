@@ -146,7 +146,7 @@ def prepare(laws: Laws, bearing: Bearing, lubricant: Lubricant, axial_sign: int)
                 oil_gap=oil_gap if laws.starvation else math.inf,
                 thermal_loading=film.thermal_loading(interface) if laws.inlet_heating else 0.0,
                 fluid=fluid,
-                closed_form=prepare_barus_crook(interface) if laws.is_closed_form else None,
+                closed_form=prepare_barus_crook(interface, heated=laws.heating) if laws.is_closed_form else None,
                 traction_name=laws.traction,
                 # The film of a roller in its pocket is tens of micrometres thick: no asperity touches.
                 asperity_name="none" if cage and laws.rolling != "none" else laws.asperities,

@@ -448,7 +448,7 @@ def _steady_slip(law, tables, closed_form, load, speed):
     if not closed_form:
         return rising_slip(law.traction, tables, load, speed)
     if law.heating == 0.0:
-        return math.inf
+        return 2.0 * speed  # where the film ends
     # The middle of the contact is its hottest point.
     return _ROOT_HEATING_AT_PEAK / law.heating * math.exp(-0.5 * law.pressure_exponent * load ** (1.0 / 3.0))
 

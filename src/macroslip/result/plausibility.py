@@ -110,15 +110,7 @@ def doubtful_result(result: xr.Dataset) -> list[str]:
             f"the film's formula is outside its range for {100.0 * share:.3g} % of the loaded time at a raceway: film "
             "thickness and traction are extrapolated there."
         )
-    given = json.loads(result.attrs.get("input", "{}"))
-    bearing = given.get("bearing", {})
-    # The smallest ratio of spin is no number where pure rolling passes zero.
-    reverses = "min_spin_ratio" in result and bool((result.min_spin_ratio.isnull() & (result.status == 0)).any())
-    if reverses and not given.get("laws", {}).get("heating", True):
-        found.append(
-            "without heating (laws.heating: false) nothing bounds friction where a film ends as the shaft turns round: a single "
-            "peak power there may be off by 10 %, a roller's energy by 0.5 %."
-        )
+    bearing = json.loads(result.attrs.get("input", "{}")).get("bearing", {})
     if "basic_life" in result and bearing.get("dynamic_load_rating", {}).get("tag") == "D":
         found.append(
             "C of the bearing was not given and is that of its estimated inside, 0.80 to 0.96 of what makers publish: lives are "
