@@ -199,7 +199,7 @@ def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) ->
     )
     dry = bearing["pocket"]["film"] == 0.0
     if not body["microslip"]:
-        tolerance *= tuning.GRIPPED
+        tolerance *= tuning.GRIPPED_DRY if dry else tuning.GRIPPED
     limits = np.zeros(1, LIMITS)
     limits["allowed_speed"] = tuning.SPEED_SHARE * (tuning.RINGING if dry else 1.0) * tolerance * scale
     limits["power"], limits["force"] = tuning.POWER_SHARE * tolerance, tuning.FORCE_SHARE * tolerance

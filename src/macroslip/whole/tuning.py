@@ -32,7 +32,8 @@ SPEED_SHARE, POWER_SHARE, FORCE_SHARE = 5.0, 3.0, 1.0
 RINGING = 2.0
 #: Factor on the tolerance without microslip: rollers that grip wander through their pockets, and which of them touch depends on
 #: small errors. At 1/4 the rows of one random case in twenty are off by 0.3 to 0.5 % at the default tolerance, with it by 0.1 %.
-GRIPPED = 1.0 / 16.0
+#: With dry impacts, whose steps are short already, it would take seven times as long as at 1/4.
+GRIPPED, GRIPPED_DRY = 1.0 / 16.0, 1.0 / 4.0
 #: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale, and time [s] in which an error
 #: of speed becomes one of place. Judgement.
 LEAST_SPEED, PLACE_TIME = 1e-3, 0.02
