@@ -176,11 +176,10 @@ class BarusCrook(NamedTuple):
 def prepare_barus_crook(interface: Interface, *, heated: bool) -> BarusCrook:
     """The law for an interface of given Hertz coefficients and lubricant."""
     hertz, oil = interface.hertz, interface.lubricant
-    heating = math.sqrt(oil.temperature_viscosity * oil.viscosity / (8.0 * oil.thermal_conductivity))
     return BarusCrook(
         conductance=2.0 * math.pi * hertz.semi_axis_across * hertz.semi_axis_along * oil.viscosity,
         pressure_exponent=oil.pressure_viscosity * hertz.pressure,
-        heating=heating if heated else 0.0,
+        heating=math.sqrt(oil.temperature_viscosity * oil.viscosity / (8.0 * oil.thermal_conductivity)) * heated,
     )
 
 

@@ -171,7 +171,8 @@ class Laws:
     @property
     def is_closed_form(self) -> bool:
         """Whether traction is the paper's, with heating or without, for which there is a closed form."""
-        return all(getattr(self, name) == _DEFAULTS[name] for name in (*_REPLACED, "traction") if name != "heating")
+        ruling = "viscosity", "rheology", "microslip", "traction"
+        return all(getattr(self, name) == _DEFAULTS[name] for name in ruling)
 
 
 #: Mechanisms that a traction law of one's own replaces.

@@ -60,8 +60,8 @@ def radau_limits(
     if fastest > 0.0:
         longest = min(longest, tuning.LONGEST_TURN / fastest)
     # By the closed form a ring that turns slower has its films end at less slip, which is looked at in every step.
-    slowest = 0.0 if body["closed_form"] else speed
-    cold = surely_rising(body, tables, heaviest, heaviest, slowest) if heaviest > 0.0 else np.inf
+    ring = 0.0 if body["closed_form"] else speed
+    cold = surely_rising(body, tables, heaviest, heaviest, ring) if heaviest > 0.0 else np.inf
     firm = firm_interference(body, tables.ctypes.data, speed)
     energy, grain = speed**2 / body["mobility"], 0.0
     if not body["closed_form"]:

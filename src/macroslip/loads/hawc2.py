@@ -118,10 +118,7 @@ def _to_fixed(force: NDArray, moment: NDArray, angle: NDArray, where: str) -> tu
     """Force and moment in axes that do not turn, with the direction of the angle and the sign that the weight gives."""
     best = None
     for direction in (1.0, -1.0):
-        turned = []
-        for vector in (force, moment):
-            y, z = turn_to_fixed(vector[:, 0], -vector[:, 1], direction * angle)
-            turned.append(np.column_stack([-vector[:, 2], y, z]))
+        turned = [_turned(vector, direction * angle) for vector in (force, moment)]
         mean_y, mean_z = turned[0][:, 1].mean(), turned[0][:, 2].mean()
         size = np.hypot(mean_y, mean_z)
         if best is None or size > best[0]:
@@ -138,6 +135,11 @@ def _to_fixed(force: NDArray, moment: NDArray, angle: NDArray, where: str) -> tu
     sign = -1.0 if mean_z > 0.0 else 1.0
     words = "+" if direction > 0.0 else "−", "+" if sign > 0.0 else "−"
     return sign * turned[0], sign * turned[1], words
+
+
+def _turned(vector: NDArray, angle: NDArray) -> NDArray:
+    y, z = turn_to_fixed(vector[:, 0], -vector[:, 1], angle)
+    return np.column_stack([-vector[:, 2], y, z])
 
 
 def _read_sel(path: Path) -> _Output:

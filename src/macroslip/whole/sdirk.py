@@ -133,8 +133,9 @@ class Part(NamedTuple):
 
 def pure_rolling(bearing: WholeBearing, cage: Cage) -> Start:
     """All rollers in pure rolling at their initial offsets, cages with them."""
-    still = np.zeros(bearing.places.size)
-    return Start(cage.start_offsets(still.size), still, still, np.zeros(bearing.cages))
+    count = bearing.places.size
+    offset = cage.start_offsets(count)
+    return Start(offset, np.zeros(count), np.zeros(count), np.zeros(bearing.cages))
 
 
 def steps_of(
@@ -194,9 +195,8 @@ def steps_of(
 def _limits(assembly: Assembly, motion: Motion, end: float, tolerance: float) -> np.ndarray:
     """Bounds for a relative tolerance and the largest raceway speed of the history."""
     bearing, body = assembly.bearing[0], assembly.bodies[0]
-    scale = max(
-        float(np.abs(motion.shaft_speed).max() * bearing["orbit_ratio"] * bearing["outer_radius"]), tuning.LEAST_SPEED
-    )
+    fastest = np.abs(motion.shaft_speed).max()
+    scale = max(float(fastest * bearing["orbit_ratio"] * bearing["outer_radius"]), tuning.LEAST_SPEED)
     dry = bearing["pocket"]["film"] == 0.0
     if not body["microslip"]:
         tolerance *= tuning.GRIPPED_DRY if dry else tuning.GRIPPED

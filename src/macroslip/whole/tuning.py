@@ -34,9 +34,10 @@ RINGING = 2.0
 #: small errors. At 1/4 the rows of one random case in twenty are off by 0.3 to 0.5 % at the default tolerance, with it by 0.1 %.
 #: With dry impacts, whose steps are short already, it would take seven times as long as at 1/4.
 GRIPPED, GRIPPED_DRY = 1.0 / 16.0, 1.0 / 4.0
-#: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale, and time [s] in which an error
-#: of speed becomes one of place. Judgement.
-LEAST_SPEED, PLACE_TIME = 1e-3, 0.02
+#: Slowest raceway speed [m/s] by which errors are measured, so that a shaft at rest has a scale. Judgement.
+LEAST_SPEED = 1e-3
+#: Time [s] in which an error of speed becomes one of place. Judgement.
+PLACE_TIME = 0.02
 
 # --- Stage equations --------------------------------------------------------------------------------------------------
 
@@ -60,6 +61,7 @@ LOAD_CHANGE, LOAD_REACH = 0.2, 0.25
 #: Change of a raceway's force by slip over its load beyond which slopes no longer serve: as much as the largest coefficients
 #: of friction. Beyond a peak of traction slopes are negative, and rollers ran away by them to speeds that no ring has.
 SLIP_REACH = 0.03
-#: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most. Force of the
-#: cage that never matters [N]. Judgement.
-CAGE_REACH, LIGHT = 0.1, 1e-7
+#: Reach of the slopes of a cage's contact at a tolerance of 2e-4; friction is then off by 1e-3 of itself at most.
+CAGE_REACH = 0.1
+#: Force of the cage that never matters [N]. Judgement.
+LIGHT = 1e-7
